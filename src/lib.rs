@@ -1,0 +1,2 @@
+//! A ray tracing book you can run.
+pub mod command;
