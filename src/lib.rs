@@ -1,2 +1,54 @@
 //! A ray tracing book you can run.
+//!
+//! The scene is a `bevy_ecs` world of plain components; a plan decides from them which stages exist; the stages are
+//! systems that fill the columns of small tiles, one space after another, until light lands on the film.
+//! The modules stand in that order, and each names only those above it:
+//!
+//! 1. [`scene`]: what an author writes.
+//! 2. [`plan`]: which stages the scene needs, and why.
+//! 3. [`extract`]: entities → tables.
+//! 4. [`rays`]: raster → NDC → screen → camera → world.
+//! 5. [`intersect`]: rays → nearest surface.
+//! 6. [`shade`]: surface → light.
+//! 7. [`film`]: light → pixels → files.
+//! 8. [`render`]: the loop over tiles.
+//! 9. [`look`]: trace, view, statistics.
+//! 10. [`command`]: the command line.
+
+pub mod scene;
+
+pub mod plan;
+
+pub mod extract;
+
+pub mod rays;
+
+pub mod intersect;
+
+pub mod shade;
+
+pub mod film;
+
+pub mod render;
+
+pub mod look;
+
 pub mod command;
+
+mod chapter;
+mod error;
+
+pub use chapter::{Asked, Chapter};
+pub use error::{Error, Result};
+
+/// What a chapter's `main` calls: reads the command line, renders the chapter or looks inside it.
+///
+/// Errors: one sentence.
+pub fn run(chapter: Chapter) -> Result {
+    command::stop_on_interrupt();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match command::run_example(&chapter, &arguments, &mut std::io::stdout().lock()) {
+        Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}

@@ -1,2 +1,13 @@
 //! The command line of pinhole.
-fn main() {}
+
+use pinhole::command;
+use std::process::ExitCode;
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
+
+fn main() -> ExitCode {
+    command::stop_on_interrupt();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    command::conclude(command::run(&chapters::all(), &arguments, &mut std::io::stdout().lock()))
+}

@@ -1,10 +1,82 @@
-//! The command line.
+//! The command line: what a reader types, and what they see.
+//!
+//! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
+
+mod arguments;
+mod find;
+mod hints;
+mod interrupt;
+mod list;
+mod plan;
+mod render;
+mod trace;
+
+pub use interrupt::{Waiting, stop_on_interrupt};
+
+use crate::chapter::Chapter;
+use crate::{Error, Result};
+use arguments::{Arguments, Command, ExampleArguments};
+use clap::Parser;
+use clap::error::ErrorKind;
 use std::io::Write;
-/// One chapter (stub).
-pub struct Chapter;
-/// What a command answers.
-pub type Result<T = ()> = std::result::Result<T, std::io::Error>;
-/// Runs one command line, without the program's name, and writes what a reader would see to `out` (stub).
-pub fn run(_chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> Result {
-    writeln!(out, "(the kit will answer `{}` here)", arguments.join(" "))
+use std::process::ExitCode;
+
+/// Runs one command line, without the program's name, and writes what a reader sees to `out`.
+///
+/// Errors: one sentence; nothing of a failed command is left on disk.
+pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> Result {
+    let words = std::iter::once("pinhole").chain(arguments.iter().map(String::as_str));
+    let Some(arguments) = parsed::<Arguments>(words, out)? else { return Ok(()) };
+    match arguments.command {
+        None => render::render_cover(chapters, out),
+        Some(Command::List) => list::list(chapters, out),
+        Some(Command::Render(asked)) => {
+            render::render_chapter(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
+        }
+        Some(Command::Plan(asked)) => plan::print_plan(find::chapter(chapters, &asked.chapter)?, &asked.options, out),
+        Some(Command::Trace(asked)) => {
+            trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
+        }
+    }
+}
+
+/// A chapter's example: renders it, or looks inside, as the command line asks.
+pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write) -> Result {
+    let words = std::iter::once(chapter.name).chain(arguments.iter().map(String::as_str));
+    let Some(arguments) = parsed::<ExampleArguments>(words, out)? else { return Ok(()) };
+    match arguments.trace {
+        Some(pixel) => trace::print_trace(chapter, pixel, &arguments.options.scene, out),
+        None => render::render_chapter(chapter, &arguments.options, out),
+    }
+}
+
+/// Parses, or answers a call for help by itself.
+fn parsed<'a, P: Parser>(words: impl Iterator<Item = &'a str>, out: &mut dyn Write) -> Result<Option<P>> {
+    match P::try_parse_from(words) {
+        Ok(arguments) => Ok(Some(arguments)),
+        Err(answer) if matches!(answer.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            write!(out, "{answer}")?;
+            Ok(None)
+        }
+        Err(answer) => {
+            let text = answer.to_string();
+            Err(Error::Usage(text.trim_start_matches("error: ").trim_end().to_string()))
+        }
+    }
+}
+
+/// What a program's `main` does with a command: prints a failure as one sentence, and takes a closed pipe for an end.
+pub fn conclude(result: Result) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Error::Interrupted) => {
+            let _ = writeln!(std::io::stderr(), "pinhole: {}", Error::Interrupted);
+            ExitCode::from(130)
+        }
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "pinhole: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }

@@ -1,0 +1,86 @@
+use crate::extract::camera_entity;
+use crate::film::film_stage;
+use crate::look::view_stage;
+use crate::plan::{Column, Stage};
+use crate::scene::{Resolution, Statistics, View};
+use bevy_ecs::prelude::*;
+
+/// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
+#[derive(Clone)]
+pub struct Chapter {
+    /// The stem that its folder, its page and its example share, such as `05_pinhole`.
+    pub name: &'static str,
+    /// What it is about, in a few words.
+    pub title: &'static str,
+    /// Stages on offer.
+    pub offer: Vec<Stage>,
+    /// The column it shows instead of a picture.
+    pub view: Option<&'static str>,
+    scene: fn(&mut World),
+}
+
+impl Chapter {
+    /// A chapter that offers nothing yet.
+    pub fn new(name: &'static str, title: &'static str, scene: fn(&mut World)) -> Self {
+        Self { name, title, scene, offer: Vec::new(), view: None }
+    }
+
+    /// Offers a stage, or several.
+    pub fn offer(mut self, stages: impl IntoIterator<Item = Stage>) -> Self {
+        self.offer.extend(stages);
+        self
+    }
+
+    /// Shows a column instead of a picture, unless the reader asks for another.
+    pub fn show<C: Column>(mut self) -> Self {
+        self.view = Some(C::NAME);
+        self
+    }
+
+    /// The stages on offer, with those that every chapter has: painting a view, and the film.
+    pub fn stages(&self) -> Vec<Stage> {
+        let mut stages = self.offer.clone();
+        stages.push(view_stage(&self.offer));
+        stages.push(film_stage());
+        stages
+    }
+
+    /// The chapter's scene, with what a reader asks of it.
+    pub fn world(&self, asked: &Asked) -> World {
+        let mut world = World::new();
+        (self.scene)(&mut world);
+        let Ok(camera) = camera_entity(&world) else { return world };
+        let mut camera = world.entity_mut(camera);
+        if let Some(resolution) = asked.resolution {
+            camera.insert(resolution);
+        }
+        if let Some(column) = asked.view.clone().or(self.view.map(String::from)) {
+            camera.insert(View { column });
+        }
+        if asked.statistics {
+            camera.insert(Statistics);
+        }
+        world
+    }
+}
+
+/// What a reader may change about a chapter's scene from the command line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// Another number of pixels.
+    pub resolution: Option<Resolution>,
+    /// A column to be painted.
+    pub view: Option<String>,
+    /// Whether stages are timed and counted.
+    pub statistics: bool,
+}
+
+impl IntoIterator for Stage {
+    type Item = Self;
+    type IntoIter = std::iter::Once<Self>;
+
+    /// One stage, so that `offer` takes one or many.
+    fn into_iter(self) -> Self::IntoIter {
+        std::iter::once(self)
+    }
+}

@@ -1,0 +1,123 @@
+use crate::chapter::Asked;
+use crate::scene::{Resolution, TracePixel};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// pinhole: a ray tracing book you can run
+#[derive(Parser)]
+#[command(
+    name = "pinhole",
+    version,
+    bin_name = "cargo run --release --",
+    after_help = "Without a command, the cover scene is rendered to out/cover.png and out/cover.exr.\n\n\
+    Things to try:\n  \
+    cargo run --release -- list\n  \
+    cargo run --release -- render 05_pinhole --size 960x540\n  \
+    cargo run --release -- render cover --view surface\n  \
+    cargo run --release -- plan 04_orthographic\n  \
+    cargo run --release -- trace cover --pixel 480,300"
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// List the chapters
+    List,
+    /// Render a chapter's scene, or paint one of its columns
+    Render(RenderChapter),
+    /// Print which stages a chapter's scene needs, which are left out, and why
+    Plan(PlanChapter),
+    /// Follow one pixel from raster to light, and print what every stage wrote for it
+    Trace(TraceChapter),
+}
+
+#[derive(Args)]
+pub struct RenderChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
+    #[command(flatten)]
+    pub options: RenderOptions,
+}
+
+#[derive(Args)]
+pub struct PlanChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
+    #[command(flatten)]
+    pub options: SceneOptions,
+}
+
+#[derive(Args)]
+pub struct TraceChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
+    /// The pixel, counted from 0 at the top left corner
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub pixel: TracePixel,
+    #[command(flatten)]
+    pub options: SceneOptions,
+}
+
+#[derive(Args, Clone, Default)]
+pub struct SceneOptions {
+    /// How many pixels the image has
+    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    pub size: Option<Resolution>,
+    /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
+    #[arg(long, value_name = "COLUMN")]
+    pub view: Option<String>,
+}
+
+#[derive(Args, Clone, Default)]
+pub struct RenderOptions {
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    /// How many workers render (default: as many as the machine has cores)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Where to write, ending in .png or .exr (default: both, in out/)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Print time and rays of every stage as JSON, and nothing else
+    #[arg(long, conflicts_with = "quiet")]
+    pub stats: bool,
+    /// Print nothing but where the picture is, and take no times
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// A chapter's example
+#[derive(Parser)]
+#[command(version)]
+pub struct ExampleArguments {
+    #[command(flatten)]
+    pub options: RenderOptions,
+    /// Follow one pixel from raster to light instead, and print what every stage wrote for it
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub trace: Option<TracePixel>,
+}
+
+impl SceneOptions {
+    pub fn asked(&self, statistics: bool) -> Asked {
+        Asked { resolution: self.size, view: self.view.clone(), statistics }
+    }
+}
+
+fn resolution(text: &str) -> Result<Resolution, String> {
+    let (width, height) =
+        pair(text, 'x').ok_or("a size is two whole numbers of pixels with an x between, such as 960x540")?;
+    Ok(Resolution { width, height })
+}
+
+fn pixel(text: &str) -> Result<TracePixel, String> {
+    let (x, y) = pair(text, ',').ok_or("a pixel is two whole numbers with a comma between, such as 48,27")?;
+    Ok(TracePixel { x, y })
+}
+
+fn pair(text: &str, between: char) -> Option<(u32, u32)> {
+    let (first, second) = text.split_once(between)?;
+    Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
+}

@@ -1,0 +1,104 @@
+use super::arguments::RenderOptions;
+use super::find;
+use super::hints::try_next;
+use super::interrupt::{Waiting, interrupted};
+use crate::chapter::Chapter;
+use crate::extract::ImageShape;
+use crate::film::{Curve, Film, write_exr, write_png};
+use crate::look::RenderStats;
+use crate::plan::Table;
+use crate::render::{Execution, Rendered, render};
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The main job: the cover, to `out/`.
+pub fn render_cover(chapters: &[Chapter], out: &mut dyn Write) -> Result {
+    render_chapter(find::chapter(chapters, "cover")?, &RenderOptions::default(), out)
+}
+
+/// Renders a chapter's scene and says what ran, what was left out, and what to try next.
+pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
+    let files = files(chapter, options)?;
+    let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
+    let rendered = render_world(chapter, options, &execution)?;
+    for file in &files {
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+        write_file(&rendered, file)?;
+    }
+    if options.stats {
+        let stats = RenderStats::of(chapter.name, &rendered, execution.tile_side);
+        let json = serde_json::to_string_pretty(&stats).map_err(std::io::Error::from)?;
+        writeln!(out, "{json}")?;
+        return Ok(());
+    }
+    let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+    if !options.quiet {
+        write!(out, "{}", RenderStats::of(chapter.name, &rendered, execution.tile_side))?;
+    }
+    writeln!(out, "wrote {}", names.join(" and "))?;
+    warn_of_rejected(&rendered.film, out)?;
+    if !options.quiet {
+        write!(out, "{}", try_next(chapter, rendered.film.width, rendered.film.height))?;
+    }
+    Ok(())
+}
+
+fn render_world(chapter: &Chapter, options: &RenderOptions, execution: &Execution) -> Result<Rendered> {
+    let scene = chapter.world(&options.scene.asked(!options.quiet));
+    crate::extract::validate(&scene)?;
+    let image = ImageShape::extract(&scene)?;
+    let side = execution.tile_side;
+    let tiles = u64::from(image.width.div_ceil(side)) * u64::from(image.height.div_ceil(side));
+    let waiting = Waiting::new(tiles, options.quiet || options.stats);
+    let rendered = render(&scene, &chapter.stages(), execution, &waiting);
+    waiting.done();
+    rendered
+}
+
+/// Where to write: the file asked for, or both kinds in `out/`.
+fn files(chapter: &Chapter, options: &RenderOptions) -> Result<Vec<PathBuf>> {
+    let Some(file) = &options.output else {
+        let stem = match &options.scene.view {
+            Some(column) => format!("{}_{}", chapter.name, column.replace(' ', "_")),
+            None => chapter.name.to_string(),
+        };
+        return Ok(["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec());
+    };
+    match ending(file) {
+        "png" | "exr" => Ok(vec![file.clone()]),
+        _ => Err(Error::Usage(format!("cannot write {}: the name must end in .png or .exr", file.display()))),
+    }
+}
+
+fn ending(file: &Path) -> &str {
+    file.extension().and_then(|ending| ending.to_str()).unwrap_or("")
+}
+
+fn write_file(rendered: &Rendered, file: &Path) -> Result {
+    match ending(file) {
+        "exr" => write_exr(&rendered.film, file),
+        _ => write_png(&rendered.film, curve(rendered), file),
+    }
+}
+
+/// Light is shown by the sRGB curve, a view's numbers as they are.
+fn curve(rendered: &Rendered) -> Curve {
+    if rendered.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
+}
+
+fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
+    let (count, first) = film.rejected();
+    if let Some(sample) = first.first() {
+        let ([x, y], [r, g, b]) = (sample.pixel, sample.radiance);
+        writeln!(
+            out,
+            "warning: {count} samples were negative or not finite and did not join the film; \
+             the first is sample {} of pixel {x},{y} with radiance ({r}, {g}, {b})",
+            sample.sample
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,44 @@
+use crate::plan::PlanError;
+use crate::scene::Refusal;
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// What the kit's functions answer.
+pub type Result<T = ()> = std::result::Result<T, Error>;
+
+/// Everything that can go wrong, each in one sentence.
+#[derive(Error)]
+pub enum Error {
+    /// The scene cannot be rendered.
+    #[error(transparent)]
+    Refusal(#[from] Refusal),
+    /// No plan can be made.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The command line says something that the kit does not know.
+    #[error("{0}")]
+    Usage(String),
+    /// The reader stopped the render.
+    #[error("stopped before the picture was done; nothing was written")]
+    Interrupted,
+    /// Printing failed.
+    #[error("cannot print: {0}")]
+    Print(#[from] io::Error),
+}
+
+/// The same sentence, so that `fn main() -> pinhole::Result` prints it.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

@@ -1,0 +1,203 @@
+use super::check::{kind_and_name, positive_length, triple};
+use super::pose::world_from_entity;
+use crate::plan::{Table, counted, entities};
+use crate::scene::{Degrees, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution, called};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec2, DVec3};
+
+/// The narrowest pixel, in radians, whose world ray f32 still tells from its neighbour's to 0.03 px.
+pub const SMALLEST_PIXEL: f64 = 4e-6;
+/// How far a camera's axes may be from orthonormal before it counts as scaled.
+const ROTATION_TOLERANCE: f64 = 1e-9;
+/// The most pixels along one side.
+const LONGEST_SIDE: u32 = 65_536;
+/// The most pixels of one film; its sums take 28 bytes each.
+const MOST_PIXELS: u64 = 1 << 30;
+
+/// The one camera of the scene.
+pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
+    let mut cameras = entities::<With<PerspectiveCamera>>(scene);
+    cameras.extend(entities::<With<OrthographicCamera>>(scene));
+    let accepted = "exactly one entity must carry a PerspectiveCamera or an OrthographicCamera";
+    match cameras[..] {
+        [camera] => Ok(camera),
+        [] => Err(Refusal::new("the scene", "camera", "missing", accepted)),
+        _ => {
+            let names: Vec<String> = cameras.iter().map(|&camera| called(scene, camera)).collect();
+            let value = format!("given {}: {}", counted(cameras.len(), "time"), names.join(", "));
+            Err(Refusal::new("the scene", "camera", value, accepted))
+        }
+    }
+}
+
+/// Where the camera stands, in world space: the origin of render space.
+pub fn eye(scene: &World) -> Result<DVec3, Refusal> {
+    let (who, camera) = named_camera(scene)?;
+    Ok(world_from_entity(scene, &who, camera)?.translation)
+}
+
+fn named_camera(scene: &World) -> Result<(String, Entity), Refusal> {
+    let camera = camera_entity(scene)?;
+    Ok((kind_and_name(scene, "camera", camera), camera))
+}
+
+/// The checks of the kind of camera that there is.
+pub fn check_camera(scene: &World) -> Result<(), Refusal> {
+    match scene.get::<PerspectiveCamera>(camera_entity(scene)?) {
+        Some(_) => PinholeLens::extract(scene).map(|_| ()),
+        None => ViewRectangle::extract(scene).map(|_| ()),
+    }
+}
+
+/// How many pixels the image has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImageShape {
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+}
+
+impl ImageShape {
+    /// Width and height in pixels.
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width) / f64::from(self.height)
+    }
+}
+
+impl Table for ImageShape {
+    const NAME: &'static str = "image shape";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (who, camera) = named_camera(scene)?;
+        let Resolution { width, height } = scene.get::<Resolution>(camera).copied().unwrap_or_default();
+        let sides = 1..=LONGEST_SIDE;
+        let pixels = u64::from(width) * u64::from(height);
+        if !sides.contains(&width) || !sides.contains(&height) || pixels > MOST_PIXELS {
+            let accepted = format!(
+                "each side must have 1 to {LONGEST_SIDE} pixels, and the image at most {MOST_PIXELS} altogether"
+            );
+            return Err(Refusal::new(who, "resolution", format!("{width} × {height}"), accepted));
+        }
+        Ok(Self { width, height })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+/// What a perspective camera does to screen points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinholeLens {
+    /// Half the image plane's height at distance 1: tan(vertical angle / 2).
+    pub tan_half_vertical: f64,
+}
+
+impl Table for PinholeLens {
+    const NAME: &'static str = "pinhole";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (who, camera) = named_camera(scene)?;
+        let image = ImageShape::extract(scene)?;
+        let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
+        if !(fov.0 > 0.0 && fov.0 < 180.0) {
+            return Err(Refusal::new(who, "fov", format!("{}°", fov.0), "it must lie strictly between 0° and 180°"));
+        }
+        let tan_half_vertical = tan_half_vertical(fov, axis, image.aspect());
+        let pixel = 2.0 * tan_half_vertical / f64::from(image.height);
+        if pixel < SMALLEST_PIXEL {
+            let value = format!("{}° over {} × {} pixels, {pixel:.1e} rad a pixel", fov.0, image.width, image.height);
+            let accepted = format!(
+                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
+                 widen the angle or take fewer pixels"
+            );
+            return Err(Refusal::new(who, "fov", value, accepted));
+        }
+        Ok(Self { tan_half_vertical })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+// ANCHOR: tan_half
+/// tan(α / 2) of a full angle α, to the last bits also where α is near 180°: there the tangent of what is missing to
+/// 180° is taken, which the subtraction gives exactly, and turned over.
+pub fn tan_half(angle: Degrees) -> f64 {
+    if angle.0 > 90.0 {
+        1.0 / libm::tan(Degrees(180.0 - angle.0).radians() / 2.0)
+    } else {
+        libm::tan(angle.radians() / 2.0)
+    }
+}
+// ANCHOR_END: tan_half
+
+/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
+fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
+    let across = match axis {
+        FovAxis::Vertical => 1.0,
+        FovAxis::Horizontal => aspect,
+        FovAxis::Smaller => aspect.min(1.0),
+        FovAxis::Larger => aspect.max(1.0),
+        FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
+    };
+    tan_half(fov) / across
+}
+
+/// What an orthographic camera does to screen points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewRectangle {
+    /// Half the rectangle's height, in scene units.
+    pub half_height: f64,
+}
+
+impl Table for ViewRectangle {
+    const NAME: &'static str = "view rectangle";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (who, camera) = named_camera(scene)?;
+        let view = scene.get::<OrthographicCamera>(camera).copied().unwrap_or_default();
+        Ok(Self { half_height: positive_length(&who, "view_height", view.view_height)? / 2.0 })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+/// The camera's axes in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraAxes {
+    /// Columns: the camera's x (right), y (up) and z (back) as unit vectors of the world.
+    pub world_from_camera: DMat3,
+}
+
+impl Table for CameraAxes {
+    const NAME: &'static str = "camera axes";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (who, camera) = named_camera(scene)?;
+        let world_from_camera = world_from_entity(scene, &who, camera)?.matrix3;
+        let off = world_from_camera.transpose() * world_from_camera - DMat3::IDENTITY;
+        let worst = off.to_cols_array().iter().fold(0.0_f64, |worst, part| worst.max(part.abs()));
+        let rotation = worst <= ROTATION_TOLERANCE && world_from_camera.determinant() > 0.0;
+        if !rotation {
+            let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_camera.col(axis).length()));
+            let mirrored = if world_from_camera.determinant() < 0.0 { "mirrored, " } else { "" };
+            let accepted = "a camera may be turned and moved, but neither it nor a parent may scale or mirror it";
+            return Err(Refusal::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
+        }
+        Ok(Self { world_from_camera })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

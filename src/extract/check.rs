@@ -1,0 +1,66 @@
+//! Checks that several kinds of component share, each giving the one sentence that a refusal is.
+
+use crate::scene::{Refusal, Rgb, called};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// Lengths beyond this leave no room for squares and sums in f32.
+const LARGEST_LENGTH: f64 = 1e18;
+
+/// What a message calls an entity: its kind and its name.
+pub fn kind_and_name(scene: &World, kind: &str, entity: Entity) -> String {
+    format!("{kind} {}", called(scene, entity))
+}
+
+/// A point within reach of render space.
+pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec3, Refusal> {
+    if point.is_finite() && point.abs().max_element() <= LARGEST_LENGTH {
+        Ok(point)
+    } else {
+        Err(Refusal::new(
+            who,
+            field,
+            triple(point),
+            format!("each coordinate must be a finite number of at most {LARGEST_LENGTH:e}"),
+        ))
+    }
+}
+
+/// A length above 0 and within reach of render space.
+pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f64, Refusal> {
+    if (1.0 / LARGEST_LENGTH..=LARGEST_LENGTH).contains(&length) {
+        Ok(length)
+    } else {
+        let accepted = format!("it must be a length from {:e} to {LARGEST_LENGTH:e}", 1.0 / LARGEST_LENGTH);
+        Err(Refusal::new(who, field, length, accepted))
+    }
+}
+
+/// A colour whose parts are finite and at least 0.
+pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, Refusal> {
+    colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number of at least 0")
+}
+
+/// A colour whose parts lie from 0 to 1.
+pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, Refusal> {
+    colour_within(
+        who,
+        field,
+        colour,
+        1.0,
+        "each part must lie from 0 to 1, for a surface gives back no more than it gets",
+    )
+}
+
+fn colour_within(who: &str, field: &'static str, colour: Rgb, most: f64, accepted: &str) -> Result<Rgb, Refusal> {
+    if colour.to_array().iter().all(|part| (0.0..=most).contains(part)) {
+        Ok(colour)
+    } else {
+        Err(Refusal::new(who, field, triple(colour.to_vec()), accepted))
+    }
+}
+
+/// Three numbers as an author would write them.
+pub fn triple(v: DVec3) -> String {
+    format!("({}, {}, {})", v.x, v.y, v.z)
+}

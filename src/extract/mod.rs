@@ -1,0 +1,56 @@
+//! Entities → tables: the scene read once, checked, and laid flat for the stages.
+//!
+//! Reads: components of the scene world.
+//! Writes: tables (one file a kind), shared by all render worlds.
+//! Space: *render space*, which has the world's axes and the eye at its origin; the eye is subtracted here, once, in
+//! f64, so that a scene far from the world's origin loses nothing.
+//! After this no stage looks at a component of the scene again.
+
+mod background;
+mod camera;
+mod check;
+mod matte;
+mod plane;
+mod point_light;
+mod pose;
+mod shape;
+mod sphere;
+
+pub use background::BackgroundTable;
+pub use camera::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, camera_entity, eye, tan_half};
+pub use matte::MatteTable;
+pub use plane::PlaneTable;
+pub use point_light::PointLightTable;
+pub use pose::{look_at_axes, world_from_entity};
+pub use shape::{ShapeKind, ShapeTable, shape_entities};
+pub use sphere::SphereTable;
+
+use crate::plan::{Evidence, Table};
+use crate::scene::{Matte, Refusal, UsesMaterial};
+use bevy_ecs::prelude::*;
+
+/// Checks every enabled component of a scene, whether or not the plan will use it.
+///
+/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, background.
+pub fn validate(scene: &World) -> Result<(), Refusal> {
+    ImageShape::extract(scene)?;
+    CameraAxes::extract(scene)?;
+    camera::check_camera(scene)?;
+    ShapeTable::extract(scene)?;
+    MatteTable::extract(scene)?;
+    SphereTable::extract(scene)?;
+    PlaneTable::extract(scene)?;
+    PointLightTable::extract(scene)?;
+    BackgroundTable::extract(scene)?;
+    Ok(())
+}
+
+/// Evidence that a shape made of matte matter is there.
+pub fn matte_evidence(scene: &World) -> Evidence {
+    let shapes = shape_entities(scene);
+    Evidence::among::<With<Matte>>(scene, "matte colour", |entity| {
+        shapes.iter().any(|&shape| {
+            shape == entity.id() || scene.get::<UsesMaterial>(shape).is_some_and(|used| used.0 == entity.id())
+        })
+    })
+}

@@ -1,0 +1,49 @@
+use super::check::{finite_point, kind_and_name, triple};
+use super::{eye, shape_entities, world_from_entity};
+use crate::plan::Table;
+use crate::scene::{Plane, Refusal};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// Planes in render space, in spawn order: the points x with n·x = k.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlaneTable {
+    /// The normal n, of length 1 to within f32, its parts exact in f32, so that a surface's normal and its plane's are
+    /// the same numbers.
+    pub normal: Vec<DVec3>,
+    /// The offset k, scene units.
+    pub offset: Vec<f64>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for PlaneTable {
+    const NAME: &'static str = "planes";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(plane) = scene.get::<Plane>(entity) else { continue };
+            let who = kind_and_name(scene, "plane", entity);
+            let pose = world_from_entity(scene, &who, entity)?;
+            let largest = plane.normal.abs().max_element();
+            if !(largest > 0.0 && plane.normal.is_finite()) {
+                let accepted = "it must be a finite direction other than 0";
+                return Err(Refusal::new(who, "normal", triple(plane.normal), accepted));
+            }
+            let world_from_normal = pose.matrix3.inverse().transpose();
+            let along = world_from_normal * (plane.normal / largest);
+            let normal = (along / along.abs().max_element()).normalize().as_vec3().as_dvec3();
+            let point = finite_point(&who, "position", pose.translation - eye)?;
+            table.normal.push(normal);
+            table.offset.push(normal.dot(point));
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.normal.len() * (4 * size_of::<f64>() + size_of::<u32>())
+    }
+}

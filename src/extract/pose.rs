@@ -1,0 +1,94 @@
+use super::check::{finite_point, triple};
+use crate::scene::{ChildOf, LookAt, Placement, Refusal};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DMat3, DVec3};
+
+/// How far a quaternion's length may be from 1 before it is taken for a mistake rather than for rounding.
+const UNIT_TOLERANCE: f64 = 1e-6;
+/// Sine of the least angle between up and the view.
+const LEAST_SINE: f64 = 1e-8;
+
+/// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
+///
+/// `who` is how a refusal calls the entity, such as `sphere "ball"`.
+pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
+    let mut world_from_entity = parent_from_entity(scene, who, entity)?;
+    let (mut child, mut steps) = (entity, 0);
+    while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
+        steps += 1;
+        if steps > scene.entities().len() || parent == entity {
+            return Err(Refusal::new(
+                who,
+                "parent",
+                "its own descendant",
+                "parents must lead to an entity without one",
+            ));
+        }
+        let parent_name = format!("{who}'s parent {}", crate::scene::called(scene, parent));
+        world_from_entity = parent_from_entity(scene, &parent_name, parent)? * world_from_entity;
+        child = parent;
+    }
+    let determinant = world_from_entity.matrix3.determinant();
+    if determinant == 0.0 || !determinant.is_finite() || !world_from_entity.translation.is_finite() {
+        let value = format!("a map of determinant {determinant}");
+        return Err(Refusal::new(who, "placement", value, "it must be finite and invertible"));
+    }
+    Ok(world_from_entity)
+}
+
+fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
+    let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
+    let look_at = scene.get::<LookAt>(entity);
+    let position = finite_point(who, "position", placement.position)?;
+    let scale = finite_point(who, "scale", placement.scale)?;
+    if scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0 {
+        return Err(Refusal::new(
+            who,
+            "scale",
+            triple(scale),
+            "no part may be 0, for the placement must be invertible",
+        ));
+    }
+    let quaternion = placement.orientation;
+    let off_unit = (quaternion.length_squared() - 1.0).abs();
+    if !off_unit.is_finite() || off_unit > UNIT_TOLERANCE {
+        let value = format!("({}, {}, {}, {})", quaternion.x, quaternion.y, quaternion.z, quaternion.w);
+        return Err(Refusal::new(who, "orientation", value, "it must be a finite quaternion of length 1"));
+    }
+    let (axes, origin) = match look_at {
+        None => (DMat3::from_quat(quaternion.normalize()), position),
+        Some(_) if position != DVec3::ZERO || quaternion != glam::DQuat::IDENTITY => {
+            let accepted = "a LookAt already says where it stands and looks: give one of the two";
+            return Err(Refusal::new(who, "position", format!("set to {}", triple(position)), accepted));
+        }
+        Some(look) => (look_at_axes(who, look)?, look.eye),
+    };
+    Ok(DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin })
+}
+
+// ANCHOR: look_at_axes
+/// The axes of something that stands at `eye` and looks at `target`: x to its right, y up, −z ahead.
+///
+/// Errors: a coordinate that is not finite, `eye` at `target`, `up` of length 0 or along the view.
+pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, Refusal> {
+    finite_point(who, "eye", look.eye)?;
+    finite_point(who, "target", look.target)?;
+    let Some(back) = direction(look.eye - look.target) else {
+        return Err(Refusal::new(who, "target", triple(look.target), "it must be a point other than eye"));
+    };
+    let Some(up) = direction(look.up) else {
+        return Err(Refusal::new(who, "up", triple(look.up), "it must be a finite direction other than 0"));
+    };
+    let right = up.cross(back);
+    match direction(right) {
+        Some(x) if right.length() >= LEAST_SINE => Ok(DMat3::from_cols(x, back.cross(x), back)),
+        _ => Err(Refusal::new(who, "up", triple(look.up), "it must not point along the view from eye to target")),
+    }
+}
+// ANCHOR_END: look_at_axes
+
+/// The unit vector along `v`, or none where it has no direction; scaled first, so that no square overflows.
+fn direction(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    if v.is_finite() && largest > 0.0 { (v / largest).try_normalize() } else { None }
+}

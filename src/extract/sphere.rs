@@ -1,0 +1,71 @@
+use super::check::{finite_point, kind_and_name, positive_length, triple};
+use super::{eye, shape_entities, world_from_entity};
+use crate::plan::Table;
+use crate::scene::{Refusal, Sphere};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// How far the three scales of a sphere may differ, relative to the first, and still be rounding.
+const EVEN_TOLERANCE: f64 = 1e-9;
+
+/// Spheres in render space, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SphereTable {
+    /// Centre, x.
+    pub x: Vec<f64>,
+    /// Centre, y.
+    pub y: Vec<f64>,
+    /// Centre, z.
+    pub z: Vec<f64>,
+    /// Radius, scene units.
+    pub radius: Vec<f64>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl SphereTable {
+    /// The centre of a row.
+    pub fn centre(&self, row: usize) -> DVec3 {
+        DVec3::new(self.x[row], self.y[row], self.z[row])
+    }
+}
+
+impl Table for SphereTable {
+    const NAME: &'static str = "spheres";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(sphere) = scene.get::<Sphere>(entity) else { continue };
+            let who = kind_and_name(scene, "sphere", entity);
+            let pose = world_from_entity(scene, &who, entity)?;
+            positive_length(&who, "radius", sphere.radius)?;
+            let scale = even_scale(&who, pose.matrix3)?;
+            let centre = finite_point(&who, "position", pose.translation - eye)?;
+            table.x.push(centre.x);
+            table.y.push(centre.y);
+            table.z.push(centre.z);
+            table.radius.push(positive_length(&who, "radius", sphere.radius * scale)?);
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.x.len() * (4 * size_of::<f64>() + size_of::<u32>())
+    }
+}
+
+/// The one factor by which a map stretches every direction, mirrored or not.
+fn even_scale(who: &str, world_from_entity: glam::DMat3) -> Result<f64, Refusal> {
+    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
+    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    let uneven = (lengths - lengths.x).abs().max_element();
+    if uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x {
+        Ok(lengths.x)
+    } else {
+        Err(Refusal::new(who, "scale", triple(lengths), "a sphere must be scaled by the same factor in all directions"))
+    }
+}

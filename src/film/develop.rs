@@ -1,0 +1,75 @@
+use std::sync::LazyLock;
+
+/// How linear numbers become the bytes of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Curve {
+    /// The sRGB curve: for light.
+    #[default]
+    Srgb,
+    /// None: for a view of a column, whose numbers are data.
+    Straight,
+}
+
+// ANCHOR: srgb_from_linear
+/// The sRGB curve (IEC 61966-2-1): light from 0 to 1 as the number that a screen is sent.
+///
+/// A screen answers the number 0.5 with about a fifth of its light, because the eye tells dark shades apart better
+/// than bright ones; the curve undoes that, and spends the 256 steps where the eye sees them.
+pub fn srgb_from_linear(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
+}
+// ANCHOR_END: srgb_from_linear
+
+/// The light, from 0 to 1, that a screen gives for an sRGB number from 0 to 1.
+pub fn linear_from_srgb(srgb: f64) -> f64 {
+    if srgb <= 0.040_45 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
+}
+
+/// For each byte above 0, the least light that rounds to it.
+static BYTE_STEPS: LazyLock<[f64; 255]> =
+    LazyLock::new(|| std::array::from_fn(|step| linear_from_srgb((step as f64 + 0.5) / 255.0)));
+
+/// The byte of a picture for a linear number; below 0 is 0, above 1 is 255.
+pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
+    let linear = f64::from(linear);
+    match curve {
+        Curve::Srgb => BYTE_STEPS.partition_point(|&step| step <= linear) as u8,
+        Curve::Straight => (linear.clamp(0.0, 1.0) * 255.0).round() as u8,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_byte_comes_back_and_more_light_is_never_darker() {
+        for byte in 0..=255_u8 {
+            let linear = linear_from_srgb(f64::from(byte) / 255.0);
+            assert_eq!(byte_from_linear(linear as f32, Curve::Srgb), byte);
+        }
+        let mut last = 0;
+        for step in 0..=100_000 {
+            let byte = byte_from_linear(step as f32 / 100_000.0, Curve::Srgb);
+            assert!(byte >= last, "brighter light {step} gave a darker byte");
+            last = byte;
+        }
+        assert_eq!(last, 255);
+    }
+
+    #[test]
+    fn the_steps_are_where_the_curve_rounds() {
+        for step in 0..=10_000 {
+            let linear = step as f32 / 10_000.0;
+            let rounded = (srgb_from_linear(f64::from(linear)) * 255.0).round() as u8;
+            assert_eq!(byte_from_linear(linear, Curve::Srgb), rounded, "at {linear}");
+        }
+    }
+
+    #[test]
+    fn what_is_outside_goes_to_the_ends() {
+        assert_eq!(byte_from_linear(-1.0, Curve::Srgb), 0);
+        assert_eq!(byte_from_linear(7.0, Curve::Srgb), 255);
+        assert_eq!(byte_from_linear(7.0, Curve::Straight), 255);
+    }
+}

@@ -1,0 +1,20 @@
+use super::{Film, write_whole};
+use crate::Result;
+use exr::prelude::{Encoding, Image, SpecificChannels, WritableImage};
+use std::io;
+use std::path::Path;
+
+/// Writes the film's mean radiance as an OpenEXR file of linear 32-bit floats.
+///
+/// Errors: the path and what the system said; no part of a file is left behind.
+pub fn write_exr(film: &Film, path: &Path) -> Result {
+    write_whole(path, |file| {
+        let channels = SpecificChannels::rgb(|at: exr::math::Vec2<usize>| {
+            let [r, g, b] = film.mean(at.x() as u32, at.y() as u32);
+            (r, g, b)
+        });
+        let size = (film.width as usize, film.height as usize);
+        let image = Image::from_encoded_channels(size, Encoding::FAST_LOSSLESS, channels);
+        image.write().non_parallel().to_buffered(file).map_err(io::Error::other)
+    })
+}

@@ -1,0 +1,19 @@
+//! Light → pixels → files.
+//!
+//! Reads: [`Radiance`](crate::shade::Radiance).
+//! Writes: [`FilmTile`], sums in f64 and counts; then, once, an image of 8-bit sRGB (PNG) or of linear floats (EXR).
+//! Nothing is written to disk anywhere else in the kit's renderer, and no file is ever left half written.
+
+mod accumulate;
+mod develop;
+mod exr;
+mod film_tile;
+mod png;
+mod whole_file;
+
+pub use accumulate::{add_to_film, film_stage};
+pub use develop::{Curve, byte_from_linear, linear_from_srgb, srgb_from_linear};
+pub use exr::write_exr;
+pub use film_tile::{Film, FilmTile, Rejected};
+pub use png::{png_bytes, write_png};
+pub use whole_file::write_whole;

@@ -1,0 +1,39 @@
+use super::{Curve, Film, byte_from_linear, write_whole};
+use crate::Result;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes the film as an 8-bit RGB PNG, a line at a time, so that no second image stands in memory.
+///
+/// Errors: the path and what the system said; no part of a file is left behind.
+pub fn write_png(film: &Film, curve: Curve, path: &Path) -> Result {
+    write_whole(path, |file| encode(film, curve, file))
+}
+
+/// The same PNG in memory.
+pub fn png_bytes(film: &Film, curve: Curve) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    encode(film, curve, &mut bytes)?;
+    Ok(bytes)
+}
+
+fn encode(film: &Film, curve: Curve, out: impl Write) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(out, film.width, film.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    if curve == Curve::Srgb {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    }
+    let mut png = encoder.write_header()?;
+    let mut lines = png.stream_writer()?;
+    let mut line = Vec::with_capacity(film.width as usize * 3);
+    for y in 0..film.height {
+        line.clear();
+        for x in 0..film.width {
+            line.extend(film.mean(x, y).map(|part| byte_from_linear(part, curve)));
+        }
+        lines.write_all(&line)?;
+    }
+    lines.finish()?;
+    png.finish().map_err(io::Error::from)
+}

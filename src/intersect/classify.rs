@@ -1,0 +1,109 @@
+use super::hits::shape_evidence;
+use super::{Hits, NO_SHAPE, Surfaces};
+use crate::extract::{ShapeKind, ShapeTable};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+
+column! {
+    /// The rows that hit a sphere, ascending.
+    pub struct SphereRows("sphere rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
+    /// The rows that hit a plane, ascending.
+    pub struct PlaneRows("plane rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
+    /// The rows whose surface is matte, ascending.
+    pub struct MatteRows("matte rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+    }
+}
+
+/// Lists the rows of each kind of shape and matter, and blanks the surfaces of rows that met nothing.
+///
+/// After this each kind visits its own rows only.
+pub fn classify_hits(
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(
+        &Hits,
+        Option<&mut SphereRows>,
+        Option<&mut PlaneRows>,
+        Option<&mut MatteRows>,
+        Option<&mut Surfaces>,
+    )>,
+) {
+    for (hits, spheres, planes, mattes, surfaces) in &mut tiles {
+        if let Some(mut list) = spheres {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
+        }
+        if let Some(mut list) = planes {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Plane);
+        }
+        if let Some(mut list) = mattes {
+            list_rows(hits, &mut list.row, |_| true);
+        }
+        if let Some(mut surfaces) = surfaces {
+            blank_misses(hits, &mut surfaces);
+        }
+    }
+}
+
+/// Writes every row and keeps those that count, so that no branch depends on what was hit.
+fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
+    list.resize(hits.rows(), 0);
+    let mut length = 0;
+    for (row, &shape) in hits.shape.iter().enumerate() {
+        list[length] = row as u32;
+        length += usize::from(shape != NO_SHAPE && of_kind(shape as usize));
+    }
+    list.truncate(length);
+}
+
+fn blank_misses(hits: &Hits, surfaces: &mut Surfaces) {
+    let rows = hits.rows();
+    let (px, py, pz, nx, ny, nz, bound, matte) = surfaces.slices_mut(rows);
+    for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
+        (px[row], py[row], pz[row]) = (0.0, 0.0, 0.0);
+        (nx[row], ny[row], nz[row]) = (0.0, 0.0, 0.0);
+        (bound[row], matte[row]) = (0.0, 0);
+    }
+}
+
+impl SphereRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl PlaneRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl MatteRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+/// The stage on offer.
+pub fn classify_stage() -> Stage {
+    Stage::new("Classify hits", TileSystems::Classify, classify_hits)
+        .reads::<Hits>()
+        .writes::<SphereRows>()
+        .writes::<PlaneRows>()
+        .writes::<MatteRows>()
+        .writes::<Surfaces>()
+        .table::<ShapeTable>()
+        .when(shape_evidence)
+}

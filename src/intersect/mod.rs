@@ -1,0 +1,25 @@
+//! Rays → the nearest surface.
+//!
+//! Reads: a ray column ([`WorldRays`], later shadow rays) and the tables of shapes.
+//! Writes: [`Hits`], the lists of rows of each kind, and [`Surfaces`].
+//! Space: render space. Each kind of shape runs one after the other over the whole tile and narrows the hits; among
+//! equal distances the lowest shape number wins, so the order of the kinds does not matter.
+
+mod classify;
+mod hits;
+mod plane;
+mod sphere;
+mod surface;
+
+pub use classify::{MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, start_hits, start_stage};
+pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
+pub use sphere::{intersect_spheres, sphere_stage, sphere_surface_stage, sphere_t};
+pub use surface::{Surface, Surfaces, offset_bound, offset_origin};
+
+use crate::plan::Stage;
+
+/// Intersection of camera rays, every kind of shape, up to the surface that was hit.
+pub fn stages() -> Vec<Stage> {
+    vec![start_stage(), sphere_stage(), plane_stage(), classify_stage(), sphere_surface_stage(), plane_surface_stage()]
+}

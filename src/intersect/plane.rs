@@ -1,0 +1,93 @@
+use super::classify::PlaneRows;
+use super::surface::{Surface, Surfaces};
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{PlaneTable, ShapeTable};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Plane;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+// ANCHOR: plane_t
+/// The t > 0 at which O + tR lies on the plane n·x = k, or infinity.
+///
+/// A ray along the plane divides by 0; what comes of it is infinite or not a number, and neither passes the test.
+#[inline(always)]
+pub fn plane_t(origin: DVec3, direction: DVec3, normal: DVec3, offset: f64) -> f64 {
+    let t = (offset - normal.dot(origin)) / normal.dot(direction);
+    if t > 0.0 && t < f64::INFINITY { t } else { f64::INFINITY }
+}
+// ANCHOR_END: plane_t
+
+/// Narrows hits by all planes, for any column of rays.
+pub fn intersect_planes<R: RayColumn, H: HitColumn>(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&R, &mut H)>) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        plane_rows(rays.ray_lanes(), &planes, t, shape);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn plane_rows(rays: RayLanes<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let [ox, oy, oz] = rays.origin.map(|lane| &lane[..rows]);
+    let [dx, dy, dz] = rays.direction.map(|lane| &lane[..rows]);
+    let shape = &mut shape[..rows];
+    for plane in 0..planes.normal.len() {
+        let (normal, offset, number) = (planes.normal[plane], planes.offset[plane], planes.shape[plane]);
+        for row in 0..rows {
+            let origin = DVec3::new(f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            let direction = DVec3::new(f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+            let found = plane_t(origin, direction, normal, offset);
+            let closer = (found < t[row]) | ((found == t[row]) & (number < shape[row]) & (found < f64::INFINITY));
+            t[row] = if closer { found } else { t[row] };
+            shape[row] = if closer { number } else { shape[row] };
+        }
+    }
+}
+
+/// Fills the surface of every row that hit a plane.
+pub fn fill_plane_surfaces(
+    planes: Res<Shared<PlaneTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &PlaneRows, &mut Surfaces)>,
+) {
+    for (rays, hits, list, mut surfaces) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let shape = hits.shape[row] as usize;
+            let normal = planes.normal[shapes.row[shape] as usize];
+            let point = rays.point_at(row, hits.t[row]);
+            surfaces.set(row, Surface::facing(rays.direction_of(row), point, normal, shapes.matte[shape]));
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn plane_stage() -> Stage {
+    Stage::new("Intersect planes", TileSystems::Intersect, intersect_planes::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<PlaneTable>()
+        .when(plane_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn plane_surface_stage() -> Stage {
+    Stage::new("Describe plane surfaces", TileSystems::Surface, fill_plane_surfaces)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<PlaneRows>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .table::<PlaneTable>()
+        .table::<ShapeTable>()
+        .when(plane_evidence)
+}
+
+/// Evidence that the scene holds a plane.
+pub fn plane_evidence(scene: &World) -> Evidence {
+    Evidence::of::<Plane>(scene, "plane")
+}

@@ -1,0 +1,111 @@
+use crate::plan::column;
+use crate::rays::WorldRays;
+use glam::{DVec3, Vec3};
+
+column! {
+    /// What is known of the surface that each ray hit; all 0 where nothing is met.
+    pub struct Surfaces("surface", "world, from the eye", "scene units", Ray) {
+        /// Position, x.
+        px: f32,
+        /// Position, y.
+        py: f32,
+        /// Position, z.
+        pz: f32,
+        /// Normal on the side the ray came from, x; the three are a unit vector.
+        nx: f32,
+        /// Normal, y.
+        ny: f32,
+        /// Normal, z.
+        nz: f32,
+        /// How far along the normal a new ray must start to be off the surface for certain.
+        bound: f32,
+        /// The row of the matte table.
+        matte: u32,
+    }
+}
+
+/// One row of [`Surfaces`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Where, in render space.
+    pub position: Vec3,
+    /// The unit normal on the side that the ray came from.
+    pub normal: Vec3,
+    /// The hit's error bound along the normal.
+    pub bound: f32,
+    /// The row of the matte table.
+    pub matte: u32,
+}
+
+impl Surface {
+    /// The surface at an f64 point, its normal turned to the side that a ray of this direction came from.
+    #[inline(always)]
+    pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, matte: u32) -> Self {
+        let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
+        Self { position: point.as_vec3(), normal: normal.as_vec3(), bound: offset_bound(point), matte }
+    }
+}
+
+// ANCHOR: offset_bound
+/// How far along its normal a hit must be moved for the next ray to start off the surface for certain.
+///
+/// Rounding a point to f32 moves it by at most u(|x| + |y| + |z|), u = 2⁻²⁴, and rounding the moved point by as much
+/// again; twice their sum leaves room for the roundings of this product itself.
+/// The bound scales with the scene, and no constant in it has a length.
+#[inline(always)]
+pub fn offset_bound(point: DVec3) -> f32 {
+    const UNIT_ROUNDOFF: f64 = 1.0 / 16_777_216.0;
+    (4.0 * UNIT_ROUNDOFF * (point.x.abs() + point.y.abs() + point.z.abs())) as f32
+}
+
+/// Where a new ray from a surface starts: its position, moved along the normal by its bound.
+#[inline(always)]
+pub fn offset_origin(position: Vec3, normal: Vec3, bound: f32) -> Vec3 {
+    position + normal * bound
+}
+// ANCHOR_END: offset_bound
+
+impl Surfaces {
+    /// The normal: each part from −1 to 1 becomes 0 to 1; black where nothing is met.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let normal = [self.nx[row], self.ny[row], self.nz[row]];
+        if normal == [0.0; 3] { normal } else { normal.map(|part| 0.5 + 0.5 * part) }
+    }
+
+    /// Writes a row.
+    #[inline(always)]
+    pub fn set(&mut self, row: usize, surface: Surface) {
+        (self.px[row], self.py[row], self.pz[row]) = surface.position.into();
+        (self.nx[row], self.ny[row], self.nz[row]) = surface.normal.into();
+        self.bound[row] = surface.bound;
+        self.matte[row] = surface.matte;
+    }
+
+    /// Reads a row.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> Surface {
+        Surface {
+            position: Vec3::new(self.px[row], self.py[row], self.pz[row]),
+            normal: Vec3::new(self.nx[row], self.ny[row], self.nz[row]),
+            bound: self.bound[row],
+            matte: self.matte[row],
+        }
+    }
+}
+
+impl WorldRays {
+    /// The direction of a row, exact in f64.
+    #[inline(always)]
+    pub fn direction_of(&self, row: usize) -> DVec3 {
+        DVec3::new(f64::from(self.dx[row]), f64::from(self.dy[row]), f64::from(self.dz[row]))
+    }
+
+    // ANCHOR: point_at
+    /// r(t) = O + tR of a row, in f64.
+    #[inline(always)]
+    pub fn point_at(&self, row: usize, t: f64) -> DVec3 {
+        let origin = DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]));
+        origin + t * self.direction_of(row)
+    }
+    // ANCHOR_END: point_at
+}

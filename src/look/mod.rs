@@ -1,0 +1,12 @@
+//! Looking inside: the same columns that the stages write, printed, painted and counted.
+//!
+//! Reads: any column, through the registry ([`ColumnKind`](crate::plan::ColumnKind)).
+//! Writes: text, and for a view the picture; no number of the render changes.
+
+mod stats;
+mod trace;
+mod view;
+
+pub use stats::{RenderStats, StageStats};
+pub use trace::{Recorded, Trace, trace};
+pub use view::{ViewTable, view_stage};

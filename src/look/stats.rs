@@ -1,0 +1,127 @@
+use crate::render::{Rendered, peak_memory};
+use serde::Serialize;
+use std::fmt;
+use std::time::Duration;
+
+/// Time and rows of one stage over all tiles and workers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StageStats {
+    /// The stage's name.
+    pub stage: &'static str,
+    /// Rows of the column that it wrote: points, rays or hits.
+    pub rows: u64,
+    /// Milliseconds, summed over workers.
+    pub milliseconds: f64,
+    /// Nanoseconds a row; none where it had no rows.
+    pub nanoseconds_a_row: Option<f64>,
+}
+
+/// What a render cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RenderStats {
+    /// The chapter.
+    pub chapter: String,
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+    /// Workers.
+    pub threads: usize,
+    /// From the first tile to the last.
+    pub milliseconds: f64,
+    /// Pixels a second, in millions.
+    pub megapixels_a_second: f64,
+    /// Rays of all kinds: a camera ray a pixel, and the rays to lights.
+    pub rays: u64,
+    /// Bytes that the film takes.
+    pub film_bytes: usize,
+    /// Bytes a pixel of film.
+    pub film_bytes_a_pixel: f64,
+    /// Bytes that tables take.
+    pub table_bytes: usize,
+    /// Bytes that the columns of one tile take.
+    pub column_bytes_a_tile: usize,
+    /// The most memory that the process has held, in bytes, where the system says.
+    pub peak_memory_bytes: Option<u64>,
+    /// Samples that were not finite or negative, and so did not join the film.
+    pub rejected_samples: u64,
+    /// The stages in order.
+    pub stages: Vec<StageStats>,
+    /// The stages that were left out, and why.
+    pub left_out: Vec<(String, String)>,
+}
+
+impl RenderStats {
+    /// Reads off what a render left.
+    pub fn of(chapter: &str, rendered: &Rendered, tile_side: u32) -> Self {
+        let pixels = f64::from(rendered.film.width) * f64::from(rendered.film.height);
+        let stages: Vec<StageStats> = rendered
+            .plan
+            .stages
+            .iter()
+            .zip(&rendered.laps)
+            .map(|(stage, lap)| StageStats {
+                stage: stage.name,
+                rows: lap.rows,
+                milliseconds: milliseconds(lap.time),
+                nanoseconds_a_row: (lap.rows > 0).then(|| lap.time.as_nanos() as f64 / lap.rows as f64),
+            })
+            .collect();
+        let rays_of = |name: &str| stages.iter().find(|stage| stage.stage == name).map_or(0, |stage| stage.rows);
+        let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();
+        let left_out = rendered.plan.rows.iter().filter(|row| !row.kept);
+        Self {
+            chapter: chapter.into(),
+            width: rendered.film.width,
+            height: rendered.film.height,
+            threads: rendered.threads,
+            milliseconds: milliseconds(rendered.time),
+            megapixels_a_second: pixels / rendered.time.as_secs_f64() / 1e6,
+            rays: rays_of("Turn rays into the world") + rays_of("Aim at lights"),
+            film_bytes: rendered.film.bytes(),
+            film_bytes_a_pixel: rendered.film.bytes() as f64 / pixels,
+            table_bytes: rendered.table_bytes,
+            column_bytes_a_tile: row_bytes * (tile_side * tile_side) as usize,
+            peak_memory_bytes: peak_memory(),
+            rejected_samples: rendered.film.rejected().0,
+            left_out: left_out.map(|row| (row.stage.to_string(), row.reason.clone())).collect(),
+            stages,
+        }
+    }
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+impl fmt::Display for RenderStats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "what ran                           rows        ms    ns a row")?;
+        for stage in &self.stages {
+            let each = stage.nanoseconds_a_row.map_or_else(|| "-".into(), |each| format!("{each:.2}"));
+            writeln!(f, "  {:<28} {:>9} {:>9.2} {:>11}", stage.stage, stage.rows, stage.milliseconds, each)?;
+        }
+        writeln!(f, "what was left out, and why")?;
+        for (stage, reason) in &self.left_out {
+            writeln!(f, "  {stage:<28} {reason}")?;
+        }
+        if self.left_out.is_empty() {
+            writeln!(f, "  nothing: this scene needs every stage on offer")?;
+        }
+        writeln!(
+            f,
+            "{} × {} pixels, {} rays in {:.0} ms on {} threads ({:.1} million pixels a second)",
+            self.width, self.height, self.rays, self.milliseconds, self.threads, self.megapixels_a_second
+        )?;
+        let peak =
+            self.peak_memory_bytes.map_or_else(String::new, |peak| format!(", {} MiB at most in all", peak >> 20));
+        writeln!(
+            f,
+            "memory: film {} KiB ({:.0} bytes a pixel), tables {} bytes, columns {} KiB a worker{peak}",
+            self.film_bytes >> 10,
+            self.film_bytes_a_pixel,
+            self.table_bytes,
+            self.column_bytes_a_tile >> 10
+        )
+    }
+}

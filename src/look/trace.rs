@@ -1,0 +1,119 @@
+use crate::plan::{ColumnKind, Plan, Stage};
+use crate::rays::Tile;
+use crate::render::{Hook, inspect_tile};
+use crate::scene::{Refusal, TracePixel};
+use crate::{Error, Result};
+use bevy_ecs::prelude::*;
+use std::fmt;
+use std::sync::Arc;
+
+/// What one stage wrote for one pixel. Its address is (stage, pixel, sample, bounce).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The stage that has just run.
+    pub stage: &'static str,
+    /// The sample's number within the pixel.
+    pub sample: u32,
+    /// The leg of the light's way; 0 is the one to the eye.
+    pub bounce: u32,
+    /// The column that it wrote.
+    pub column: ColumnKind,
+    /// One line of `lane value` pairs a row of the column; none where nothing is known of this pixel.
+    pub rows: Vec<Vec<(&'static str, String)>>,
+}
+
+/// What recorders have written, in order.
+#[derive(Resource, Default)]
+struct Recording(Vec<Recorded>);
+
+/// A pixel's way to light, stage by stage.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// The pixel.
+    pub pixel: TracePixel,
+    /// What each stage wrote.
+    pub stages: Vec<Recorded>,
+    /// The names of shapes, by number.
+    pub shapes: Vec<String>,
+}
+
+/// Follows one pixel by running the stages on its tile.
+///
+/// Errors: what a render would be refused for, or a pixel outside the image.
+pub fn trace(scene: &World, offer: &[Stage], pixel: TracePixel) -> Result<Trace> {
+    let image = <crate::extract::ImageShape as crate::plan::Table>::extract(scene)?;
+    if pixel.x >= image.width || pixel.y >= image.height {
+        let value = format!("{},{}", pixel.x, pixel.y);
+        let accepted = format!("the image has pixels 0,0 to {},{}", image.width - 1, image.height - 1);
+        return Err(Error::from(Refusal::new("the trace", "pixel", value, accepted)));
+    }
+    let mut inspection = inspect_tile(scene, offer, [pixel.x, pixel.y], &[record_hook(pixel)])?;
+    let stages = inspection.world.remove_resource::<Recording>().unwrap_or_default().0;
+    let shapes = crate::extract::shape_entities(scene);
+    let shapes = shapes.into_iter().map(|shape| crate::scene::called(scene, shape)).collect();
+    Ok(Trace { pixel, stages, shapes })
+}
+
+/// A system after each stage that copies what it wrote for the pixel, before a later leg can overwrite it.
+fn record_hook(pixel: TracePixel) -> Hook {
+    Arc::new(move |_, stage: &Stage, plan: &Plan| {
+        let name = stage.name;
+        let columns: Vec<ColumnKind> = stage.writes.iter().copied().filter(|c| plan.columns.contains(c)).collect();
+        let record = move |world: &mut World, tiles: &mut QueryState<Entity, With<Tile>>| {
+            let mut recorded = Vec::new();
+            for tile in tiles.iter(world) {
+                let tile = world.entity(tile);
+                let Some(path) = tile.get::<Tile>().and_then(|place| place.row_of(pixel.x, pixel.y)) else { continue };
+                for &column in &columns {
+                    let lanes = (column.lanes)(&tile);
+                    let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();
+                    let rows = column.rows_of_path(&tile, path as u32).into_iter().map(show).collect();
+                    recorded.push(Recorded { stage: name, sample: 0, bounce: 0, column, rows });
+                }
+            }
+            world.get_resource_or_init::<Recording>().0.extend(recorded);
+        };
+        record.into_configs()
+    })
+}
+
+impl fmt::Display for Trace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "pixel {},{}   sample 0, bounce 0", self.pixel.x, self.pixel.y)?;
+        let last_of = |column: ColumnKind| self.stages.iter().rposition(|recorded| recorded.column == column);
+        for (position, recorded) in self.stages.iter().enumerate() {
+            let listing = recorded.column.unit == "rows";
+            if last_of(recorded.column) != Some(position) || listing {
+                continue;
+            }
+            let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
+            let head = format!("{name:<9} {space:<20} {unit:<24}");
+            if recorded.rows.is_empty() {
+                writeln!(f, "{head} nothing")?;
+            }
+            for (row, lanes) in recorded.rows.iter().enumerate() {
+                let head = if row == 0 { &head } else { "" };
+                writeln!(f, "{head:<55} {}", self.show_row(lanes))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Trace {
+    /// Lanes of a row, vectors in brackets, a shape by its name.
+    fn show_row(&self, lanes: &[(&'static str, String)]) -> String {
+        let mut words = Vec::new();
+        let mut lanes = lanes.iter().filter(|(name, _)| *name != "path").peekable();
+        while let Some((name, value)) = lanes.next() {
+            let shown = if *name == "shape" {
+                let shape = value.parse().ok().and_then(|number: usize| self.shapes.get(number));
+                shape.cloned().unwrap_or_else(|| "none".into())
+            } else {
+                value.clone()
+            };
+            words.push(format!("{name} {shown}"));
+        }
+        words.join("  ")
+    }
+}

@@ -1,0 +1,79 @@
+use crate::extract::ImageShape;
+use crate::plan::{ColumnKind, Evidence, LaneValues, Shared, Stage, Table, TileSystems};
+use crate::rays::{RasterPoints, Tile};
+use crate::scene::{Refusal, View};
+use crate::shade::Radiance;
+use bevy_ecs::prelude::*;
+use bevy_ecs::world::EntityRef;
+
+/// The column that a view paints.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ViewTable {
+    /// Its word.
+    pub column: String,
+}
+
+impl Table for ViewTable {
+    const NAME: &'static str = "view";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let viewers = crate::plan::entities::<With<View>>(scene);
+        let view = viewers.first().and_then(|&viewer| scene.get::<View>(viewer));
+        Ok(Self { column: view.map(|view| view.column.clone()).unwrap_or_default() })
+    }
+
+    fn bytes(&self) -> usize {
+        self.column.len()
+    }
+}
+
+/// Makes the system that paints one of `columns`: the one that the view asks for.
+///
+/// A column without a row for a pixel leaves it black; one with several gives it the first.
+fn paint_view(columns: Vec<ColumnKind>) -> impl FnMut(&mut World, &mut QueryState<Entity, With<Tile>>) + Clone {
+    move |world, tiles| {
+        let asked = &world.resource::<Shared<ViewTable>>().column;
+        let Some(column) = columns.iter().copied().find(|column| column.name == asked) else { return };
+        let image: [u32; 2] = {
+            let image = world.resource::<Shared<ImageShape>>();
+            [image.width, image.height]
+        };
+        for tile in tiles.iter(world).collect::<Vec<_>>() {
+            let painted = paint_tile(column, &world.entity(tile), image);
+            if let Some(mut radiance) = world.get_mut::<Radiance>(tile) {
+                *radiance = painted;
+            }
+        }
+    }
+}
+
+fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radiance {
+    let rows = tile.get::<Tile>().map_or(0, Tile::rows);
+    let mut painted = Radiance::default();
+    let (r, g, b) = painted.slices_mut(rows);
+    for (row, path) in (0..(column.rows)(tile)).zip(paths(column, tile)).rev() {
+        [r[path], g[path], b[path]] = (column.paint)(tile, row, image);
+    }
+    painted
+}
+
+/// The path of each row of a column, in order.
+fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
+    let lanes = (column.lanes)(tile);
+    match lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values) {
+        Some(LaneValues::U32(paths)) => paths.iter().map(|&path| path as usize).collect(),
+        _ => (0..(column.rows)(tile)).collect(),
+    }
+}
+
+/// The stage on offer that paints any of the columns of the other stages on offer.
+pub fn view_stage(offer: &[Stage]) -> Stage {
+    let columns = offer.iter().flat_map(|stage| &stage.writes).copied().collect();
+    Stage::new("Paint the view", TileSystems::View, paint_view(columns))
+        .reads::<RasterPoints>()
+        .reads_the_view()
+        .writes::<Radiance>()
+        .table::<ViewTable>()
+        .table::<ImageShape>()
+        .when(|scene| Evidence::of::<View>(scene, "view"))
+}

@@ -1,0 +1,250 @@
+use bevy_ecs::prelude::*;
+use bevy_ecs::world::{EntityRef, EntityWorldMut};
+
+/// How long a row of a column stays true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lifetime {
+    /// One sample of one pixel: written before the first bounce and kept to the film.
+    Pixel,
+    /// One path of light: changed at each bounce, never dropped before the path ends.
+    Path,
+    /// One ray: overwritten at each bounce.
+    Ray,
+}
+
+/// The numbers of one lane of a column, borrowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LaneValues<'a> {
+    /// 64-bit floats.
+    F64(&'a [f64]),
+    /// 32-bit floats.
+    F32(&'a [f32]),
+    /// Counts and indices; `u32::MAX` stands for "none".
+    U32(&'a [u32]),
+}
+
+impl LaneValues<'_> {
+    /// The value of a row as a person reads it: fixed decimals, so that two runs compare line by line.
+    pub fn show(&self, row: usize) -> String {
+        match self {
+            Self::F64(values) => show_float(values[row]),
+            Self::F32(values) => show_float(f64::from(values[row])),
+            Self::U32(values) if values[row] == u32::MAX => "none".into(),
+            Self::U32(values) => values[row].to_string(),
+        }
+    }
+
+    /// The bits of a row, for digests.
+    pub fn bits(&self, row: usize) -> u64 {
+        match self {
+            Self::F64(values) => values[row].to_bits(),
+            Self::F32(values) => u64::from(values[row].to_bits()),
+            Self::U32(values) => u64::from(values[row]),
+        }
+    }
+
+    /// Bytes that one row of this lane takes.
+    pub fn bytes_a_row(&self) -> usize {
+        match self {
+            Self::F64(_) => 8,
+            Self::F32(_) | Self::U32(_) => 4,
+        }
+    }
+}
+
+fn show_float(value: f64) -> String {
+    let size = value.abs();
+    if value != 0.0 && size.is_finite() && !(1e-4..1e7).contains(&size) {
+        format!("{value:+.6e}")
+    } else {
+        format!("{value:+.6}")
+    }
+}
+
+/// A number type that lanes are made of.
+pub trait LaneValue: Copy + Default {
+    /// Wraps a slice of it.
+    fn values(slice: &[Self]) -> LaneValues<'_>;
+}
+
+impl LaneValue for f64 {
+    fn values(slice: &[Self]) -> LaneValues<'_> {
+        LaneValues::F64(slice)
+    }
+}
+
+impl LaneValue for f32 {
+    fn values(slice: &[Self]) -> LaneValues<'_> {
+        LaneValues::F32(slice)
+    }
+}
+
+impl LaneValue for u32 {
+    fn values(slice: &[Self]) -> LaneValues<'_> {
+        LaneValues::U32(slice)
+    }
+}
+
+/// One named lane of a column.
+#[derive(Clone, Copy, Debug)]
+pub struct Lane<'a> {
+    /// The field's name.
+    pub name: &'static str,
+    /// Its numbers, one a row.
+    pub values: LaneValues<'a>,
+}
+
+/// What a stage writes for the rows of a tile: a component of the tile's entity, an array a lane.
+///
+/// The type of a column is its space, so a system's signature says what it reads and writes.
+pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default {
+    /// The word that `--view`, `trace` and the plan use.
+    const NAME: &'static str;
+    /// The space its rows are in, in words.
+    const SPACE: &'static str;
+    /// The unit of its lanes.
+    const UNIT: &'static str;
+    /// How long its rows stay true.
+    const LIFETIME: Lifetime;
+
+    /// How many rows it holds.
+    fn rows(&self) -> usize;
+    /// Its lanes in order.
+    fn lanes(&self) -> Vec<Lane<'_>>;
+    /// A row as a colour to be shown as it is (0 is black, 1 is full), for an image of `size` pixels.
+    fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
+}
+
+/// Declares a column: its doc, its words, its lanes.
+///
+/// The struct gets one `Vec` a lane, `slices` and `slices_mut` that hand out all lanes at one length, and
+/// [`Column`]; the painting of a row is the type's own `paint_row`.
+macro_rules! column {
+    ($(#[$doc:meta])* pub struct $column:ident($name:literal, $space:literal, $unit:literal, $lifetime:ident) {
+        $($(#[$lane_doc:meta])* $lane:ident: $number:ty,)+
+    }) => {
+        $(#[$doc])*
+        #[derive(bevy_ecs::prelude::Component, Clone, Debug, Default, PartialEq)]
+        pub struct $column { $($(#[$lane_doc])* pub $lane: Vec<$number>,)+ }
+
+        #[allow(dead_code, unused_parens)]
+        impl $column {
+            /// All lanes, in order, at one length.
+            #[inline(always)]
+            pub fn slices(&self) -> ($(&[$number]),+) {
+                let rows = $crate::plan::Column::rows(self);
+                ($(&self.$lane[..rows]),+)
+            }
+
+            /// All lanes, in order, made `rows` long.
+            #[inline(always)]
+            pub fn slices_mut(&mut self, rows: usize) -> ($(&mut [$number]),+) {
+                $(self.$lane.resize(rows, Default::default());)+
+                ($(&mut self.$lane[..rows]),+)
+            }
+
+            /// No rows, memory kept.
+            pub fn clear(&mut self) {
+                $(self.$lane.clear();)+
+            }
+        }
+
+        impl $crate::plan::Column for $column {
+            const NAME: &'static str = $name;
+            const SPACE: &'static str = $space;
+            const UNIT: &'static str = $unit;
+            const LIFETIME: $crate::plan::Lifetime = $crate::plan::Lifetime::$lifetime;
+
+            fn rows(&self) -> usize {
+                [$(self.$lane.len()),+][0]
+            }
+
+            fn lanes(&self) -> Vec<$crate::plan::Lane<'_>> {
+                vec![$($crate::plan::Lane {
+                    name: stringify!($lane),
+                    values: $crate::plan::LaneValue::values(&self.$lane),
+                }),+]
+            }
+
+            fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
+                self.paint_row(row, size)
+            }
+        }
+    };
+}
+pub(crate) use column;
+
+/// A column as the plan and the tools that look inside handle it, without its type.
+///
+/// This one registry is behind `trace`, `--view`, snapshots and statistics.
+#[derive(Clone, Copy)]
+pub struct ColumnKind {
+    /// The word that `--view`, `trace` and the plan use.
+    pub name: &'static str,
+    /// The space its rows are in.
+    pub space: &'static str,
+    /// The unit of its lanes.
+    pub unit: &'static str,
+    /// How long its rows stay true.
+    pub lifetime: Lifetime,
+    /// Gives a tile's entity the empty column.
+    pub insert: fn(&mut EntityWorldMut<'_>),
+    /// Whether a tile's entity has the column.
+    pub present: fn(&EntityRef<'_>) -> bool,
+    /// How many rows the tile's column holds, 0 without it.
+    pub rows: fn(&EntityRef<'_>) -> usize,
+    /// The column's lanes, none without it.
+    pub lanes: for<'w> fn(&EntityRef<'w>) -> Vec<Lane<'w>>,
+    /// A row as a colour, for an image of this size; the tile must have the column.
+    pub paint: fn(&EntityRef<'_>, usize, [u32; 2]) -> [f32; 3],
+}
+
+impl ColumnKind {
+    /// The registry entry of a column type.
+    pub fn of<C: Column>() -> Self {
+        Self {
+            name: C::NAME,
+            space: C::SPACE,
+            unit: C::UNIT,
+            lifetime: C::LIFETIME,
+            insert: |tile| {
+                tile.insert(C::default());
+            },
+            present: |tile| tile.contains::<C>(),
+            rows: |tile| tile.get::<C>().map_or(0, C::rows),
+            lanes: |tile| tile.get::<C>().map_or_else(Vec::new, C::lanes),
+            paint: |tile, row, size| tile.get::<C>().map_or([0.0; 3], |column| column.paint(row, size)),
+        }
+    }
+
+    /// Bytes that one row of the column takes, lanes summed.
+    pub fn bytes_a_row(&self) -> usize {
+        let mut world = World::new();
+        let mut tile = world.spawn_empty();
+        (self.insert)(&mut tile);
+        let entity = tile.id();
+        (self.lanes)(&world.entity(entity)).iter().map(|lane| lane.values.bytes_a_row()).sum()
+    }
+
+    /// The rows that belong to a path: the row of its number, or, where the column has a `path` lane, those that name it.
+    pub fn rows_of_path(&self, tile: &EntityRef<'_>, path: u32) -> Vec<usize> {
+        let lanes = (self.lanes)(tile);
+        match lanes.iter().find(|lane| lane.name == "path").map(|lane| lane.values) {
+            Some(LaneValues::U32(paths)) => (0..paths.len()).filter(|&row| paths[row] == path).collect(),
+            _ if (path as usize) < (self.rows)(tile) => vec![path as usize],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl PartialEq for ColumnKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl std::fmt::Debug for ColumnKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "ColumnKind({})", self.name)
+    }
+}

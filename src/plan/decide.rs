@@ -1,0 +1,221 @@
+use super::{ColumnKind, Stage, TableKind, entities};
+use crate::scene::{Statistics, View};
+use bevy_ecs::prelude::*;
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// Why no plan can be made of these stages for this scene.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum PlanError {
+    /// A kept stage reads a column that no kept stage writes.
+    #[error("the stage \"{stage}\" reads the column `{column}`, but {why}")]
+    NoProducer {
+        /// The reader.
+        stage: &'static str,
+        /// What it reads.
+        column: &'static str,
+        /// What became of the stages that could write it.
+        why: String,
+    },
+    /// A view asks for a column that does not exist here.
+    #[error("the view asks for the column `{asked}`, but {why}")]
+    NoSuchView {
+        /// The word asked for.
+        asked: String,
+        /// What there is instead.
+        why: String,
+    },
+}
+
+/// What one row of a batch stands for in a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowKind {
+    /// A pixel, seen from the camera.
+    Pixel,
+}
+
+/// One run over all batches.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// What it is called.
+    pub name: &'static str,
+    /// What a row is.
+    pub row: RowKind,
+    /// What it leaves behind.
+    pub product: &'static str,
+}
+
+/// One stage on offer, kept or dropped, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanRow {
+    /// The stage's name.
+    pub stage: &'static str,
+    /// Whether it will run.
+    pub kept: bool,
+    /// Why, with the first entities that caused it.
+    pub reason: String,
+    /// How many reachable entities caused it.
+    pub count: usize,
+    /// The columns it will write.
+    pub columns: Vec<&'static str>,
+    /// The tables it will read.
+    pub tables: Vec<&'static str>,
+}
+
+/// What will run for a scene, what will not, and why.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// A row a stage on offer, in the order of the stages.
+    pub rows: Vec<PlanRow>,
+    /// The kept stages, in order.
+    pub stages: Vec<Stage>,
+    /// The columns that will exist, each a component of a tile's entity.
+    pub columns: Vec<ColumnKind>,
+    /// The tables that will exist, each a resource of a render world.
+    pub tables: Vec<TableKind>,
+    /// The runs over the image.
+    pub passes: Vec<Pass>,
+    /// The column that is painted instead of the picture.
+    pub view: Option<ColumnKind>,
+    /// Whether stages are timed and their rows counted.
+    pub statistics: bool,
+}
+
+/// Decides which of the stages on offer this scene needs.
+///
+/// Pure and deterministic: the same scene and offer give the same plan.
+pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
+    let mut offer: Vec<&Stage> = offer.iter().collect();
+    offer.sort_by_key(|stage| stage.set);
+    let view = requested::<View>(scene).map(|view| find_view(&offer, &view.column)).transpose()?;
+
+    let mut wanted: BTreeSet<&'static str> = BTreeSet::new();
+    let mut decided: Vec<(&Stage, PlanRow)> = Vec::new();
+    for stage in offer.iter().rev() {
+        let row = decide(scene, stage, view, &wanted);
+        if row.kept {
+            wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.name));
+            if let (true, Some(column)) = (stage.reads_view, view) {
+                wanted.insert(column.name);
+            }
+        }
+        decided.push((stage, row));
+    }
+    decided.reverse();
+    check_producers(&decided, view)?;
+    Ok(collect(scene, decided, view))
+}
+
+/// The columns that a view may ask for among these stages, in order.
+pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
+    let mut offer: Vec<&Stage> = offer.iter().collect();
+    offer.sort_by_key(|stage| stage.set);
+    let mut names = Vec::new();
+    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.name != "pixel") {
+        if !names.contains(&column.name) {
+            names.push(column.name);
+        }
+    }
+    names
+}
+
+fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTreeSet<&'static str>) -> PlanRow {
+    let evidence = (stage.when)(scene);
+    let is_film = stage.writes.iter().any(|column| column.name == "pixel");
+    let read: Vec<&'static str> = stage
+        .writes
+        .iter()
+        .map(|column| column.name)
+        .filter(|name| wanted.contains(name) || *name == "pixel")
+        .collect();
+    let painted_over = view.is_some_and(|column| column.name != "radiance")
+        && !stage.reads_view
+        && stage.writes.iter().all(|column| column.name == "radiance");
+    let (kept, reason) = if !evidence.needed {
+        (false, evidence.reason)
+    } else if let (true, Some(column)) = (painted_over, view) {
+        (false, format!("the view paints `{}` instead", column.name))
+    } else if is_film || !read.is_empty() {
+        (true, evidence.reason)
+    } else {
+        let words: Vec<String> = stage.writes.iter().map(|column| format!("`{}`", column.name)).collect();
+        (false, format!("nothing that runs reads {}", words.join(" or ")))
+    };
+    let (columns, tables) =
+        if kept { (read, stage.tables.iter().map(|table| table.name).collect()) } else { (Vec::new(), Vec::new()) };
+    PlanRow { stage: stage.name, kept, reason, count: evidence.count, columns, tables }
+}
+
+fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> Result<(), PlanError> {
+    let mut written: BTreeSet<&'static str> = BTreeSet::new();
+    for (stage, row) in decided.iter().filter(|(_, row)| row.kept) {
+        if let (true, Some(column)) = (stage.reads_view, view)
+            && !written.contains(column.name)
+        {
+            return Err(PlanError::NoSuchView { asked: column.name.into(), why: fate(decided, column.name) });
+        }
+        for column in &stage.reads {
+            let own = stage.writes.iter().any(|own| own.name == column.name);
+            if !written.contains(column.name) && !own {
+                let why = fate(decided, column.name);
+                return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
+            }
+        }
+        written.extend(&row.columns);
+    }
+    Ok(())
+}
+
+/// What became of the stages that could have written a column, in words.
+fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
+    let writers: Vec<String> = decided
+        .iter()
+        .filter(|(stage, _)| stage.writes.iter().any(|own| own.name == column))
+        .map(|(stage, row)| format!("\"{}\" is left out here ({})", stage.name, row.reason))
+        .collect();
+    if writers.is_empty() { "no stage on offer writes it".into() } else { writers.join(" and ") }
+}
+
+fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
+    let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
+    let names = view_names(&stages);
+    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && asked != "pixel");
+    found.copied().ok_or_else(|| PlanError::NoSuchView {
+        asked: asked.into(),
+        why: format!("the columns on offer are {}", names.join(", ")),
+    })
+}
+
+fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKind>) -> Plan {
+    let (mut columns, mut tables): (Vec<ColumnKind>, Vec<TableKind>) = (Vec::new(), Vec::new());
+    let (mut stages, mut rows) = (Vec::new(), Vec::new());
+    for (stage, row) in decided {
+        if row.kept {
+            for column in stage.writes.iter().filter(|column| row.columns.contains(&column.name)) {
+                if !columns.contains(column) {
+                    columns.push(*column);
+                }
+            }
+            for table in &stage.tables {
+                if !tables.contains(table) {
+                    tables.push(*table);
+                }
+            }
+            stages.push(stage.clone());
+        }
+        rows.push(row);
+    }
+    Plan {
+        rows,
+        stages,
+        columns,
+        tables,
+        passes: vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }],
+        view,
+        statistics: requested::<Statistics>(scene).is_some(),
+    }
+}
+
+fn requested<R: Component>(scene: &World) -> Option<&R> {
+    entities::<With<R>>(scene).first().and_then(|&entity| scene.get::<R>(entity))
+}

@@ -1,0 +1,24 @@
+//! Which stages a scene needs, and why.
+//!
+//! Reads: the scene's components and the stages on offer.
+//! Writes: a [`Plan`]: every stage with kept or dropped and the reason, the columns and tables that will exist,
+//! the passes over the image.
+//!
+//! A stage is kept when the scene needs it *and* something that is kept, or a request, reads what it writes.
+//! What is dropped is never built, so it costs nothing.
+
+mod column;
+mod decide;
+mod evidence;
+mod print;
+mod stage;
+mod systems;
+mod table;
+
+pub(crate) use column::column;
+pub use column::{Column, ColumnKind, Lane, LaneValue, LaneValues, Lifetime};
+pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
+pub use evidence::{Evidence, counted, entities};
+pub use stage::{Slot, Stage, StageKind};
+pub use systems::{Bounce, Sample, TileSystems};
+pub use table::{ExtractedTable, Shared, Table, TableKind};

@@ -1,0 +1,115 @@
+use super::{Column, ColumnKind, Evidence, Table, TableKind, TileSystems};
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::ScheduleConfigs;
+use bevy_ecs::system::ScheduleSystem;
+use std::sync::Arc;
+
+/// What leaving a stage out does to the picture where its predicate says that it is not needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageKind {
+    /// Forced on, it leaves the image bit-identical.
+    Exact,
+    /// Forced on, it leaves the image's expectation the same; tested by a Z-test.
+    Estimator,
+    /// One of several that write the same column; forcing it on beside the other has no meaning.
+    Alternative,
+}
+
+/// The position of a stage in the plan's list; systems are placed by it where a hook follows each stage.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Slot(pub usize);
+
+/// A stage on offer: what it is called, what it reads and writes, when a scene needs it, the system that runs.
+#[derive(Clone)]
+pub struct Stage {
+    /// In words, such as "Turn camera rays into the world".
+    pub name: &'static str,
+    /// Where it stands in the order.
+    pub set: TileSystems,
+    /// What leaving it out means.
+    pub kind: StageKind,
+    /// Columns it cannot run without.
+    pub reads: Vec<ColumnKind>,
+    /// Columns it reads where they exist.
+    pub reads_if: Vec<ColumnKind>,
+    /// Columns it writes; those that nothing reads do not exist.
+    pub writes: Vec<ColumnKind>,
+    /// Tables it reads.
+    pub tables: Vec<TableKind>,
+    /// Whether it reads the column that a `View` asks for.
+    pub reads_view: bool,
+    /// Whether a scene needs it.
+    pub when: fn(&World) -> Evidence,
+    /// The system as a configuration, made anew for each schedule.
+    pub system: Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>,
+}
+
+impl Stage {
+    /// A stage that reads and writes nothing yet and is always needed.
+    pub fn new<Marker: 'static>(
+        name: &'static str,
+        set: TileSystems,
+        system: impl IntoScheduleConfigs<ScheduleSystem, Marker> + Clone + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            name,
+            set,
+            kind: StageKind::Exact,
+            reads: Vec::new(),
+            reads_if: Vec::new(),
+            writes: Vec::new(),
+            tables: Vec::new(),
+            reads_view: false,
+            when: |_| Evidence::always("every picture needs it"),
+            system: Arc::new(move || system.clone().into_configs()),
+        }
+    }
+
+    /// It cannot run without this column.
+    pub fn reads<C: Column>(mut self) -> Self {
+        self.reads.push(ColumnKind::of::<C>());
+        self
+    }
+
+    /// It reads this column where it exists.
+    pub fn reads_if<C: Column>(mut self) -> Self {
+        self.reads_if.push(ColumnKind::of::<C>());
+        self
+    }
+
+    /// It writes this column.
+    pub fn writes<C: Column>(mut self) -> Self {
+        self.writes.push(ColumnKind::of::<C>());
+        self
+    }
+
+    /// It reads this table.
+    pub fn table<T: Table>(mut self) -> Self {
+        self.tables.push(TableKind::of::<T>());
+        self
+    }
+
+    /// It reads whatever column a `View` asks for.
+    pub fn reads_the_view(mut self) -> Self {
+        self.reads_view = true;
+        self
+    }
+
+    /// The scene's say.
+    pub fn when(mut self, predicate: fn(&World) -> Evidence) -> Self {
+        self.when = predicate;
+        self
+    }
+
+    /// What leaving it out means.
+    pub fn kind(mut self, kind: StageKind) -> Self {
+        self.kind = kind;
+        self
+    }
+}
+
+impl std::fmt::Debug for Stage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Stage({})", self.name)
+    }
+}

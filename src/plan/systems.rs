@@ -1,0 +1,75 @@
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::ScheduleLabel;
+
+/// The schedule that carries one sample of every pixel of a tile from raster to film.
+#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Sample;
+
+/// The schedule inside [`Sample`] that is run again for every further leg of the light's way.
+#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Bounce;
+
+/// The order of the stages: each set runs after the one above it.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum TileSystems {
+    /// Points of the image, in pixels.
+    Raster,
+    /// The same points, free of the image's size.
+    Ndc,
+    /// The same points, y up, as wide as the image's shape.
+    Screen,
+    /// Rays of a camera at the origin that looks down −z.
+    Camera,
+    /// The same rays, turned as the camera is.
+    World,
+    /// Empty hits and black radiance, before anything is met.
+    Start,
+    /// Rays meet surfaces; each kind of shape narrows the hit, in any order.
+    Intersect,
+    /// The rows of each kind of shape and matter are listed.
+    Classify,
+    /// Position, normal and error bound of what was hit; each kind fills its own rows.
+    Surface,
+    /// What a ray that met nothing brings back.
+    Background,
+    /// Rays from surfaces towards lights.
+    Aim,
+    /// Every light counts as seen, before anything is met on the way to it.
+    Unblock,
+    /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
+    Occlude,
+    /// Light that arrives is added up.
+    Shade,
+    /// Where a reader asked to see a column, it is painted instead.
+    View,
+    /// Radiance joins the film's sums.
+    Film,
+}
+
+impl TileSystems {
+    /// All sets in order.
+    pub const ALL: [Self; 16] = [
+        Self::Raster,
+        Self::Ndc,
+        Self::Screen,
+        Self::Camera,
+        Self::World,
+        Self::Start,
+        Self::Intersect,
+        Self::Classify,
+        Self::Surface,
+        Self::Background,
+        Self::Aim,
+        Self::Unblock,
+        Self::Occlude,
+        Self::Shade,
+        Self::View,
+        Self::Film,
+    ];
+
+    /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
+    /// independently of the others.
+    pub fn order_free(self) -> bool {
+        matches!(self, Self::Start | Self::Intersect | Self::Surface | Self::Occlude)
+    }
+}

@@ -1,0 +1,116 @@
+use super::ScreenPoints;
+use crate::extract::{PinholeLens, ViewRectangle};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::scene::{OrthographicCamera, PerspectiveCamera};
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
+use multiversion::multiversion;
+
+column! {
+    /// Rays of a camera that stands at the origin and looks down −z; directions are unit vectors.
+    pub struct CameraRays("camera", "camera", "scene units", Ray) {
+        /// Origin, to the right.
+        ox: f64,
+        /// Origin, upward.
+        oy: f64,
+        /// Origin, backward.
+        oz: f64,
+        /// Direction, to the right.
+        dx: f64,
+        /// Direction, upward.
+        dy: f64,
+        /// Direction, backward.
+        dz: f64,
+    }
+}
+
+impl CameraRays {
+    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.dx[row], self.dy[row], self.dz[row]].map(|part| (0.5 + 0.5 * part) as f32)
+    }
+}
+
+// ANCHOR: camera_ray_perspective
+/// The direction from the eye at the origin through a screen point on the image plane at z = −1.
+#[inline(always)]
+pub fn camera_ray_perspective(screen: DVec2, tan_half_vertical: f64) -> DVec3 {
+    let point = DVec3::new(screen.x * tan_half_vertical, screen.y * tan_half_vertical, -1.0);
+    point / (point.x * point.x + point.y * point.y + 1.0).sqrt()
+}
+// ANCHOR_END: camera_ray_perspective
+
+// ANCHOR: camera_ray_orthographic
+/// The origin of the ray that starts at a screen point of the view rectangle; its direction is −z.
+#[inline(always)]
+pub fn camera_ray_orthographic(screen: DVec2, half_height: f64) -> DVec3 {
+    DVec3::new(screen.x * half_height, screen.y * half_height, 0.0)
+}
+// ANCHOR_END: camera_ray_orthographic
+
+/// Fills a tile's camera rays for a perspective camera; their origins stay 0.
+pub fn fill_perspective(lens: Res<Shared<PinholeLens>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+    for (screen, mut rays) in &mut tiles {
+        perspective_rows(screen, lens.tan_half_vertical, &mut rays);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn perspective_rows(screen: &ScreenPoints, tan_half_vertical: f64, rays: &mut CameraRays) {
+    let rows = screen.rows();
+    let (x, y) = screen.slices();
+    let (_, _, _, dx, dy, dz) = rays.slices_mut(rows);
+    for row in 0..rows {
+        let direction = camera_ray_perspective(DVec2::new(x[row], y[row]), tan_half_vertical);
+        (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+    }
+}
+
+/// Fills a tile's camera rays for an orthographic camera; their directions are all −z.
+pub fn fill_orthographic(view: Res<Shared<ViewRectangle>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+    for (screen, mut rays) in &mut tiles {
+        let rows = screen.rows();
+        let (x, y) = screen.slices();
+        let (ox, oy, _, _, _, dz) = rays.slices_mut(rows);
+        for row in 0..rows {
+            let origin = camera_ray_orthographic(DVec2::new(x[row], y[row]), view.half_height);
+            (ox[row], oy[row], dz[row]) = (origin.x, origin.y, -1.0);
+        }
+    }
+}
+
+/// The stage on offer for perspective cameras.
+pub fn perspective_stage() -> Stage {
+    Stage::new("Aim rays from the eye", TileSystems::Camera, fill_perspective)
+        .kind(StageKind::Alternative)
+        .reads::<ScreenPoints>()
+        .writes::<CameraRays>()
+        .table::<PinholeLens>()
+        .when(|scene| Evidence::of::<PerspectiveCamera>(scene, "perspective camera"))
+}
+
+/// The stage on offer for orthographic cameras.
+pub fn orthographic_stage() -> Stage {
+    Stage::new("Start rays on the rectangle", TileSystems::Camera, fill_orthographic)
+        .kind(StageKind::Alternative)
+        .reads::<ScreenPoints>()
+        .writes::<CameraRays>()
+        .table::<ViewRectangle>()
+        .when(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_centre_looks_straight_ahead_to_the_last_bit() {
+        assert_eq!(camera_ray_perspective(DVec2::ZERO, 0.7), DVec3::NEG_Z);
+    }
+
+    #[test]
+    fn at_a_right_angle_the_edge_looks_up_as_much_as_ahead() {
+        let direction = camera_ray_perspective(DVec2::Y, crate::extract::tan_half(crate::scene::Degrees(90.0)));
+        assert!((direction.y + direction.z).abs() < 1e-15 && (direction.length() - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,27 @@
+//! Raster → NDC → screen → camera → world: a ray for every pixel, one file a space.
+//!
+//! Reads: the tile's rectangle, the image's shape, the camera's lens and axes.
+//! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
+//! Each file holds the pure function of one row and the system that fills the column with it.
+
+mod camera;
+mod ndc;
+mod raster;
+mod screen;
+mod world;
+
+pub use camera::{
+    CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
+    orthographic_stage, perspective_stage,
+};
+pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
+pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
+pub use world::{WorldRays, fill_world, world_stage};
+
+use crate::plan::Stage;
+
+/// All of ray generation as one closed box, for chapters that have not opened it yet.
+pub fn stages() -> Vec<Stage> {
+    vec![raster_stage(), ndc_stage(), screen_stage(), perspective_stage(), orthographic_stage(), world_stage()]
+}

@@ -1,0 +1,72 @@
+use super::RasterPoints;
+use super::raster::aligned_rows;
+use crate::extract::ImageShape;
+use crate::plan::{Shared, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use multiversion::multiversion;
+
+column! {
+    /// Points of the image in normalised device coordinates: (0, 0) the top left corner, (1, 1) the bottom right.
+    pub struct NdcPoints("ndc", "NDC", "image size", Pixel) {
+        /// To the right.
+        x: f64,
+        /// Downward.
+        y: f64,
+    }
+}
+
+impl NdcPoints {
+    /// Red grows to the right, green downward.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.x[row] as f32, self.y[row] as f32, 0.0]
+    }
+}
+
+// ANCHOR: ndc_from_raster
+/// A raster point, freed of the image's size in pixels.
+#[inline(always)]
+pub fn ndc_from_raster(raster: DVec2, size: DVec2) -> DVec2 {
+    raster / size
+}
+// ANCHOR_END: ndc_from_raster
+
+/// Fills a tile's NDC points.
+pub fn fill_ndc(image: Res<Shared<ImageShape>>, mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
+    for (raster, mut ndc) in &mut tiles {
+        ndc_rows(raster, image.size(), &mut ndc);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn ndc_rows(raster: &RasterPoints, size: DVec2, ndc: &mut NdcPoints) {
+    let rows = aligned_rows(raster);
+    let (raster_x, raster_y) = raster.slices();
+    let (x, y) = ndc.slices_mut(rows);
+    for row in 0..rows {
+        let ndc = ndc_from_raster(DVec2::new(raster_x[row], raster_y[row]), size);
+        (x[row], y[row]) = (ndc.x, ndc.y);
+    }
+}
+
+/// The stage on offer.
+pub fn ndc_stage() -> Stage {
+    Stage::new("Free points of the image's size", TileSystems::Ndc, fill_ndc)
+        .reads::<RasterPoints>()
+        .writes::<NdcPoints>()
+        .table::<ImageShape>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rays::raster_from_pixel;
+
+    #[test]
+    fn corners_go_to_corners_and_the_centre_to_a_half() {
+        let size = DVec2::new(200.0, 100.0);
+        assert_eq!(ndc_from_raster(DVec2::ZERO, size), DVec2::ZERO);
+        assert_eq!(ndc_from_raster(size, size), DVec2::ONE);
+        assert_eq!(ndc_from_raster(raster_from_pixel(0, 0), DVec2::ONE), DVec2::new(0.5, 0.5));
+    }
+}

@@ -1,0 +1,109 @@
+use crate::plan::{Column, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+/// A rectangle of the image's pixels; the entity that carries it holds the columns, a row a pixel.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tile {
+    /// Its first pixel from the left.
+    pub x: u32,
+    /// Its first pixel from the top.
+    pub y: u32,
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+}
+
+impl Tile {
+    /// Pixels, and so rows.
+    pub fn rows(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// The row of a pixel of the image, if the tile holds it.
+    pub fn row_of(&self, x: u32, y: u32) -> Option<usize> {
+        let (column, line) = (x.checked_sub(self.x)?, y.checked_sub(self.y)?);
+        (column < self.width && line < self.height).then(|| line as usize * self.width as usize + column as usize)
+    }
+
+    /// The pixel of the image that a row is.
+    pub fn pixel_of(&self, row: usize) -> [u32; 2] {
+        let row = row as u32;
+        [self.x + row % self.width, self.y + row / self.width]
+    }
+}
+
+column! {
+    /// Points of the image in pixels: origin at the top left corner, y down.
+    pub struct RasterPoints("raster", "raster", "pixels", Pixel) {
+        /// To the right.
+        x: f64,
+        /// Downward.
+        y: f64,
+    }
+}
+
+impl RasterPoints {
+    /// Red grows to the right, green downward.
+    fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
+        [(self.x[row] / f64::from(size[0])) as f32, (self.y[row] / f64::from(size[1])) as f32, 0.0]
+    }
+}
+
+// ANCHOR: raster_from_pixel
+/// The centre of a pixel in raster space: a pixel is a unit square, and its number names the square's top left corner.
+#[inline(always)]
+pub fn raster_from_pixel(x: u32, y: u32) -> DVec2 {
+    DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
+}
+// ANCHOR_END: raster_from_pixel
+
+// ANCHOR: fill_raster
+/// Fills a tile's raster points, row by row of the image.
+pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
+    for (tile, mut raster) in &mut tiles {
+        let (xs, ys) = raster.slices_mut(tile.rows());
+        let lines = xs.chunks_mut(tile.width as usize).zip(ys.chunks_mut(tile.width as usize));
+        for (y, (xs, ys)) in (tile.y..).zip(lines) {
+            for (x, (raster_x, raster_y)) in (tile.x..).zip(xs.iter_mut().zip(ys)) {
+                let raster = raster_from_pixel(x, y);
+                (*raster_x, *raster_y) = (raster.x, raster.y);
+            }
+        }
+    }
+}
+// ANCHOR_END: fill_raster
+
+// ANCHOR: raster_stage
+/// The stage on offer.
+pub fn raster_stage() -> Stage {
+    Stage::new("Place raster points", TileSystems::Raster, fill_raster).writes::<RasterPoints>()
+}
+// ANCHOR_END: raster_stage
+
+/// How many rows a tile's raster points have; every aligned column has as many.
+pub(crate) fn aligned_rows(raster: &RasterPoints) -> usize {
+    raster.rows()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_pixel_s_centre_is_half_a_pixel_from_both_edges() {
+        assert_eq!(raster_from_pixel(0, 0), DVec2::new(0.5, 0.5));
+    }
+
+    #[test]
+    fn rows_and_pixels_lead_back_to_each_other() {
+        let tile = Tile { x: 64, y: 32, width: 7, height: 5 };
+        for row in 0..tile.rows() {
+            let [x, y] = tile.pixel_of(row);
+            assert_eq!(tile.row_of(x, y), Some(row));
+        }
+        assert_eq!(tile.row_of(63, 32), None);
+        assert_eq!(tile.row_of(71, 32), None);
+    }
+}

@@ -1,0 +1,70 @@
+use super::NdcPoints;
+use crate::extract::ImageShape;
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use multiversion::multiversion;
+
+column! {
+    /// Points of the image with the centre at the origin and y up, from −1 to 1 in height and as wide as its shape.
+    pub struct ScreenPoints("screen", "screen", "half heights", Pixel) {
+        /// To the right, from −aspect to aspect.
+        x: f64,
+        /// Upward, from −1 to 1.
+        y: f64,
+    }
+}
+
+impl ScreenPoints {
+    /// Red grows to the right, green upward; the centre is half of each.
+    fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
+        let aspect = f64::from(size[0]) / f64::from(size[1]);
+        [(0.5 + 0.5 * self.x[row] / aspect) as f32, (0.5 + 0.5 * self.y[row]) as f32, 0.0]
+    }
+}
+
+// ANCHOR: screen_from_ndc
+/// An NDC point on the screen: the centre at the origin, y up, and x as much longer as the image is wider than high.
+#[inline(always)]
+pub fn screen_from_ndc(ndc: DVec2, aspect: f64) -> DVec2 {
+    DVec2::new((2.0 * ndc.x - 1.0) * aspect, 1.0 - 2.0 * ndc.y)
+}
+// ANCHOR_END: screen_from_ndc
+
+/// Fills a tile's screen points.
+pub fn fill_screen(image: Res<Shared<ImageShape>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>) {
+    for (ndc, mut screen) in &mut tiles {
+        screen_rows(ndc, image.aspect(), &mut screen);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn screen_rows(ndc: &NdcPoints, aspect: f64, screen: &mut ScreenPoints) {
+    let rows = ndc.rows();
+    let (ndc_x, ndc_y) = ndc.slices();
+    let (x, y) = screen.slices_mut(rows);
+    for row in 0..rows {
+        let screen = screen_from_ndc(DVec2::new(ndc_x[row], ndc_y[row]), aspect);
+        (x[row], y[row]) = (screen.x, screen.y);
+    }
+}
+
+/// The stage on offer.
+pub fn screen_stage() -> Stage {
+    Stage::new("Centre points on the screen", TileSystems::Screen, fill_screen)
+        .reads::<NdcPoints>()
+        .writes::<ScreenPoints>()
+        .table::<ImageShape>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_lie_at_aspect_and_one() {
+        assert_eq!(screen_from_ndc(DVec2::ZERO, 2.0), DVec2::new(-2.0, 1.0));
+        assert_eq!(screen_from_ndc(DVec2::ONE, 2.0), DVec2::new(2.0, -1.0));
+        assert_eq!(screen_from_ndc(DVec2::splat(0.5), 2.0), DVec2::ZERO);
+    }
+}

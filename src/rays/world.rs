@@ -1,0 +1,77 @@
+use super::CameraRays;
+use crate::extract::{CameraAxes, ViewRectangle};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+use multiversion::multiversion;
+
+column! {
+    /// Rays along the world's axes with the eye at the origin: render space.
+    pub struct WorldRays("world", "world, from the eye", "scene units", Ray) {
+        /// Origin, x.
+        ox: f32,
+        /// Origin, y.
+        oy: f32,
+        /// Origin, z.
+        oz: f32,
+        /// Direction, x; the three are a unit vector.
+        dx: f32,
+        /// Direction, y.
+        dy: f32,
+        /// Direction, z.
+        dz: f32,
+    }
+}
+
+impl WorldRays {
+    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+}
+
+/// Fills a tile's world rays: directions turned as the camera is, origins too where a camera's rays have several.
+///
+/// The camera's position does not occur: render space has it at the origin.
+pub fn fill_world(
+    axes: Res<Shared<CameraAxes>>,
+    many_origins: Option<Res<Shared<ViewRectangle>>>,
+    mut tiles: Query<(&CameraRays, &mut WorldRays)>,
+) {
+    for (camera, mut world) in &mut tiles {
+        direction_rows(camera, axes.world_from_camera, &mut world);
+        if many_origins.is_some() {
+            origin_rows(camera, axes.world_from_camera, &mut world);
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn direction_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
+    let rows = camera.rows();
+    let (_, _, _, x, y, z) = camera.slices();
+    let (_, _, _, dx, dy, dz) = world.slices_mut(rows);
+    for row in 0..rows {
+        let direction = (world_from_camera * DVec3::new(x[row], y[row], z[row])).as_vec3();
+        (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn origin_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
+    let rows = camera.rows();
+    let (x, y, z, _, _, _) = camera.slices();
+    let (ox, oy, oz, _, _, _) = world.slices_mut(rows);
+    for row in 0..rows {
+        let origin = (world_from_camera * DVec3::new(x[row], y[row], z[row])).as_vec3();
+        (ox[row], oy[row], oz[row]) = (origin.x, origin.y, origin.z);
+    }
+}
+
+/// The stage on offer.
+pub fn world_stage() -> Stage {
+    Stage::new("Turn rays into the world", TileSystems::World, fill_world)
+        .reads::<CameraRays>()
+        .writes::<WorldRays>()
+        .table::<CameraAxes>()
+}

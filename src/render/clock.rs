@@ -1,0 +1,55 @@
+use super::Hook;
+use crate::plan::{ColumnKind, Plan};
+use crate::rays::Tile;
+use bevy_ecs::prelude::*;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What a stage took over all tiles of a worker.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lap {
+    /// Time within the stage.
+    pub time: Duration,
+    /// Rows of the column it wrote.
+    pub rows: u64,
+}
+
+/// A stopwatch of one worker's stages; exists only where statistics are asked for.
+#[derive(Resource, Debug)]
+pub struct StageClock {
+    last: Instant,
+    /// One a kept stage, in the plan's order.
+    pub laps: Vec<Lap>,
+}
+
+impl StageClock {
+    /// A stopwatch for as many stages as the plan keeps.
+    pub fn new(plan: &Plan) -> Self {
+        Self { last: Instant::now(), laps: vec![Lap::default(); plan.stages.len()] }
+    }
+
+    /// Before the first stage of a tile.
+    pub fn start(&mut self) {
+        self.last = Instant::now();
+    }
+
+    fn lap(&mut self, slot: usize, ended: Instant, rows: u64) {
+        self.laps[slot].time += ended - self.last;
+        self.laps[slot].rows += rows;
+        self.start();
+    }
+}
+
+/// A system after each stage that takes its lap; its own work falls between two laps.
+pub(super) fn clock_hook() -> Hook {
+    Arc::new(|slot, stage, plan| {
+        let written: Option<ColumnKind> =
+            plan.columns.iter().copied().find(|column| stage.writes.iter().any(|own| own.name == column.name));
+        let take_lap = move |world: &mut World, tiles: &mut QueryState<EntityRef<'static>, With<Tile>>| {
+            let ended = Instant::now();
+            let rows = written.map_or(0, |column| tiles.iter(world).map(|tile| (column.rows)(&tile) as u64).sum());
+            world.resource_mut::<StageClock>().lap(slot, ended, rows);
+        };
+        take_lap.into_configs()
+    })
+}

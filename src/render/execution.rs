@@ -1,0 +1,46 @@
+use bevy_ecs::schedule::Schedule;
+use std::sync::Arc;
+
+/// How many worlds hold the tiles while they run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Worlds {
+    /// One a worker, which runs tile after tile in it; memory does not grow with the frame.
+    #[default]
+    PerWorker,
+    /// One for all tiles at once, so that every column can be read afterwards.
+    One,
+}
+
+/// How to execute a plan; nothing here can change a bit of the image.
+#[derive(Clone)]
+pub struct Execution {
+    /// Workers; none for as many as the machine has cores.
+    pub threads: Option<usize>,
+    /// The side of a full tile, in pixels.
+    pub tile_side: u32,
+    /// How many worlds hold the tiles.
+    pub worlds: Worlds,
+    /// Runs the schedule of further legs this many times a tile even if it is empty, to measure what it costs.
+    pub bounces: Option<u32>,
+    /// A last say over each worker's schedule, for tests that shuffle its order.
+    pub arrange: Option<Arc<dyn Fn(&mut Schedule) + Send + Sync>>,
+}
+
+impl Default for Execution {
+    fn default() -> Self {
+        Self { threads: None, tile_side: 32, worlds: Worlds::default(), bounces: None, arrange: None }
+    }
+}
+
+/// Someone who waits for a render: is told of progress, and may stop it between two tiles.
+pub trait Watch: Sync {
+    /// A tile is done.
+    fn tile_done(&self) {}
+    /// Whether to stop.
+    fn stopped(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody waits.
+impl Watch for () {}

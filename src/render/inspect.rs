@@ -1,0 +1,73 @@
+use super::Execution;
+use super::clock::{Lap, StageClock};
+use super::render_world::{Hook, RenderWorld, prepare};
+use crate::Result;
+use crate::extract::ImageShape;
+use crate::film::{Film, FilmTile};
+use crate::plan::{ExtractedTable, Plan, Stage, Table};
+use crate::rays::Tile;
+use bevy_ecs::prelude::*;
+
+/// A frame whose every column is still there to be read.
+pub struct Inspection {
+    /// What ran and what did not.
+    pub plan: Plan,
+    /// The world that holds all tiles.
+    pub world: World,
+    /// The entities that hold columns, left to right, then down.
+    pub tiles: Vec<Entity>,
+    /// The image's shape.
+    pub image: ImageShape,
+}
+
+/// Runs the kept stages over the whole frame in one world and keeps that world.
+pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspection> {
+    let image = ImageShape::extract(scene)?;
+    let film = Film::new(image.width, image.height, tile_side);
+    inspect_film(scene, offer, image, film, &[])
+}
+
+/// Runs the kept stages over the one tile that holds a pixel; hooks follow each stage.
+pub fn inspect_tile(scene: &World, offer: &[Stage], pixel: [u32; 2], hooks: &[Hook]) -> Result<Inspection> {
+    let image = ImageShape::extract(scene)?;
+    let side = Execution::default().tile_side;
+    let [x, y] = pixel.map(|along| along / side * side);
+    let tile = Tile { x, y, width: side.min(image.width - x), height: side.min(image.height - y) };
+    let film = Film { width: image.width, height: image.height, tile_side: side, tiles: vec![FilmTile::new(tile)] };
+    inspect_film(scene, offer, image, film, hooks)
+}
+
+fn inspect_film(
+    scene: &World,
+    offer: &[Stage],
+    image: ImageShape,
+    mut film: Film,
+    hooks: &[Hook],
+) -> Result<Inspection> {
+    let (plan, tables) = prepare(scene, offer)?;
+    let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
+    swap_all(&mut frame, &mut film);
+    frame.run();
+    Ok(Inspection { plan, world: frame.world, tiles: frame.tiles, image })
+}
+
+/// Renders all tiles in one world.
+pub(super) fn run_in_one_world(
+    plan: &Plan,
+    tables: &[ExtractedTable],
+    execution: &Execution,
+    film: &mut Film,
+) -> Vec<Lap> {
+    let mut frame = RenderWorld::new(plan, tables, film.tiles.len(), execution, &[]);
+    swap_all(&mut frame, film);
+    frame.run();
+    swap_all(&mut frame, film);
+    frame.world.remove_resource::<StageClock>().map_or_else(Vec::new, |clock| clock.laps)
+}
+
+/// Lends every part of the film to its tile, or takes all back.
+fn swap_all(frame: &mut RenderWorld, film: &mut Film) {
+    for (tile, film_tile) in frame.tiles.clone().into_iter().zip(&mut film.tiles) {
+        frame.swap_film(tile, film_tile);
+    }
+}

@@ -1,0 +1,21 @@
+//! The loop over tiles: a world a worker, or one world for all.
+//!
+//! Reads: a scene, the stages on offer, how to execute.
+//! Writes: the [`Film`](crate::film::Film), what ran and how long it took.
+//! `rayon` appears here and nowhere else; no stage knows of threads.
+
+mod bounce;
+mod clock;
+mod execution;
+mod inspect;
+mod memory;
+mod render_world;
+mod workers;
+
+pub use bounce::follow_bounces;
+pub use clock::{Lap, StageClock};
+pub use execution::{Execution, Watch, Worlds};
+pub use inspect::{Inspection, inspect, inspect_tile};
+pub use memory::peak_memory;
+pub use render_world::{Hook, RenderWorld, prepare};
+pub use workers::{Rendered, render};

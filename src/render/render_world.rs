@@ -1,0 +1,117 @@
+use super::clock::{StageClock, clock_hook};
+use super::{Execution, follow_bounces};
+use crate::Result;
+use crate::extract::validate;
+use crate::film::FilmTile;
+use crate::plan::{Bounce, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
+use crate::rays::Tile;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
+use bevy_ecs::system::ScheduleSystem;
+use std::mem;
+use std::sync::Arc;
+
+/// Makes a system to be run right after each stage: for clocks and recorders, never for the picture.
+pub type Hook = Arc<dyn Fn(usize, &Stage, &Plan) -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
+
+/// Checks a scene, plans it, and reads its tables.
+///
+/// Errors: what the scene is refused for, or why there is no plan.
+pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
+    validate(scene)?;
+    let plan = plan(scene, offer)?;
+    let tables = plan.tables.iter().map(|table| (table.extract)(scene)).collect::<std::result::Result<Vec<_>, _>>()?;
+    Ok((plan, tables))
+}
+
+/// One worker's world: tiles with their columns, the shared tables, and the schedule that the plan built.
+pub struct RenderWorld {
+    /// Tiles and tables.
+    pub world: World,
+    /// The kept stages in order.
+    pub schedule: Schedule,
+    /// The entities that hold columns.
+    pub tiles: Vec<Entity>,
+}
+
+impl RenderWorld {
+    /// A world with room for `tiles` tiles at once.
+    pub fn new(plan: &Plan, tables: &[ExtractedTable], tiles: usize, execution: &Execution, hooks: &[Hook]) -> Self {
+        let mut world = World::new();
+        for table in tables {
+            (table.insert)(&mut world);
+        }
+        let tiles = (0..tiles).map(|_| spawn_tile(&mut world, plan)).collect();
+        let mut hooks = hooks.to_vec();
+        if plan.statistics {
+            world.insert_resource(StageClock::new(plan));
+            hooks.push(clock_hook());
+        }
+        let mut schedule = schedule_of(plan, &hooks);
+        if let Some(legs) = execution.bounces {
+            world.add_schedule(empty_bounce());
+            let follow = move |world: &mut World| follow_bounces(world, legs);
+            schedule.add_systems(follow.after(TileSystems::Shade).before(TileSystems::View));
+        }
+        if let Some(arrange) = &execution.arrange {
+            arrange(&mut schedule);
+        }
+        Self { world, schedule, tiles }
+    }
+
+    /// Lends a part of the film to a tile's entity, or takes it back: the two change places.
+    pub fn swap_film(&mut self, tile: Entity, film: &mut FilmTile) {
+        let mut entity = self.world.entity_mut(tile);
+        if let Some(mut place) = entity.get_mut::<Tile>() {
+            *place = film.tile;
+        }
+        if let Some(mut own) = entity.get_mut::<FilmTile>() {
+            mem::swap(&mut *own, film);
+        }
+    }
+
+    /// Runs every kept stage once over all tiles of this world.
+    pub fn run(&mut self) {
+        if let Some(mut clock) = self.world.get_resource_mut::<StageClock>() {
+            clock.start();
+        }
+        self.schedule.run(&mut self.world);
+    }
+}
+
+fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
+    let mut tile = world.spawn(Tile::default());
+    for column in &plan.columns {
+        (column.insert)(&mut tile);
+    }
+    tile.id()
+}
+
+fn schedule_of(plan: &Plan, hooks: &[Hook]) -> Schedule {
+    let mut schedule = Schedule::new(Sample);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    for pair in TileSystems::ALL.windows(2) {
+        schedule.configure_sets(pair[0].before(pair[1]));
+    }
+    for (slot, stage) in plan.stages.iter().enumerate() {
+        let mut system = (stage.system)().in_set(stage.set).in_set(Slot(slot));
+        if stage.set.order_free() {
+            system = system.ambiguous_with(stage.set);
+        }
+        schedule.add_systems(system);
+        for hook in hooks {
+            let hook = hook(slot, stage, plan);
+            schedule.add_systems(hook.after(Slot(slot)).before(Slot(slot + 1)));
+        }
+        if !hooks.is_empty() {
+            schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
+        }
+    }
+    schedule
+}
+
+fn empty_bounce() -> Schedule {
+    let mut schedule = Schedule::new(Bounce);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule
+}

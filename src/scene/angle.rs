@@ -1,0 +1,10 @@
+/// An angle in degrees, so that no call site has to say or guess its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct Degrees(pub f64);
+
+impl Degrees {
+    /// The same angle in radians.
+    pub fn radians(self) -> f64 {
+        self.0 * (std::f64::consts::PI / 180.0)
+    }
+}

@@ -1,0 +1,11 @@
+use super::Rgb;
+use bevy_ecs::prelude::*;
+
+/// The radiance that a ray which meets nothing brings back; black where a scene has none.
+///
+/// At most one entity may carry it.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Background {
+    /// Linear Rec. 709 radiance, each part finite and at least 0.
+    pub colour: Rgb,
+}

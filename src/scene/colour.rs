@@ -1,0 +1,39 @@
+use glam::DVec3;
+
+/// Red, green and blue in linear Rec. 709: twice the number is twice the light.
+///
+/// What it measures (a reflectance, a radiance, an intensity) is said by the field that holds it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rgb {
+    /// Red.
+    pub r: f64,
+    /// Green.
+    pub g: f64,
+    /// Blue.
+    pub b: f64,
+}
+
+impl Rgb {
+    /// No light at all.
+    pub const BLACK: Self = Self::grey(0.0);
+
+    /// A colour from its three parts.
+    pub const fn new(r: f64, g: f64, b: f64) -> Self {
+        Self { r, g, b }
+    }
+
+    /// The same amount of all three.
+    pub const fn grey(value: f64) -> Self {
+        Self::new(value, value, value)
+    }
+
+    /// The three parts in order.
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.r, self.g, self.b]
+    }
+
+    /// The three parts as a vector, for arithmetic.
+    pub const fn to_vec(self) -> DVec3 {
+        DVec3::new(self.r, self.g, self.b)
+    }
+}

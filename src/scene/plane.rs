@@ -1,0 +1,17 @@
+use super::Placement;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// An endless plane through the entity's position.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[require(Placement)]
+pub struct Plane {
+    /// Perpendicular to the plane, in the entity's space; any length but 0.
+    pub normal: DVec3,
+}
+
+impl Default for Plane {
+    fn default() -> Self {
+        Self { normal: DVec3::Y }
+    }
+}

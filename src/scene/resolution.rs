@@ -1,0 +1,16 @@
+use bevy_ecs::prelude::*;
+
+/// How many pixels a camera's image has; everything else about its shape follows from this.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resolution {
+    /// Pixels from left to right, at least 1.
+    pub width: u32,
+    /// Pixels from top to bottom, at least 1.
+    pub height: u32,
+}
+
+impl Default for Resolution {
+    fn default() -> Self {
+        Self { width: 480, height: 270 }
+    }
+}

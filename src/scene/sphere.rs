@@ -1,0 +1,16 @@
+use super::Placement;
+use bevy_ecs::prelude::*;
+
+/// A sphere about the entity's position.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[require(Placement)]
+pub struct Sphere {
+    /// In scene units, above 0.
+    pub radius: f64,
+}
+
+impl Default for Sphere {
+    fn default() -> Self {
+        Self { radius: 1.0 }
+    }
+}

@@ -1,0 +1,146 @@
+use super::{Radiance, ShadowHits};
+use crate::extract::{MatteTable, PointLightTable, matte_evidence};
+use crate::intersect::{MatteRows, NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::scene::PointLight;
+use bevy_ecs::prelude::*;
+use glam::{DVec3, Vec3};
+
+column! {
+    /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if it gets there.
+    pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
+        /// The row of the tile whose surface it starts on.
+        path: u32,
+        /// Origin, x: off the surface by its bound.
+        ox: f32,
+        /// Origin, y.
+        oy: f32,
+        /// Origin, z.
+        oz: f32,
+        /// Direction to the light, x; the three are a unit vector.
+        dx: f32,
+        /// Direction, y.
+        dy: f32,
+        /// Direction, z.
+        dz: f32,
+        /// The distance before which something in between counts; 0 for a light without shadows.
+        reach: f32,
+        /// The radiance it brings to its path, red.
+        r: f32,
+        /// Green.
+        g: f32,
+        /// Blue.
+        b: f32,
+    }
+}
+
+impl LightRays {
+    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+}
+
+impl RayColumn for LightRays {
+    fn ray_lanes(&self) -> RayLanes<'_> {
+        RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    }
+}
+
+// ANCHOR: reflected_radiance
+/// What a matte surface sends towards the eye of a point light's intensity I: (colour / π) · I cos θ / d².
+///
+/// The same in all directions (Lambert); the light thins out with the square of the distance and with the slant at
+/// which it falls.
+#[inline(always)]
+pub fn reflected_radiance(colour: [f64; 3], intensity: [f64; 3], cosine: f64, distance_squared: f64) -> [f64; 3] {
+    let share = cosine * std::f64::consts::FRAC_1_PI / distance_squared;
+    [colour[0] * intensity[0] * share, colour[1] * intensity[1] * share, colour[2] * intensity[2] * share]
+}
+// ANCHOR_END: reflected_radiance
+
+/// A ray from a surface to a light: its origin, direction, and distance; or none where the surface faces away.
+#[inline(always)]
+fn aim(surface: &Surface, light: DVec3) -> Option<(Vec3, Vec3, f64, f64)> {
+    let origin = offset_origin(surface.position, surface.normal, surface.bound);
+    let to_light = light - origin.as_dvec3();
+    let distance = to_light.length();
+    let direction = (to_light / distance).as_vec3();
+    let cosine = surface.normal.as_dvec3().dot(direction.as_dvec3());
+    (cosine > 0.0).then_some((origin, direction, distance, cosine))
+}
+
+/// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
+#[inline(always)]
+fn shadow_reach(distance: f64) -> f32 {
+    (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
+}
+
+/// Fills a tile's light rays.
+pub fn aim_at_lights(
+    lights: Res<Shared<PointLightTable>>,
+    mattes: Res<Shared<MatteTable>>,
+    mut tiles: Query<(&Surfaces, &MatteRows, &mut LightRays)>,
+) {
+    for (surfaces, list, mut rays) in &mut tiles {
+        let mut length = 0;
+        let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.rows() * lights.position.len());
+        for (light, &position) in lights.position.iter().enumerate() {
+            for &row in &list.row {
+                let surface = surfaces.get(row as usize);
+                let Some((origin, direction, distance, cosine)) = aim(&surface, position) else { continue };
+                let colour = mattes.colour[surface.matte as usize];
+                let brings = reflected_radiance(colour, lights.intensity[light], cosine, distance * distance);
+                path[length] = row;
+                (ox[length], oy[length], oz[length]) = origin.into();
+                (dx[length], dy[length], dz[length]) = direction.into();
+                reach[length] = if lights.casts_shadows[light] { shadow_reach(distance) } else { 0.0 };
+                (r[length], g[length], b[length]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
+                length += 1;
+            }
+        }
+        rays.slices_mut(length);
+    }
+}
+
+/// Adds what each light ray brings to its path, unless something stands in between.
+pub fn add_light(mut tiles: Query<(&LightRays, Option<&ShadowHits>, &mut Radiance)>) {
+    for (rays, hits, mut radiance) in &mut tiles {
+        for ray in 0..rays.rows() {
+            if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+                continue;
+            }
+            let path = rays.path[ray] as usize;
+            radiance.r[path] += rays.r[ray];
+            radiance.g[path] += rays.g[ray];
+            radiance.b[path] += rays.b[ray];
+        }
+    }
+}
+
+/// The stage that aims.
+pub fn aim_stage() -> Stage {
+    Stage::new("Aim at lights", TileSystems::Aim, aim_at_lights)
+        .reads::<Surfaces>()
+        .reads::<MatteRows>()
+        .writes::<LightRays>()
+        .table::<PointLightTable>()
+        .table::<MatteTable>()
+        .when(lit_evidence)
+}
+
+/// The stage that adds.
+pub fn light_stage() -> Stage {
+    Stage::new("Add the light that arrives", TileSystems::Shade, add_light)
+        .kind(StageKind::Alternative)
+        .reads::<LightRays>()
+        .reads_if::<ShadowHits>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .when(lit_evidence)
+}
+
+/// Evidence that there is a light and matter that it can fall on.
+pub fn lit_evidence(scene: &World) -> Evidence {
+    Evidence::of::<PointLight>(scene, "point light").and(matte_evidence(scene))
+}

@@ -1,0 +1,31 @@
+//! Surfaces → light: what each ray brings back.
+//!
+//! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of matter and lights.
+//! Writes: [`LightRays`] towards lights, [`ShadowHits`] on the way there, [`Radiance`] in linear Rec. 709.
+//! Space: render space.
+
+mod background;
+mod flat;
+mod light;
+mod radiance;
+mod shadow;
+
+pub use background::{add_background, background_stage};
+pub use flat::{flat_stage, shade_flat};
+pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance};
+pub use radiance::{Radiance, start_radiance, start_stage};
+pub use shadow::{ShadowHits, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows};
+
+use crate::plan::Stage;
+
+/// What light does at surfaces, with shadows, and what is behind everything.
+pub fn stages() -> Vec<Stage> {
+    let mut stages = unlit_stages();
+    stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), plane_shadow_stage(), light_stage()]);
+    stages
+}
+
+/// A surface's own colour where a scene has no light, and what is behind everything.
+pub fn unlit_stages() -> Vec<Stage> {
+    vec![start_stage(), background_stage(), flat_stage()]
+}

@@ -1,0 +1,40 @@
+use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::rays::RasterPoints;
+use bevy_ecs::prelude::*;
+
+column! {
+    /// The light that comes back along each ray.
+    pub struct Radiance("radiance", "light", "linear Rec. 709", Path) {
+        /// Red.
+        r: f32,
+        /// Green.
+        g: f32,
+        /// Blue.
+        b: f32,
+    }
+}
+
+impl Radiance {
+    /// The numbers themselves, without the curve that the picture gets.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row], self.g[row], self.b[row]]
+    }
+}
+
+/// Sets every row of a tile's radiance to black.
+pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
+    for (raster, mut radiance) in &mut tiles {
+        let (r, g, b) = radiance.slices_mut(raster.rows());
+        r.fill(0.0);
+        g.fill(0.0);
+        b.fill(0.0);
+    }
+}
+
+/// The stage on offer.
+pub fn start_stage() -> Stage {
+    Stage::new("Start in the dark", TileSystems::Start, start_radiance)
+        .reads::<RasterPoints>()
+        .writes::<Radiance>()
+        .when(|_| Evidence::always("light is added to it"))
+}

@@ -1,0 +1,81 @@
+use super::LightRays;
+use crate::extract::{PlaneTable, SphereTable, matte_evidence};
+use crate::intersect::{HitColumn, NO_SHAPE, intersect_planes, intersect_spheres};
+use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::scene::{Plane, PointLight, Sphere};
+use bevy_ecs::prelude::*;
+
+column! {
+    /// What stands between a surface and a light.
+    pub struct ShadowHits("shadow", "along the light ray", "scene units", Ray) {
+        /// The distance of what stands in between, or the light ray's reach where nothing does.
+        t: f64,
+        /// The number of the shape in between; none where the light is seen.
+        shape: u32,
+        /// The row of the tile whose surface the light ray starts on.
+        path: u32,
+    }
+}
+
+impl ShadowHits {
+    /// White where the light is seen, black in shadow.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [if self.shape[row] == NO_SHAPE { 1.0 } else { 0.0 }; 3]
+    }
+}
+
+impl HitColumn for ShadowHits {
+    fn hit_lanes(&mut self) -> (&mut [f64], &mut [u32]) {
+        let rows = self.rows();
+        let (t, shape, _) = self.slices_mut(rows);
+        (t, shape)
+    }
+}
+
+/// Sets every shadow hit to nothing met within its light ray's reach.
+pub fn start_shadows(mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape, path) = hits.slices_mut(rays.rows());
+        for (t, &reach) in t.iter_mut().zip(&rays.reach) {
+            *t = f64::from(reach);
+        }
+        shape.fill(NO_SHAPE);
+        path.copy_from_slice(&rays.path);
+    }
+}
+
+/// The stage that starts.
+pub fn start_shadow_stage() -> Stage {
+    Stage::new("Start with light seen", TileSystems::Unblock, start_shadows)
+        .reads::<LightRays>()
+        .writes::<ShadowHits>()
+        .when(shadow_evidence)
+}
+
+/// The stage that intersects shadow rays with spheres.
+pub fn sphere_shadow_stage() -> Stage {
+    Stage::new("Look for spheres in the way", TileSystems::Occlude, intersect_spheres::<LightRays, ShadowHits>)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<SphereTable>()
+        .when(|scene| Evidence::of::<Sphere>(scene, "sphere").and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with planes.
+pub fn plane_shadow_stage() -> Stage {
+    Stage::new("Look for planes in the way", TileSystems::Occlude, intersect_planes::<LightRays, ShadowHits>)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<PlaneTable>()
+        .when(|scene| Evidence::of::<Plane>(scene, "plane").and(shadow_evidence(scene)))
+}
+
+/// Evidence that a light casts shadows on matter.
+pub fn shadow_evidence(scene: &World) -> Evidence {
+    Evidence::among::<With<PointLight>>(scene, "light that casts shadows", |entity| {
+        entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
+    })
+    .and(matte_evidence(scene))
+}
