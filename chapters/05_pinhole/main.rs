@@ -34,8 +34,8 @@ fn scene(world: &mut World) {
         world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(130.0), ..PointLight::default() };
+    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
-    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.02, 0.03, 0.05) }));
+    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
 }
 // ANCHOR_END: scene

@@ -37,7 +37,7 @@ fn scene(world: &mut World) {
             Name::new(format!("seed {seed}")),
             Sphere { radius },
             Placement::at(ring * libm::cos(turn), radius, ring * libm::sin(turn)),
-            Matte { colour: blend(EMBER, DEEP, f64::from(seed) / 71.0) },
+            Matte { colour: seed_colour(f64::from(seed) / 71.0) },
         ));
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.52, 0.5, 0.47) }));
@@ -52,8 +52,14 @@ fn scene(world: &mut World) {
 // ANCHOR_END: scene
 
 const PEARL: Rgb = Rgb::new(0.8, 0.78, 0.74);
-const EMBER: Rgb = Rgb::new(0.86, 0.3, 0.1);
-const DEEP: Rgb = Rgb::new(0.08, 0.26, 0.42);
+const EMBER: Rgb = Rgb::new(0.82, 0.2, 0.07);
+const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
+const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);
+
+/// From ember through gold to teal, the further out.
+fn seed_colour(way: f64) -> Rgb {
+    if way < 0.5 { blend(EMBER, GOLD, 2.0 * way) } else { blend(GOLD, TEAL, 2.0 * way - 1.0) }
+}
 
 /// A colour on the way from one to another.
 fn blend(from: Rgb, to: Rgb, way: f64) -> Rgb {
