@@ -4,6 +4,8 @@
 //! Nothing here runs in a render.
 
 pub mod exact;
+pub mod exact_angle;
+pub mod exact_vector;
 pub mod oracle_camera;
 pub mod oracle_plane;
 pub mod oracle_sphere;
@@ -11,5 +13,7 @@ pub mod ray_aim;
 
 #[cfg(test)]
 mod offset_trial;
+#[cfg(test)]
+mod plane_trial;
 #[cfg(test)]
 mod sphere_trial;

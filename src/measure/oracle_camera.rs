@@ -1,10 +1,13 @@
 //! The exact chain pixel → raster → NDC → screen → camera → world of a perspective camera.
 //!
-//! Reads: the image size, the full angle, the rotation and a pixel. Writes: each stage's value with a relative error
-//! below 2^-290 (raster points exactly), and the errors of measured values in pixels, radians and units in the
-//! last place. Positions are left out: render space has the eye at its origin.
+//! Reads: the image size, the full angle, the rotation and a pixel. Writes: each stage's value with
+//! a relative error below 2^-290 (raster points exactly), and the errors of measured values in
+//! pixels, radians and units in the last place. Positions are left out: render space has the eye at
+//! its origin.
 
-use super::exact::{Dyadic, ExactVector, tan_of_degrees};
+use super::exact::Dyadic;
+use super::exact_angle::tan_of_degrees;
+use super::exact_vector::ExactVector;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 /// u, the rounding unit of f32: half the spacing of numbers just above 1.
@@ -25,7 +28,8 @@ pub enum FovAxis {
     Diagonal,
 }
 
-/// A point of a plane with exact coordinates: raster, NDC or screen, as the function that made it says.
+/// A point of a plane with exact coordinates: raster, NDC or screen, as the function that made it
+/// says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactPoint {
     /// To the right.
@@ -54,7 +58,10 @@ impl ExactCamera {
     /// When the image has no pixel or the angle does not lie strictly between 0 and 180 degrees.
     #[must_use]
     pub fn new(width: u32, height: u32, full_angle: f64, axis: FovAxis, rotation: DMat3) -> Self {
-        assert!(width > 0 && height > 0 && full_angle > 0.0, "a camera sees at least something");
+        assert!(
+            width > 0 && height > 0 && full_angle > 0.0,
+            "a camera sees at least something"
+        );
         let tangent = tan_of_degrees(&Dyadic::of(full_angle).scaled(-1));
         let (w, h) = (Dyadic::of(width), Dyadic::of(height));
         let spanned = match axis {
@@ -65,14 +72,23 @@ impl ExactCamera {
             FovAxis::Diagonal => (&w.squared() + &h.squared()).square_root(),
         };
         let tan_half_vertical = (&tangent * &h).divided_by(&spanned);
-        Self { width, height, tan_half_vertical, rotation }
+        Self {
+            width,
+            height,
+            tan_half_vertical,
+            rotation,
+        }
     }
 
-    /// The raster point at `sub_pixel` within the pixel, (0.5, 0.5) being its centre; exact, in pixels, y down.
+    /// The raster point at `sub_pixel` within the pixel, (0.5, 0.5) being its centre; exact, in
+    /// pixels, y down.
     #[must_use]
     pub fn raster(&self, pixel: [u32; 2], sub_pixel: DVec2) -> ExactPoint {
         let along = |pixel: u32, offset: f64| &Dyadic::of(pixel) + &Dyadic::of(offset);
-        ExactPoint { x: along(pixel[0], sub_pixel.x), y: along(pixel[1], sub_pixel.y) }
+        ExactPoint {
+            x: along(pixel[0], sub_pixel.x),
+            y: along(pixel[1], sub_pixel.y),
+        }
     }
 
     /// The NDC point of a raster point: raster / size, y down.
@@ -107,12 +123,17 @@ impl ExactCamera {
         }
     }
 
-    /// The world vector of a raster point before it is normalised: the rotation times the camera point.
+    /// The world vector of a raster point before it is normalised: the rotation times the camera
+    /// point.
     #[must_use]
     pub fn world_unnormalised(&self, raster: &ExactPoint) -> ExactVector {
         let camera = self.camera(raster);
         let row = |row: usize| ExactVector::of(self.rotation.row(row)).dot(&camera);
-        ExactVector { x: row(0), y: row(1), z: row(2) }
+        ExactVector {
+            x: row(0),
+            y: row(1),
+            z: row(2),
+        }
     }
 
     /// The world direction of a raster point, of unit length.
@@ -125,10 +146,13 @@ impl ExactCamera {
     /// The width of one pixel on the plane z = −1: 2 · tan(vertical / 2) / height.
     #[must_use]
     pub fn pixel_pitch(&self) -> Dyadic {
-        self.tan_half_vertical.scaled(1).divided_by(&Dyadic::of(self.height))
+        self.tan_half_vertical
+            .scaled(1)
+            .divided_by(&Dyadic::of(self.height))
     }
 
-    /// How far a measured camera point lies from the exact one, in pixels; infinite when it is not finite.
+    /// How far a measured camera point lies from the exact one, in pixels; infinite when it is not
+    /// finite.
     #[must_use]
     pub fn camera_error_in_pixels(&self, measured: DVec3, raster: &ExactPoint) -> f64 {
         if !measured.is_finite() {
@@ -137,8 +161,8 @@ impl ExactCamera {
         self.in_pixels(&ExactVector::of(measured), raster)
     }
 
-    /// How far a measured world direction, of any length, points from the exact camera point, in pixels; infinite
-    /// when it is not finite or points behind the camera.
+    /// How far a measured world direction, of any length, points from the exact camera point, in
+    /// pixels; infinite when it is not finite or points behind the camera.
     ///
     /// The transpose of the rotation takes it back exactly, so the rotation is to be orthonormal.
     #[must_use]
@@ -153,11 +177,18 @@ impl ExactCamera {
             return f64::INFINITY;
         }
         let (x, y) = (x.divided_by(&depth), y.divided_by(&depth));
-        self.in_pixels(&ExactVector { x, y, z: Dyadic::of(-1) }, raster)
+        self.in_pixels(
+            &ExactVector {
+                x,
+                y,
+                z: Dyadic::of(-1),
+            },
+            raster,
+        )
     }
 
-    /// The angle between a measured world direction, of any length, and the exact one, in radians; infinite when it
-    /// is not finite or zero.
+    /// The angle between a measured world direction, of any length, and the exact one, in radians;
+    /// infinite when it is not finite or zero.
     #[must_use]
     pub fn world_error_in_radians(&self, measured: Vec3, raster: &ExactPoint) -> f64 {
         if !measured.is_finite() || measured == Vec3::ZERO {
@@ -166,7 +197,10 @@ impl ExactCamera {
         let (measured, exact) = (ExactVector::of(measured), self.world(raster));
         let length = measured.length();
         let sine = measured.cross(&exact).length().divided_by(&length);
-        libm::atan2(sine.to_f64(), measured.dot(&exact).divided_by(&length).to_f64())
+        libm::atan2(
+            sine.to_f64(),
+            measured.dot(&exact).divided_by(&length).to_f64(),
+        )
     }
 
     /// The distance from the exact camera point over the pixel pitch.
@@ -176,13 +210,16 @@ impl ExactCamera {
     }
 }
 
-/// How far a direction's length is from 1, in u = 2^-24, with its sign; infinite when it is not finite.
+/// How far a direction's length is from 1, in u = 2^-24, with its sign; infinite when it is not
+/// finite.
 #[must_use]
 pub fn length_error_in_u(direction: Vec3) -> f64 {
     if !direction.is_finite() {
         return f64::INFINITY;
     }
-    (&ExactVector::of(direction).length() - &Dyadic::of(1)).scaled(24).to_f64()
+    (&ExactVector::of(direction).length() - &Dyadic::of(1))
+        .scaled(24)
+        .to_f64()
 }
 
 #[cfg(test)]
@@ -208,14 +245,21 @@ mod tests {
         assert_eq!(pair(&camera.ndc(&raster)), [0.125, 0.25]);
         assert_eq!(pair(&camera.screen(&raster)), [-1.5, 0.5]);
         let point = camera.camera(&raster);
-        assert_eq!([point.x.to_f64(), point.y.to_f64(), point.z.to_f64()], [-1.5, 0.5, -1.0]);
+        assert_eq!(
+            [point.x.to_f64(), point.y.to_f64(), point.z.to_f64()],
+            [-1.5, 0.5, -1.0]
+        );
         let length = camera.world(&raster).length();
         assert!((&length - &Dyadic::of(1)).abs() < Dyadic::of(1).scaled(-290));
     }
 
     #[test]
     fn the_axes_agree_on_one_camera() {
-        let tangent = |angle, axis| ExactCamera::new(4, 2, angle, axis, DMat3::IDENTITY).tan_half_vertical.to_f64();
+        let tangent = |angle, axis| {
+            ExactCamera::new(4, 2, angle, axis, DMat3::IDENTITY)
+                .tan_half_vertical
+                .to_f64()
+        };
         assert_eq!(tangent(90.0, FovAxis::Vertical), 1.0);
         assert_eq!(tangent(90.0, FovAxis::Smaller), 1.0);
         assert_eq!(tangent(90.0, FovAxis::Horizontal), 0.5);
@@ -226,8 +270,14 @@ mod tests {
     #[test]
     fn errors_are_measured_in_pixels_and_radians() {
         let quarter_turn = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);
-        let camera = ExactCamera { rotation: quarter_turn, ..wide() };
-        let (middle, next) = (camera.raster([2, 1], DVec2::ZERO), camera.raster([3, 1], DVec2::ZERO));
+        let camera = ExactCamera {
+            rotation: quarter_turn,
+            ..wide()
+        };
+        let (middle, next) = (
+            camera.raster([2, 1], DVec2::ZERO),
+            camera.raster([3, 1], DVec2::ZERO),
+        );
         // The middle of the image looks along the camera's −z, which is the world's +x here.
         assert_eq!(camera.world_error_in_pixels(Vec3::X * 3.0, &middle), 0.0);
         assert_eq!(camera.world_error_in_pixels(Vec3::X, &next), 1.0);
@@ -235,8 +285,14 @@ mod tests {
         assert_eq!(camera.world_error_in_radians(Vec3::X * 3.0, &middle), 0.0);
         let eighth = std::f64::consts::FRAC_PI_4;
         assert!((camera.world_error_in_radians(Vec3::X, &next) - eighth).abs() < 1e-15);
-        assert_eq!(camera.camera_error_in_pixels(DVec3::new(0.0, 0.25, -1.0), &middle), 0.25);
-        assert_eq!(camera.camera_error_in_pixels(DVec3::NAN, &middle), f64::INFINITY);
+        assert_eq!(
+            camera.camera_error_in_pixels(DVec3::new(0.0, 0.25, -1.0), &middle),
+            0.25
+        );
+        assert_eq!(
+            camera.camera_error_in_pixels(DVec3::NAN, &middle),
+            f64::INFINITY
+        );
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! The exact judge of a ray against a plane.
 //!
-//! Reads: the f32 ray and the f64 plane a kernel sees, in render space. Writes: hit or miss without any rounding,
-//! and t with a relative error below 2^-319.
+//! Reads: the f32 ray and the f64 plane a kernel sees, in render space. Writes: hit or miss without
+//! any rounding, and t with a relative error below 2^-319.
 
-use super::exact::{Dyadic, ExactVector};
+use super::exact::Dyadic;
+use super::exact_vector::ExactVector;
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
@@ -21,7 +22,8 @@ fn depth_below(point: &ExactVector, plane: Plane) -> Dyadic {
     &Dyadic::of(plane.offset) - &ExactVector::of(plane.normal).dot(point)
 }
 
-/// The t > 0 at which the ray meets the plane, or nothing when it is parallel, points away or starts on it.
+/// The t > 0 at which the ray meets the plane, or nothing when it is parallel, points away or
+/// starts on it.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -33,7 +35,8 @@ pub fn plane_hit(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Dyadic> 
     (distance.sign() * approach.sign() > 0).then(|| distance.divided_by(&approach))
 }
 
-/// How the point lies to the plane, exactly: `Greater` is strictly on the side its normal points to.
+/// How the point lies to the plane, exactly: `Greater` is strictly on the side its normal points
+/// to.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -46,7 +49,10 @@ pub fn side_of_plane(point: DVec3, plane: Plane) -> Ordering {
 mod tests {
     use super::*;
 
-    const FLOOR: Plane = Plane { normal: DVec3::Y, offset: -2.0 };
+    const FLOOR: Plane = Plane {
+        normal: DVec3::Y,
+        offset: -2.0,
+    };
 
     fn hit(origin: Vec3, direction: Vec3) -> Option<f64> {
         plane_hit(origin, direction, FLOOR).map(|root| root.to_f64())
@@ -64,7 +70,10 @@ mod tests {
     #[test]
     fn the_flattest_ray_still_has_its_hit() {
         let flattest = Vec3::new(1.0, -f32::from_bits(1), 0.0);
-        assert_eq!(hit(Vec3::ZERO, flattest), Some(2.0 / f64::from(f32::from_bits(1))));
+        assert_eq!(
+            hit(Vec3::ZERO, flattest),
+            Some(2.0 / f64::from(f32::from_bits(1)))
+        );
     }
 
     #[test]

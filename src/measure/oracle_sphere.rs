@@ -1,9 +1,11 @@
 //! The exact judge of a ray against a sphere.
 //!
-//! Reads: the f32 ray and the f64 sphere a kernel sees, in render space; the direction is taken as given, unit or
-//! not. Writes: hit or miss without any rounding, and the roots t with a relative error below 2^-300.
+//! Reads: the f32 ray and the f64 sphere a kernel sees, in render space; the direction is taken as
+//! given, unit or not. Writes: hit or miss without any rounding, and the roots t with a relative
+//! error below 2^-300.
 
-use super::exact::{Dyadic, ExactVector};
+use super::exact::Dyadic;
+use super::exact_vector::ExactVector;
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
@@ -25,7 +27,8 @@ pub struct Roots {
     pub far: Dyadic,
 }
 
-/// Where the line of the ray meets the sphere, or nothing when it passes by or the direction is zero.
+/// Where the line of the ray meets the sphere, or nothing when it passes by or the direction is
+/// zero.
 ///
 /// With f = centre − origin the roots solve (d·d) t² − 2 (f·d) t + (f·f − r²) = 0.
 ///
@@ -43,21 +46,33 @@ pub fn line_roots(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Roots
         return None;
     }
     let root = discriminant.square_root();
-    // The root of larger magnitude has no cancellation, and the other follows from the product of both, c / a.
+    // The root of larger magnitude has no cancellation, and the other follows from the product of
+    // both, c / a.
     let away = if half_b.sign() < 0 { -&root } else { root };
     let larger = &half_b + &away;
     let outer = larger.divided_by(&a);
-    let inner = if larger.sign() == 0 { Dyadic::of(0) } else { c.divided_by(&larger) };
-    Some(if half_b.sign() < 0 {
-        Roots { near: outer, far: inner }
+    let inner = if larger.sign() == 0 {
+        Dyadic::of(0)
     } else {
-        Roots { near: inner, far: outer }
+        c.divided_by(&larger)
+    };
+    Some(if half_b.sign() < 0 {
+        Roots {
+            near: outer,
+            far: inner,
+        }
+    } else {
+        Roots {
+            near: inner,
+            far: outer,
+        }
     })
 }
 
 /// The nearest t > 0 at which the ray meets the sphere's surface, or nothing when it does not.
 ///
-/// The verdict is exact, because a root's sign is that of f·d, of f·f − r², or of a sum of two numbers of one sign.
+/// The verdict is exact, because a root's sign is that of f·d, of f·f − r², or of a sum of two
+/// numbers of one sign.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -67,14 +82,17 @@ pub fn sphere_hit(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Dyadi
     [near, far].into_iter().find(|root| root.sign() > 0)
 }
 
-/// How the point lies to the sphere, exactly: `Greater` is strictly outside, `Less` strictly inside.
+/// How the point lies to the sphere, exactly: `Greater` is strictly outside, `Less` strictly
+/// inside.
 ///
 /// # Panics
 /// When an input is not finite.
 #[must_use]
 pub fn side_of_sphere(point: DVec3, sphere: Sphere) -> Ordering {
     let from_centre = ExactVector::of(point).minus(&ExactVector::of(sphere.centre));
-    from_centre.dot(&from_centre).cmp(&Dyadic::of(sphere.radius).squared())
+    from_centre
+        .dot(&from_centre)
+        .cmp(&Dyadic::of(sphere.radius).squared())
 }
 
 /// Whether the point lies strictly outside the sphere, exactly.
@@ -91,7 +109,10 @@ mod tests {
     use super::*;
     use crate::measure::exact::relative_error;
 
-    const UNIT: Sphere = Sphere { centre: DVec3::new(0.0, 0.0, -3.0), radius: 1.0 };
+    const UNIT: Sphere = Sphere {
+        centre: DVec3::new(0.0, 0.0, -3.0),
+        radius: 1.0,
+    };
 
     fn hit(origin: Vec3, direction: Vec3) -> Option<f64> {
         sphere_hit(origin, direction, UNIT).map(|root| root.to_f64())
@@ -112,7 +133,10 @@ mod tests {
     #[test]
     fn a_tangent_is_a_hit_and_one_place_further_is_a_miss() {
         assert_eq!(hit(Vec3::X, Vec3::NEG_Z), Some(3.0));
-        assert_eq!(hit(Vec3::new(1.0 + f32::EPSILON, 0.0, 0.0), Vec3::NEG_Z), None);
+        assert_eq!(
+            hit(Vec3::new(1.0 + f32::EPSILON, 0.0, 0.0), Vec3::NEG_Z),
+            None
+        );
         assert_eq!(hit(Vec3::new(1.0, 0.0, -3.0), Vec3::NEG_Z), None);
     }
 
@@ -134,7 +158,10 @@ mod tests {
     #[test]
     fn sides_are_exact() {
         assert!(!strictly_outside(DVec3::new(0.0, 0.0, -2.0), UNIT));
-        assert!(strictly_outside(DVec3::new(0.0, 0.0, -2.0 + f64::EPSILON), UNIT));
+        assert!(strictly_outside(
+            DVec3::new(0.0, 0.0, -2.0 + f64::EPSILON),
+            UNIT
+        ));
         let inside = DVec3::new(0.0, 0.0, -2.0 - 2.0 * f64::EPSILON);
         assert_eq!(side_of_sphere(inside, UNIT), Ordering::Less);
     }

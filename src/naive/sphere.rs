@@ -3,10 +3,12 @@
 use glam::{DVec3, Vec3};
 
 // ANCHOR: naive_hit_sphere_f32
-/// The nearest t > 0 where the ray meets the sphere: the quadratic formula, straight from school, in f32.
+/// The nearest t > 0 where the ray meets the sphere: the quadratic formula, straight from school,
+/// in f32.
 ///
-/// Most first ray tracers hold this function. Far away b² and 4ac are both huge and nearly equal, so their
-/// difference is made of rounding errors: at a thousand radii one silhouette ray in twenty is judged wrongly.
+/// Most first ray tracers hold this function. Far away b² and 4ac are both huge and nearly equal,
+/// so their difference is made of rounding errors: at a thousand radii one silhouette ray in twenty
+/// is judged wrongly.
 #[must_use]
 pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Option<f32> {
     let from_centre = origin - centre;
@@ -25,8 +27,9 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Opti
 
 /// The same formula, halved, in f64 on f32 rays: the usual first repair.
 ///
-/// It moves the failure away rather than removing it: b² and ac still agree in all but their last digits when the
-/// sphere is far, so at 10^7 radii some silhouette rays are misjudged, and t is wrong where the ray grazes.
+/// It moves the failure away rather than removing it: b² and ac still agree in all but their last
+/// digits when the sphere is far, so at 10^7 radii some silhouette rays are misjudged, and t is
+/// wrong where the ray grazes.
 #[must_use]
 pub fn hit_f64_plain(origin: Vec3, direction: Vec3, centre: DVec3, radius: f64) -> Option<f64> {
     let (direction, to_centre) = (direction.as_dvec3(), centre - origin.as_dvec3());
@@ -42,11 +45,12 @@ pub fn hit_f64_plain(origin: Vec3, direction: Vec3, centre: DVec3, radius: f64) 
     [near, far].into_iter().find(|t| *t > 0.0)
 }
 
-/// The perpendicular form in f32: the discriminant from how far the ray passes the centre, the roots without
-/// cancellation (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019).
+/// The perpendicular form in f32: the discriminant from how far the ray passes the centre, the
+/// roots without cancellation (Haines et al., "Precision Improvements for Ray/Sphere Intersection",
+/// Ray Tracing Gems, 2019).
 ///
-/// Far better than the formula from school, but the first subtraction, origin minus centre, is already rounded: above
-/// a sphere of radius 10^6 a height of 1 is known to a tenth at best.
+/// Far better than the formula from school, but the first subtraction, origin minus centre, is
+/// already rounded: above a sphere of radius 10^6 a height of 1 is known to a tenth at best.
 #[must_use]
 pub fn hit_haines_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Option<f32> {
     let to_centre = centre - origin;
@@ -60,7 +64,9 @@ pub fn hit_haines_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) 
     let c = to_centre.dot(to_centre) - radius * radius;
     let larger = half_b + half_b.signum() * (a * discriminant).sqrt();
     let (first, second) = (c / larger, larger / a);
-    [first.min(second), first.max(second)].into_iter().find(|t| *t > 0.0)
+    [first.min(second), first.max(second)]
+        .into_iter()
+        .find(|t| *t > 0.0)
 }
 
 #[cfg(test)]
@@ -85,7 +91,9 @@ mod tests {
         let wrong = |(ray, sphere): (AimedRay, Sphere)| {
             hits(ray, sphere) != sphere_hit(ray.origin, ray.direction, sphere).is_some()
         };
-        (0..rays).filter(|index| wrong(silhouette(11, *index, distance))).count()
+        (0..rays)
+            .filter(|index| wrong(silhouette(11, *index, distance)))
+            .count()
     }
 
     #[test]
@@ -93,10 +101,22 @@ mod tests {
         const RAYS: u64 = 4000;
         for distance in [1e3, 1e5, 1e7] {
             let f32_plain = misjudged(RAYS, distance, |ray, sphere| {
-                hit_f32(ray.origin, ray.direction, sphere.centre.as_vec3(), sphere.radius as f32).is_some()
+                hit_f32(
+                    ray.origin,
+                    ray.direction,
+                    sphere.centre.as_vec3(),
+                    sphere.radius as f32,
+                )
+                .is_some()
             });
             let f32_haines = misjudged(RAYS, distance, |ray, sphere| {
-                hit_haines_f32(ray.origin, ray.direction, sphere.centre.as_vec3(), sphere.radius as f32).is_some()
+                hit_haines_f32(
+                    ray.origin,
+                    ray.direction,
+                    sphere.centre.as_vec3(),
+                    sphere.radius as f32,
+                )
+                .is_some()
             });
             let f64_plain = misjudged(RAYS, distance, |ray, sphere| {
                 hit_f64_plain(ray.origin, ray.direction, sphere.centre, sphere.radius).is_some()
@@ -106,7 +126,10 @@ mod tests {
                  {f32_haines} f32 perpendicular, {f64_plain} f64"
             );
             assert!(f32_plain > 0, "the textbook is expected to break");
-            assert!(distance < 1e7 || f64_plain > 0, "f64 alone is expected to break");
+            assert!(
+                distance < 1e7 || f64_plain > 0,
+                "f64 alone is expected to break"
+            );
         }
     }
 }
