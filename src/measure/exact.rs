@@ -11,6 +11,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// The bits that a quotient or a square root keeps.
 pub const PRECISION: i64 = 320;
 
+/// u, the rounding unit of f32: half the spacing of numbers just above 1.
+pub const UNIT_ROUNDOFF_F32: f64 = 1.0 / (1u64 << 24) as f64;
+
 /// The number mantissa · 2^exponent, with no limit on the mantissa.
 #[derive(Clone, Debug)]
 pub struct Dyadic {

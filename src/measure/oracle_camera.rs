@@ -10,9 +10,6 @@ use super::exact_angle::tan_of_degrees;
 use super::exact_vector::ExactVector;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// u, the rounding unit of f32: half the spacing of numbers just above 1.
-pub const UNIT_ROUNDOFF_F32: f64 = 1.0 / (1u64 << 24) as f64;
-
 /// Which extent of the image the camera's full angle spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FovAxis {
@@ -28,8 +25,7 @@ pub enum FovAxis {
     Diagonal,
 }
 
-/// A point of a plane with exact coordinates: raster, NDC or screen, as the function that made it
-/// says.
+/// A point with exact coordinates, in raster, NDC or screen space as its maker says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactPoint {
     /// To the right.
@@ -58,10 +54,7 @@ impl ExactCamera {
     /// When the image has no pixel or the angle does not lie strictly between 0 and 180 degrees.
     #[must_use]
     pub fn new(width: u32, height: u32, full_angle: f64, axis: FovAxis, rotation: DMat3) -> Self {
-        assert!(
-            width > 0 && height > 0 && full_angle > 0.0,
-            "a camera sees at least something"
-        );
+        assert!(width > 0 && height > 0 && full_angle > 0.0, "nothing seen");
         let tangent = tan_of_degrees(&Dyadic::of(full_angle).scaled(-1));
         let (w, h) = (Dyadic::of(width), Dyadic::of(height));
         let spanned = match axis {

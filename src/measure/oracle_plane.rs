@@ -17,6 +17,17 @@ pub struct Plane {
     pub offset: f64,
 }
 
+impl Plane {
+    /// The plane an f32 method sees, so that the oracle can judge it by its own inputs.
+    #[must_use]
+    pub fn rounded_to_f32(self) -> Self {
+        Self {
+            normal: self.normal.as_vec3().as_dvec3(),
+            offset: f64::from(self.offset as f32),
+        }
+    }
+}
+
 /// offset − normal · point, exactly: positive below the plane, zero on it.
 fn depth_below(point: &ExactVector, plane: Plane) -> Dyadic {
     &Dyadic::of(plane.offset) - &ExactVector::of(plane.normal).dot(point)

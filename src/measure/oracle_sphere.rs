@@ -18,6 +18,17 @@ pub struct Sphere {
     pub radius: f64,
 }
 
+impl Sphere {
+    /// The sphere an f32 method sees, so that the oracle can judge it by its own inputs.
+    #[must_use]
+    pub fn rounded_to_f32(self) -> Self {
+        Self {
+            centre: self.centre.as_vec3().as_dvec3(),
+            radius: f64::from(self.radius as f32),
+        }
+    }
+}
+
 /// Where the ray's line meets a sphere, as parameters t of origin + t · direction.
 #[derive(Clone, Debug)]
 pub struct Roots {

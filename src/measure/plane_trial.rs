@@ -1,7 +1,6 @@
 //! The kit's plane method on trial, beside the oracle.
 
-use super::exact::relative_error;
-use super::oracle_camera::UNIT_ROUNDOFF_F32 as U;
+use super::exact::{UNIT_ROUNDOFF_F32 as U, relative_error};
 use super::oracle_plane::{Plane, plane_hit};
 use super::ray_aim::{AimedRay, plane_of_any_offset};
 use super::sphere_trial::{add, trial_rays, wide_product};
@@ -13,7 +12,7 @@ pub fn norm_1(v: DVec3) -> f64 {
 }
 
 /// (offset − normal · origin) / (normal · direction) in f64, nothing more.
-fn plain_plane(ray: AimedRay, plane: Plane) -> Option<f64> {
+pub fn plain_plane(ray: AimedRay, plane: Plane) -> Option<f64> {
     let distance = plane.offset - plane.normal.dot(ray.origin.as_dvec3());
     let t = distance / plane.normal.dot(ray.direction.as_dvec3());
     (t > 0.0 && t.is_finite()).then_some(t)

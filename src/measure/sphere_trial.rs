@@ -2,8 +2,7 @@
 //!
 //! `PINHOLE_TRIAL_RAYS=1000000 cargo test --release --lib trial -- --nocapture` runs it in full.
 
-use super::exact::relative_error;
-use super::oracle_camera::UNIT_ROUNDOFF_F32 as U;
+use super::exact::{UNIT_ROUNDOFF_F32 as U, relative_error};
 use super::oracle_sphere::{Sphere, sphere_hit};
 use super::ray_aim::{self, AimedRay};
 use crate::naive;
@@ -128,9 +127,9 @@ pub fn perpendicular_hit(ray: AimedRay, sphere: Sphere, root: Root) -> Verdict {
         (false, true) => s + h,
         (false, false) => c / (dd * (s - h)),
     };
-    // The chord's part of t's error is bound / (2 h dd), and c's is at most as large, because t = c
-    // / (dd (s + h)).
-    let doubtful = bound >= U * dd * t * h;
+    // The chord's part of t's error is bound / (2 h dd), and c's is at most as large, because
+    // t = c / (dd (s + h)); a c whose sign is in doubt may name the wrong root altogether.
+    let doubtful = bound >= (U * dd * t * h).min(c.abs());
     (Some(t), doubtful)
 }
 

@@ -41,6 +41,7 @@ mod tests {
         const RAYS: u64 = 4000;
         let wrong = |index| {
             let (ray, plane) = plane_of_any_offset(12, index, 8.0);
+            let plane = plane.rounded_to_f32();
             let naive = hit_f32(
                 ray.origin,
                 ray.direction,
