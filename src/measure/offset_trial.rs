@@ -151,6 +151,12 @@ fn guarded(ray: AimedRay, sphere: Sphere) -> Option<f64> {
     guarded_hit(ray, sphere).0
 }
 
+/// The ray from `scale` times its origin.
+fn scaled(ray: AimedRay, scale: f64) -> AimedRay {
+    let origin = (ray.origin.as_dvec3() * scale).as_vec3();
+    AimedRay { origin, ..ray }
+}
+
 /// Whether no start of the class fails, and no shadow ray from one meets its own sphere.
 fn spheres(
     name: &str,
@@ -162,10 +168,7 @@ fn spheres(
     let mut failures = Failures::default();
     for index in 0..rays {
         let (ray, sphere) = case(index);
-        let ray = AimedRay {
-            origin: (ray.origin.as_dvec3() * scale).as_vec3(),
-            ..ray
-        };
+        let ray = scaled(ray, scale);
         let sphere = Sphere {
             centre: sphere.centre * scale,
             radius: sphere.radius * scale,
@@ -206,10 +209,7 @@ fn planes(
     let mut failures = Failures::default();
     for index in 0..rays {
         let (ray, plane) = case(index);
-        let ray = AimedRay {
-            origin: (ray.origin.as_dvec3() * scale).as_vec3(),
-            ..ray
-        };
+        let ray = scaled(ray, scale);
         let plane = Plane {
             offset: plane.offset * scale,
             ..plane

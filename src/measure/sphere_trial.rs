@@ -109,8 +109,8 @@ pub fn perpendicular_hit(ray: AimedRay, sphere: Sphere, root: Root) -> Verdict {
     let ll = passing.dot(passing);
     let discriminant = r * r - ll;
     // With ε = 2^-53, f and s·d are each rounded by ε|f| and their difference by ε|l|, the error of
-    // s moves the foot along d only, and the squares add 3ε l² + ε r²: in all at most 9ε|f||l| + ε
-    // r², and 50 ε² f² of second order.
+    // s moves the foot along d only, and the squares add 3ε l² + ε r²: at most 9ε |f||l| + ε r² in
+    // all, and 50 ε² f² of second order.
     let bound = 2f64.powi(-50) * (2.0 * ff * (r * r + ll + 2f64.powi(-100) * ff)).sqrt();
     if discriminant < 0.0 {
         return (None, -discriminant <= bound);
