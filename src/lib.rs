@@ -13,7 +13,9 @@
 //! 7. [`film`]: light → pixels → files.
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
-//! 10. [`command`]: the command line.
+//! 10. [`naive`]: the methods that break, for the book and the extremes.
+//! 11. [`measure`]: exact arithmetic, oracles, extremes.
+//! 12. [`command`]: the command line.
 
 pub mod scene;
 
@@ -32,6 +34,10 @@ pub mod film;
 pub mod render;
 
 pub mod look;
+
+pub mod naive;
+
+pub mod measure;
 
 pub mod command;
 
