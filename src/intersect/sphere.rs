@@ -71,7 +71,7 @@ pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> 
 
 /// At least 0 where a ray may meet the sphere or be in doubt, below 0 where it passes by for certain.
 #[inline(always)]
-fn nearness(f: DVec3, direction: DVec3, radius: f64) -> f64 {
+pub fn nearness(f: DVec3, direction: DVec3, radius: f64) -> f64 {
     const SLACK: f64 = 1.0 / (1_u64 << 47) as f64;
     let (ff, rr) = (f.dot(f), radius * radius);
     let across = f - f.dot(direction) / direction.dot(direction) * direction;

@@ -72,7 +72,7 @@ fn aim(surface: &Surface, light: DVec3) -> Option<(Vec3, Vec3, f64, f64)> {
 
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
 #[inline(always)]
-fn shadow_reach(distance: f64) -> f32 {
+pub fn shadow_reach(distance: f64) -> f32 {
     (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
 }
 
