@@ -44,7 +44,7 @@ pub fn block(
     // Blank lines let markdown into the caption; the picture itself must hold none.
     Ok(format!(
         "\n<figure>\n{picture}\n<figcaption>\n\n{caption}\n\n\
-         <small>made by <code>{TYPED} {made}</code></small>\n</figcaption>\n</figure>\n"
+         <div class=\"made\">made by <code>{TYPED} {made}</code></div>\n</figcaption>\n</figure>\n"
     ))
 }
 

@@ -106,7 +106,11 @@ fn formula(latex: &str, display: bool) -> Result<String, String> {
     let mut mathml = String::new();
     let parser = pulldown_latex::Parser::new(latex, &storage);
     push_mathml(&mut mathml, parser, config).map_err(|error| broken(&error))?;
-    let mathml = guarded(&mathml.replace('\n', " "));
+    // pulldown-latex 0.8 escapes its own `&nbsp;` once too often.
+    let spaces = mathml
+        .replace("&amp;nbsp;", "\u{a0}")
+        .replace("&nbsp;", "\u{a0}");
+    let mathml = guarded(&spaces.replace('\n', " "));
     Ok(if display {
         format!("<span class=\"formula\">{mathml}</span>")
     } else {
@@ -155,6 +159,8 @@ mod tests {
             text.starts_with("<span class=\"formula\"><math display=\"block\""),
             "{text}"
         );
+        let space = expand("$a,\\ b$").expect("a formula");
+        assert!(space.contains("<mtext>\u{a0}</mtext>"), "{space}");
         assert!(text.contains("<mfrac>") && !text.contains('\n'), "{text}");
     }
 
