@@ -31,7 +31,7 @@ pub fn block(
         ["figure", "chart"].contains(&command.split_whitespace().next().unwrap_or_default());
     let picture = if drawn {
         let file = kit.file(command, "svg")?;
-        inline(&String::from_utf8_lossy(&file), &spoken)
+        inline(&String::from_utf8_lossy(&file), &spoken, &stem_of(command))
             .map_err(|what| format!("`{command}` {what}"))?
     } else {
         let file = kit.file(command, "png")?;
@@ -40,11 +40,17 @@ pub fn block(
         image(&store(pictures, command, file), size, &spoken)
     };
     let caption = math::expand(caption)?;
-    let made = escape(command);
+    // A line may break between the words of a command, never inside `--size`.
+    let words = [TYPED, command].join(" ");
+    let words: Vec<String> = words
+        .split_whitespace()
+        .map(|word| format!("<span>{}</span>", escape(word)))
+        .collect();
+    let made = words.join(" ");
     // Blank lines let markdown into the caption; the picture itself must hold none.
     Ok(format!(
         "\n<figure>\n{picture}\n<figcaption>\n\n{caption}\n\n\
-         <div class=\"made\">made by <code>{TYPED} {made}</code></div>\n</figcaption>\n</figure>\n"
+         <div class=\"made\">made by <code>{made}</code></div>\n</figcaption>\n</figure>\n"
     ))
 }
 
@@ -73,8 +79,8 @@ fn image(name: &str, (width, height): (u32, u32), spoken: &str) -> String {
     )
 }
 
-/// Keeps a picture under a name that tells its command.
-fn store(pictures: &mut Pictures, command: &str, file: Rc<[u8]>) -> String {
+/// A command as one word that can name a file.
+fn stem_of(command: &str) -> String {
     let letter = |letter: char| {
         if letter.is_ascii_alphanumeric() || letter == '_' {
             letter
@@ -84,7 +90,12 @@ fn store(pictures: &mut Pictures, command: &str, file: Rc<[u8]>) -> String {
     };
     let stem: String = command.chars().map(letter).collect();
     let words: Vec<&str> = stem.split('-').filter(|word| !word.is_empty()).collect();
-    let stem = words.join("-");
+    words.join("-")
+}
+
+/// Keeps a picture under a name that tells its command.
+fn store(pictures: &mut Pictures, command: &str, file: Rc<[u8]>) -> String {
+    let stem = stem_of(command);
     let mut name = format!("{stem}.png");
     let mut count = 1;
     // Two commands may come down to the same letters.
@@ -108,7 +119,7 @@ pub fn png_size(file: &[u8]) -> Option<(u32, u32)> {
 }
 
 /// An SVG as part of the page, so that `currentColor` is the text's, as wide as the text allows and no wider than drawn.
-fn inline(svg: &str, spoken: &str) -> Result<String, String> {
+fn inline(svg: &str, spoken: &str, stem: &str) -> Result<String, String> {
     let start = svg.find("<svg").ok_or("wrote a file that is no SVG.")?;
     let svg = svg[start..].trim_end();
     let end = svg
@@ -149,7 +160,16 @@ fn inline(svg: &str, spoken: &str) -> Result<String, String> {
         "<svg {} role=\"img\" aria-label=\"{spoken}\" style=\"{style}\"",
         kept.join(" ")
     );
-    Ok(format!("{tag}{}", lines.join("\n")))
+    Ok(format!("{tag}{}", own_names(&lines.join("\n"), stem)))
+}
+
+/// Two drawings on one page must not answer to each other's ids.
+fn own_names(svg: &str, stem: &str) -> String {
+    [" id=\"", "url(#", "href=\"#"]
+        .iter()
+        .fold(svg.to_owned(), |svg, mark| {
+            svg.replace(mark, &format!("{mark}{stem}-"))
+        })
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
@@ -162,7 +182,7 @@ mod tests {
     use super::*;
 
     const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x60\0\0\0\x36";
-    const SVG: &str = "<?xml version=\"1.0\"?>\n<svg xmlns=\"s\" width=\"300\" height=\"9\" viewBox=\"0 0 300 9\">\n\n<g/>\n</svg>\n";
+    const SVG: &str = "<?xml version=\"1.0\"?>\n<svg xmlns=\"s\" width=\"300\" height=\"9\" viewBox=\"0 0 300 9\">\n\n<g id=\"a\" fill=\"url(#a)\"/>\n</svg>\n";
 
     fn kit(svg: &'static str) -> Rc<std::cell::RefCell<Kit>> {
         Kit::with(move |words, _| {
@@ -191,7 +211,7 @@ mod tests {
                      alt=\"A box of a&lt;b\" class=\"pixels\" style=\"width: 480px\">";
         assert!(block.contains(image), "{block}");
         assert!(
-            block.contains("made by <code>cargo run --release -- render 05_x --size 96x54</code>"),
+            block.contains("<span>--size</span> <span>96x54</span></code></div>"),
             "{block}"
         );
         assert!(pictures.contains_key("render-05_x-size-96x54.png"));
@@ -207,7 +227,7 @@ mod tests {
             "It",
         );
         let expected = "<figure>\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
-                        style=\"width: 100%; max-width: 300px; height: auto\">\n<g/>\n</svg>\n<figcaption>";
+                        style=\"width: 100%; max-width: 300px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n<figcaption>";
         assert!(
             block.as_ref().is_ok_and(|block| block.contains(expected)),
             "{block:?}"
