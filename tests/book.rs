@@ -20,12 +20,7 @@ fn pages() -> Vec<Page> {
 #[track_caller]
 fn none(problems: &[Problem]) {
     let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    assert!(
-        told.is_empty(),
-        "{} to mend:\n{}",
-        told.len(),
-        told.join("\n")
-    );
+    assert!(told.is_empty(), "{} to mend:\n{}", told.len(), told.join("\n"));
 }
 
 #[test]
@@ -35,11 +30,7 @@ fn every_page_keeps_the_rules() {
 
 #[test]
 fn every_anchor_is_in_the_book() {
-    none(&check::listing::orphans(
-        root(),
-        &["src", "chapters", "tests"],
-        &pages(),
-    ));
+    none(&check::listing::orphans(root(), &["src", "chapters", "tests"], &pages()));
 }
 
 #[test]
@@ -49,17 +40,13 @@ fn no_page_is_too_long() {
 
 #[test]
 fn the_lists_of_chapters_agree() {
-    let manifest =
-        std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest can be read");
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest can be read");
     let (examples, problems) = check::lists::example_stems(&manifest);
     none(&problems);
     none(&check::lists::disagreements(&[
         ("chapters/", check::lists::chapter_stems(root())),
         ("book/src/", check::lists::page_stems(&pages())),
         ("the [[example]] entries of Cargo.toml", examples),
-        (
-            "the folders with chapters/*/snapshots/*.snap",
-            check::lists::snapshot_stems(root()),
-        ),
+        ("the folders with chapters/*/snapshots/*.snap", check::lists::snapshot_stems(root())),
     ]));
 }

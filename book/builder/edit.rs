@@ -26,10 +26,7 @@ pub fn apply(text: &str, mut edits: Vec<Edit>) -> String {
 
 /// Makes text safe inside an HTML element or a double-quoted attribute.
 pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -38,16 +35,7 @@ mod tests {
 
     #[test]
     fn edits_are_applied_in_order() {
-        let edit = |range, text: &str| Edit {
-            range,
-            text: text.to_owned(),
-        };
-        assert_eq!(
-            apply(
-                "abcdef",
-                vec![edit(4..5, "E"), edit(1..1, "-"), edit(1..3, "")]
-            ),
-            "a-dEf"
-        );
+        let edit = |range, text: &str| Edit { range, text: text.to_owned() };
+        assert_eq!(apply("abcdef", vec![edit(4..5, "E"), edit(1..1, "-"), edit(1..3, "")]), "a-dEf");
     }
 }

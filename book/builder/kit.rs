@@ -24,13 +24,8 @@ impl Kit {
     }
 
     /// A kit that answers as the function does.
-    pub fn with(
-        run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static,
-    ) -> Rc<RefCell<Self>> {
-        Rc::new(RefCell::new(Self {
-            run: Box::new(run),
-            answers: HashMap::new(),
-        }))
+    pub fn with(run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static) -> Rc<RefCell<Self>> {
+        Rc::new(RefCell::new(Self { run: Box::new(run), answers: HashMap::new() }))
     }
 
     /// Forgets every answer, so that the next build asks again.
@@ -55,10 +50,7 @@ impl Kit {
         extension: Option<&'static str>,
         ask: impl FnOnce(&Self) -> Result<Vec<u8>, String>,
     ) -> Result<Rc<[u8]>, String> {
-        let key = (
-            command.split_whitespace().collect::<Vec<_>>().join(" "),
-            extension,
-        );
+        let key = (command.split_whitespace().collect::<Vec<_>>().join(" "), extension);
         if let Some(known) = self.answers.get(&key) {
             return known.clone();
         }
@@ -76,16 +68,13 @@ impl Kit {
     }
 
     fn made(&self, command: &str, extension: &str) -> Result<Vec<u8>, String> {
-        let folder = tempfile::tempdir()
-            .map_err(|error| format!("no temporary folder can be made: {error}."))?;
+        let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder can be made: {error}."))?;
         let file = folder.path().join(format!("figure.{extension}"));
         let mut words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
         words.extend(["-o".to_owned(), file.display().to_string()]);
         let failed = |error: String| format!("`{command}` failed: {}", error.trim_end());
         (self.run)(&words, &mut Vec::new()).map_err(failed)?;
-        std::fs::read(&file).map_err(|_| {
-            format!("`{command}` wrote no .{extension} file when told where with `-o`.")
-        })
+        std::fs::read(&file).map_err(|_| format!("`{command}` wrote no .{extension} file when told where with `-o`."))
     }
 }
 
@@ -113,22 +102,10 @@ mod tests {
 
     #[test]
     fn a_failure_is_one_sentence() {
-        let kit = Kit::with(|words, _| {
-            if words[0] == "fine" {
-                Ok(())
-            } else {
-                Err("there is no chapter 99.".into())
-            }
-        });
+        let kit = Kit::with(|words, _| if words[0] == "fine" { Ok(()) } else { Err("there is no chapter 99.".into()) });
         let mut kit = kit.borrow_mut();
-        assert_eq!(
-            kit.text("plan 99"),
-            Err("`plan 99` failed: there is no chapter 99.".to_owned())
-        );
+        assert_eq!(kit.text("plan 99"), Err("`plan 99` failed: there is no chapter 99.".to_owned()));
         let told = kit.file("fine x", "png").expect_err("no file");
-        assert_eq!(
-            told,
-            "`fine x` wrote no .png file when told where with `-o`."
-        );
+        assert_eq!(told, "`fine x` wrote no .png file when told where with `-o`.");
     }
 }

@@ -5,10 +5,7 @@
 //! build ([`page`], [`kit`], [`figure`]).
 
 mod build;
-#[expect(
-    dead_code,
-    reason = "tests/book.rs includes this module too and asks for more than a build does"
-)]
+#[expect(dead_code, reason = "tests/book.rs includes this module too and asks for more than a build does")]
 mod check;
 mod edit;
 mod figure;
@@ -19,13 +16,8 @@ mod serve;
 mod site;
 mod watch;
 
-/// The chapters a command of the kit may name.
-mod chapters {
-    /// Every chapter of the book, in order.
-    pub fn all() -> Vec<pinhole::command::Chapter> {
-        Vec::new()
-    }
-}
+#[path = "../../chapters/mod.rs"]
+mod chapters;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -73,16 +65,12 @@ fn wish(arguments: &[String]) -> Result<Wish, String> {
                 port = Some(number.parse().map_err(wrong)?);
             }
             other => {
-                return Err(format!(
-                    "`{other}` is not understood; accepted is:\n{USAGE}"
-                ));
+                return Err(format!("`{other}` is not understood; accepted is:\n{USAGE}"));
             }
         }
     }
     match (serve, port) {
-        (true, port) => Ok(Wish::Serve {
-            port: port.unwrap_or(3000),
-        }),
+        (true, port) => Ok(Wish::Serve { port: port.unwrap_or(3000) }),
         (false, None) => Ok(Wish::Build),
         (false, Some(_)) => Err("--port goes with --serve.".to_owned()),
     }
@@ -100,14 +88,7 @@ fn fulfil(wish: &Wish) -> Result<(), String> {
             let start = Instant::now();
             build::build(&book, &kit::Kit::shared())?;
             let index = book.out.join("index.html");
-            say(
-                out,
-                &format!(
-                    "{} (in {:.1} s)",
-                    index.display(),
-                    start.elapsed().as_secs_f64()
-                ),
-            );
+            say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
         }
         Wish::Serve { port } => serve::serve(&book, &kit::Kit::shared(), *port, out)?,
     }
@@ -119,12 +100,7 @@ mod tests {
     use super::*;
 
     fn asked(line: &str) -> Result<Wish, String> {
-        wish(
-            &line
-                .split_whitespace()
-                .map(str::to_owned)
-                .collect::<Vec<_>>(),
-        )
+        wish(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     }
 
     #[test]
@@ -132,17 +108,8 @@ mod tests {
         assert_eq!(asked(""), Ok(Wish::Build));
         assert_eq!(asked("--serve"), Ok(Wish::Serve { port: 3000 }));
         assert_eq!(asked("--port 80 --serve"), Ok(Wish::Serve { port: 80 }));
-        assert_eq!(
-            asked("--port 80"),
-            Err("--port goes with --serve.".to_owned())
-        );
-        assert_eq!(
-            asked("--serve --port x"),
-            Err("--port takes a number from 0 to 65535, not `x`.".to_owned())
-        );
-        assert!(
-            asked("--open")
-                .is_err_and(|told| told.starts_with("`--open` is not understood; accepted is:\n"))
-        );
+        assert_eq!(asked("--port 80"), Err("--port goes with --serve.".to_owned()));
+        assert_eq!(asked("--serve --port x"), Err("--port takes a number from 0 to 65535, not `x`.".to_owned()));
+        assert!(asked("--open").is_err_and(|told| told.starts_with("`--open` is not understood; accepted is:\n")));
     }
 }

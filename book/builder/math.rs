@@ -50,10 +50,7 @@ pub fn edits(text: &str) -> (Vec<Edit>, Vec<Slip>) {
         };
         match found {
             Ok(text) => edits.push(Edit { range, text }),
-            Err(what) => slips.push(Slip {
-                at: range.start,
-                what,
-            }),
+            Err(what) => slips.push(Slip { at: range.start, what }),
         }
     }
     (edits, slips)
@@ -71,22 +68,15 @@ pub fn expand(text: &str) -> Result<String, String> {
 /// A `$` that markdown took for plain text is most often half a formula.
 fn stray(text: &str, range: Range<usize>) -> Option<Slip> {
     let here = |at: &usize| !text[..*at].ends_with('\\');
-    let at = text[range.clone()]
-        .match_indices('$')
-        .map(|(at, _)| range.start + at)
-        .find(here)?;
+    let at = text[range.clone()].match_indices('$').map(|(at, _)| range.start + at).find(here)?;
     let what = "a `$` stands alone: a formula is $x$, without a space just inside; for a dollar sign write `\\$`.";
-    Some(Slip {
-        at,
-        what: what.to_owned(),
-    })
+    Some(Slip { at, what: what.to_owned() })
 }
 
 fn formula(latex: &str, display: bool) -> Result<String, String> {
     let latex = latex.trim();
     let storage = Storage::new();
-    let broken =
-        |error: &dyn std::fmt::Display| format!("the formula `{latex}` cannot be read: {error}.");
+    let broken = |error: &dyn std::fmt::Display| format!("the formula `{latex}` cannot be read: {error}.");
     if let Some(error) = pulldown_latex::Parser::new(latex, &storage).find_map(Result::err) {
         // The error's own text draws a box over several lines; its cause is the sentence.
         return Err(match error.source() {
@@ -94,28 +84,15 @@ fn formula(latex: &str, display: bool) -> Result<String, String> {
             None => broken(&error),
         });
     }
-    let mode = if display {
-        DisplayMode::Block
-    } else {
-        DisplayMode::Inline
-    };
-    let config = RenderConfig {
-        display_mode: mode,
-        ..RenderConfig::default()
-    };
+    let mode = if display { DisplayMode::Block } else { DisplayMode::Inline };
+    let config = RenderConfig { display_mode: mode, ..RenderConfig::default() };
     let mut mathml = String::new();
     let parser = pulldown_latex::Parser::new(latex, &storage);
     push_mathml(&mut mathml, parser, config).map_err(|error| broken(&error))?;
     // pulldown-latex 0.8 escapes its own `&nbsp;` once too often.
-    let spaces = mathml
-        .replace("&amp;nbsp;", "\u{a0}")
-        .replace("&nbsp;", "\u{a0}");
+    let spaces = mathml.replace("&amp;nbsp;", "\u{a0}").replace("&nbsp;", "\u{a0}");
     let mathml = guarded(&spaces.replace('\n', " "));
-    Ok(if display {
-        format!("<span class=\"formula\">{mathml}</span>")
-    } else {
-        mathml
-    })
+    Ok(if display { format!("<span class=\"formula\">{mathml}</span>") } else { mathml })
 }
 
 /// The MathML goes through markdown once more: what markdown would read as marks is written by number.
@@ -131,8 +108,7 @@ fn guarded(mathml: &str) -> String {
             ';' if inside_entity => inside_entity = false,
             _ => {}
         }
-        let plain =
-            inside_tag || inside_entity || !letter.is_ascii_punctuation() || "<>;".contains(letter);
+        let plain = inside_tag || inside_entity || !letter.is_ascii_punctuation() || "<>;".contains(letter);
         if plain {
             result.push(letter);
         } else {
@@ -150,15 +126,9 @@ mod tests {
     fn formulas_become_mathml() {
         let text = expand("the angle $\\theta$ is").expect("a formula");
         assert!(text.starts_with("the angle <math"), "{text}");
-        assert!(
-            text.contains("<mi>θ</mi>") && text.ends_with("</math> is"),
-            "{text}"
-        );
+        assert!(text.contains("<mi>θ</mi>") && text.ends_with("</math> is"), "{text}");
         let text = expand("$$\n\\frac{a}{b}\n$$").expect("a formula");
-        assert!(
-            text.starts_with("<span class=\"formula\"><math display=\"block\""),
-            "{text}"
-        );
+        assert!(text.starts_with("<span class=\"formula\"><math display=\"block\""), "{text}");
         let space = expand("$a,\\ b$").expect("a formula");
         assert!(space.contains("<mtext>\u{a0}</mtext>"), "{space}");
         assert!(text.contains("<mfrac>") && !text.contains('\n'), "{text}");
@@ -166,14 +136,8 @@ mod tests {
 
     #[test]
     fn code_is_left_alone() {
-        for text in [
-            "`$x$`",
-            "``$x$ ` $y$``",
-            "```text\n$x$ and $\n```",
-            "    $x$",
-            "\\$5 and \\$6",
-            "<b title=\"$\">",
-        ] {
+        for text in ["`$x$`", "``$x$ ` $y$``", "```text\n$x$ and $\n```", "    $x$", "\\$5 and \\$6", "<b title=\"$\">"]
+        {
             assert_eq!(expand(text).as_deref(), Ok(text));
         }
     }
@@ -181,26 +145,16 @@ mod tests {
     #[test]
     fn what_markdown_would_read_is_guarded() {
         let text = expand("$a*b*c$ | $x_1' [y](z)$").expect("formulas");
-        let inside: String = text
-            .split('<')
-            .filter_map(|part| part.split_once('>'))
-            .map(|(_, text)| text)
-            .collect();
+        let inside: String = text.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
         assert!(!inside.contains(['*', '_', '[', '(', '\'']), "{text}");
     }
 
     #[test]
     fn a_broken_formula_is_named() {
         let told = expand("so $\\frac{a}$ is").expect_err("a slip");
-        assert!(
-            told.starts_with("the formula `\\frac{a}` cannot be read: "),
-            "{told}"
-        );
+        assert!(told.starts_with("the formula `\\frac{a}` cannot be read: "), "{told}");
         let told = expand("so $\\nosuchthing$ is").expect_err("a slip");
-        assert!(
-            told.starts_with("the formula `\\nosuchthing` cannot be read: "),
-            "{told}"
-        );
+        assert!(told.starts_with("the formula `\\nosuchthing` cannot be read: "), "{told}");
         assert!(!told.contains('\n'), "{told}");
     }
 

@@ -26,29 +26,17 @@ const LONGEST_REQUEST: u64 = 64 * 1024;
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Serves until the program is stopped.
-pub fn serve(
-    book: &Book,
-    kit: &Rc<RefCell<Kit>>,
-    port: u16,
-    out: &mut dyn Write,
-) -> Result<(), String> {
+pub fn serve(book: &Book, kit: &Rc<RefCell<Kit>>, port: u16, out: &mut dyn Write) -> Result<(), String> {
     let listener = listen(port)?;
     let address = listener.local_addr().map_err(|error| error.to_string())?;
-    let site = Arc::new(RwLock::new(Site {
-        out: book.out.clone(),
-        revision: 0,
-        told: None,
-    }));
+    let site = Arc::new(RwLock::new(Site { out: book.out.clone(), revision: 0, told: None }));
     let watched = ["chapters", "src", "book/builder/book.css", "book/book.toml"];
     let watched = watched.iter().map(|place| book.repository.join(place));
     let mut watch = Watch::new(watched.chain([book.pages.clone()]).collect());
     rebuild(book, kit, &site, out);
     let shown = Arc::clone(&site);
     std::thread::spawn(move || accept(&listener, &shown));
-    say(
-        out,
-        &format!("http://{address} shows the book and follows every change; Ctrl-C ends it."),
-    );
+    say(out, &format!("http://{address} shows the book and follows every change; Ctrl-C ends it."));
     loop {
         std::thread::sleep(PACE);
         let changed = watch.changed();
@@ -62,22 +50,14 @@ fn listen(port: u16) -> Result<TcpListener, String> {
     TcpListener::bind(("127.0.0.1", port)).map_err(|error| match error.kind() {
         ErrorKind::AddrInUse => {
             let other = port.checked_add(1).unwrap_or(3000);
-            format!(
-                "port {port} is in use by another program: choose one with `--serve --port {other}`."
-            )
+            format!("port {port} is in use by another program: choose one with `--serve --port {other}`.")
         }
         _ => format!("port {port} cannot be opened on 127.0.0.1: {error}."),
     })
 }
 
 /// Only a change outside the pages can change what the kit answers.
-fn follow(
-    book: &Book,
-    kit: &Rc<RefCell<Kit>>,
-    site: &RwLock<Site>,
-    changed: &[PathBuf],
-    out: &mut dyn Write,
-) {
+fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, site: &RwLock<Site>, changed: &[PathBuf], out: &mut dyn Write) {
     if changed.iter().any(|path| !path.starts_with(&book.pages)) {
         kit.borrow_mut().forget();
     }
@@ -99,10 +79,7 @@ fn rebuild(book: &Book, kit: &Rc<RefCell<Kit>>, site: &RwLock<Site>, out: &mut d
         Ok(()) => {
             site.revision += 1;
             site.told = None;
-            say(
-                out,
-                &format!("built in {:.1} s", start.elapsed().as_secs_f64()),
-            );
+            say(out, &format!("built in {:.1} s", start.elapsed().as_secs_f64()));
         }
         Err(told) => {
             say(out, &told);
@@ -174,19 +151,13 @@ mod tests {
     fn a_browser_gets_its_answers() {
         let (_folder, book) = little_book();
         build(&book, &little_kit()).expect("the little book builds");
-        let site = Site {
-            out: book.out.clone(),
-            revision: 1,
-            told: None,
-        };
+        let site = Site { out: book.out.clone(), revision: 1, told: None };
         let listener = listen(0).expect("a free port");
         let port = listener.local_addr().expect("an address").port();
         let site = Arc::new(RwLock::new(site));
         std::thread::spawn(move || accept(&listener, &site));
         // Connections that say nothing must not keep the others waiting.
-        let silent: Vec<TcpStream> = (0..8)
-            .filter_map(|_| TcpStream::connect(("127.0.0.1", port)).ok())
-            .collect();
+        let silent: Vec<TcpStream> = (0..8).filter_map(|_| TcpStream::connect(("127.0.0.1", port)).ok()).collect();
         assert!(asked(port, "GET /02_two.html").starts_with("HTTP/1.1 200 OK"));
         assert!(asked(port, "HEAD /").ends_with("\r\n\r\n"));
         assert!(asked(port, "GET /../Cargo.toml").starts_with("HTTP/1.1 404"));
@@ -199,9 +170,7 @@ mod tests {
         let taken = listen(0).expect("a free port");
         let port = taken.local_addr().expect("an address").port();
         let other = port.checked_add(1).unwrap_or(3000);
-        let told = format!(
-            "port {port} is in use by another program: choose one with `--serve --port {other}`."
-        );
+        let told = format!("port {port} is in use by another program: choose one with `--serve --port {other}`.");
         assert_eq!(listen(port).err(), Some(told));
     }
 }

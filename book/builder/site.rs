@@ -50,59 +50,33 @@ pub struct Answer {
 
 /// A sentence instead of a page.
 pub fn plain(status: u16, text: &str) -> Answer {
-    Answer {
-        status,
-        kind: "text/plain; charset=utf-8",
-        body: text.as_bytes().to_vec(),
-    }
+    Answer { status, kind: "text/plain; charset=utf-8", body: text.as_bytes().to_vec() }
 }
 
 /// What the site answers at an address.
 pub fn answer(site: &Site, url: &str) -> Answer {
     let path = url.split(['?', '#']).next().unwrap_or_default();
     if path == REVISION {
-        let told = site
-            .told
-            .as_ref()
-            .map(|told| format!("\n{told}"))
-            .unwrap_or_default();
+        let told = site.told.as_ref().map(|told| format!("\n{told}")).unwrap_or_default();
         return plain(200, &format!("{}{told}", site.revision));
     }
-    let file = below(&site.out, path).map(|file| {
-        if file.is_dir() {
-            file.join("index.html")
-        } else {
-            file
-        }
-    });
-    let Some((file, body)) = file.and_then(|file| Some((file.clone(), std::fs::read(file).ok()?)))
-    else {
+    let file = below(&site.out, path).map(|file| if file.is_dir() { file.join("index.html") } else { file });
+    let Some((file, body)) = file.and_then(|file| Some((file.clone(), std::fs::read(file).ok()?))) else {
         return plain(404, "there is no such page in the book");
     };
     let kind = kind_of(&file);
     if kind.starts_with("text/html") {
         let script = RELOAD.replace("REVISION", &site.revision.to_string());
         let page = String::from_utf8_lossy(&body).replace("</body>", &format!("{script}</body>"));
-        return Answer {
-            status: 200,
-            kind,
-            body: page.into_bytes(),
-        };
+        return Answer { status: 200, kind, body: page.into_bytes() };
     }
-    Answer {
-        status: 200,
-        kind,
-        body,
-    }
+    Answer { status: 200, kind, body }
 }
 
 /// The file an address means, never one outside the folder.
 fn below(folder: &Path, path: &str) -> Option<PathBuf> {
     let mut file = folder.to_path_buf();
-    for part in decoded(path)?
-        .split('/')
-        .filter(|part| !part.is_empty() && *part != ".")
-    {
+    for part in decoded(path)?.split('/').filter(|part| !part.is_empty() && *part != ".") {
         if part == ".." || part.contains(['\\', ':', '\0']) {
             return None;
         }
@@ -125,11 +99,7 @@ fn decoded(path: &str) -> Option<String> {
 }
 
 fn kind_of(file: &Path) -> &'static str {
-    match file
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .unwrap_or_default()
-    {
+    match file.extension().and_then(|extension| extension.to_str()).unwrap_or_default() {
         "html" => "text/html; charset=utf-8",
         "css" => "text/css; charset=utf-8",
         "js" => "text/javascript; charset=utf-8",
@@ -152,43 +122,15 @@ mod tests {
     fn pages_are_served_and_nothing_else() {
         let (_folder, book) = little_book();
         build(&book, &little_kit()).expect("the little book builds");
-        let site = Site {
-            out: book.out.clone(),
-            revision: 7,
-            told: Some("a slip".to_owned()),
-        };
+        let site = Site { out: book.out.clone(), revision: 7, told: Some("a slip".to_owned()) };
         let status = |url: &str| answer(&site, url).status;
-        assert_eq!(
-            [
-                status("/"),
-                status("/01_one.html?x#y"),
-                status("/figures/render.png")
-            ],
-            [200; 3]
-        );
-        assert_eq!(
-            [
-                status("/none.html"),
-                status("/../src/01_one.md"),
-                status("/%2e%2e/src/01_one.md")
-            ],
-            [404; 3]
-        );
-        assert_eq!(
-            [
-                status("/figures/..%2f..%2fsrc/01_one.md"),
-                status("/..\\src"),
-                status("/%zz")
-            ],
-            [404; 3]
-        );
+        assert_eq!([status("/"), status("/01_one.html?x#y"), status("/figures/render.png")], [200; 3]);
+        assert_eq!([status("/none.html"), status("/../src/01_one.md"), status("/%2e%2e/src/01_one.md")], [404; 3]);
+        assert_eq!([status("/figures/..%2f..%2fsrc/01_one.md"), status("/..\\src"), status("/%zz")], [404; 3]);
         assert_eq!(answer(&site, REVISION), plain(200, "7\na slip"));
         let page = String::from_utf8(answer(&site, "/02_two.html").body).expect("text");
         assert!(page.contains("const shown = \"7\""));
         let written = std::fs::read_to_string(book.out.join("02_two.html")).expect("a page");
-        assert!(
-            !written.contains(REVISION),
-            "the built page knows nothing of the server"
-        );
+        assert!(!written.contains(REVISION), "the built page knows nothing of the server");
     }
 }

@@ -14,10 +14,7 @@ pub struct Watch {
 impl Watch {
     /// Begins to watch files, and folders with all that is in them.
     pub fn new(places: Vec<PathBuf>) -> Self {
-        let mut watch = Self {
-            places,
-            seen: BTreeMap::new(),
-        };
+        let mut watch = Self { places, seen: BTreeMap::new() };
         watch.changed();
         watch
     }
@@ -28,10 +25,7 @@ impl Watch {
         for place in &self.places {
             look(place, &mut now);
         }
-        let came = now
-            .iter()
-            .filter(|(path, state)| self.seen.get(*path) != Some(*state))
-            .map(|(path, _)| path);
+        let came = now.iter().filter(|(path, state)| self.seen.get(*path) != Some(*state)).map(|(path, _)| path);
         let went = self.seen.keys().filter(|path| !now.contains_key(*path));
         let changed = came.chain(went).cloned().collect();
         self.seen = now;
@@ -41,9 +35,7 @@ impl Watch {
 
 fn look(path: &Path, found: &mut BTreeMap<PathBuf, (Option<SystemTime>, u64)>) {
     if let Ok(entries) = std::fs::read_dir(path) {
-        entries
-            .flatten()
-            .for_each(|entry| look(&entry.path(), found));
+        entries.flatten().for_each(|entry| look(&entry.path(), found));
     } else if let Ok(about) = path.metadata() {
         found.insert(path.to_path_buf(), (about.modified().ok(), about.len()));
     }

@@ -5,6 +5,10 @@ use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, colum
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
+use multiversion::multiversion;
+
+/// Surfaces aimed from together.
+const LANES: usize = 16;
 
 column! {
     /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if it gets there.
@@ -41,6 +45,23 @@ impl LightRays {
     }
 }
 
+impl LightRays {
+    #[inline(always)]
+    fn push(&mut self, path: u32, aimed: &Aimed, reach: f32, brings: [f64; 3]) {
+        self.path.push(path);
+        self.ox.push(aimed.origin.x);
+        self.oy.push(aimed.origin.y);
+        self.oz.push(aimed.origin.z);
+        self.dx.push(aimed.direction.x);
+        self.dy.push(aimed.direction.y);
+        self.dz.push(aimed.direction.z);
+        self.reach.push(reach);
+        self.r.push(brings[0] as f32);
+        self.g.push(brings[1] as f32);
+        self.b.push(brings[2] as f32);
+    }
+}
+
 impl RayColumn for LightRays {
     fn ray_lanes(&self) -> RayLanes<'_> {
         RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
@@ -59,15 +80,23 @@ pub fn reflected_radiance(colour: [f64; 3], intensity: [f64; 3], cosine: f64, di
 }
 // ANCHOR_END: reflected_radiance
 
-/// A ray from a surface to a light: its origin, direction, and distance; or none where the surface faces away.
+/// A ray from a surface to a light.
+#[derive(Clone, Copy, Debug, Default)]
+struct Aimed {
+    origin: Vec3,
+    direction: Vec3,
+    distance: f64,
+    /// Of the angle between the normal and the direction; not above 0 where the surface faces away.
+    cosine: f64,
+}
+
 #[inline(always)]
-fn aim(surface: &Surface, light: DVec3) -> Option<(Vec3, Vec3, f64, f64)> {
+fn aim(surface: &Surface, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
-    let direction = (to_light / distance).as_vec3();
-    let cosine = surface.normal.as_dvec3().dot(direction.as_dvec3());
-    (cosine > 0.0).then_some((origin, direction, distance, cosine))
+    let direction = (to_light * (1.0 / distance)).as_vec3();
+    Aimed { origin, direction, distance, cosine: surface.normal.as_dvec3().dot(direction.as_dvec3()) }
 }
 
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
@@ -83,23 +112,38 @@ pub fn aim_at_lights(
     mut tiles: Query<(&Surfaces, &MatteRows, &mut LightRays)>,
 ) {
     for (surfaces, list, mut rays) in &mut tiles {
-        let mut length = 0;
-        let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.rows() * lights.position.len());
-        for (light, &position) in lights.position.iter().enumerate() {
-            for &row in &list.row {
-                let surface = surfaces.get(row as usize);
-                let Some((origin, direction, distance, cosine)) = aim(&surface, position) else { continue };
-                let colour = mattes.colour[surface.matte as usize];
-                let brings = reflected_radiance(colour, lights.intensity[light], cosine, distance * distance);
-                path[length] = row;
-                (ox[length], oy[length], oz[length]) = origin.into();
-                (dx[length], dy[length], dz[length]) = direction.into();
-                reach[length] = if lights.casts_shadows[light] { shadow_reach(distance) } else { 0.0 };
-                (r[length], g[length], b[length]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
-                length += 1;
+        rays.clear();
+        for light in 0..lights.position.len() {
+            for rows in list.row.chunks(LANES) {
+                aim_rows(surfaces, rows, &lights, light, &mattes, &mut rays);
             }
         }
-        rays.slices_mut(length);
+    }
+}
+
+/// Aims from a few surfaces at once, then keeps those that face the light.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn aim_rows(
+    surfaces: &Surfaces,
+    rows: &[u32],
+    lights: &PointLightTable,
+    light: usize,
+    mattes: &MatteTable,
+    rays: &mut LightRays,
+) {
+    let mut near = [Surface::default(); LANES];
+    for (surface, &row) in near.iter_mut().zip(rows) {
+        *surface = surfaces.get(row as usize);
+    }
+    let aimed = near.map(|surface| aim(&surface, lights.position[light]));
+    for ((&row, aimed), surface) in rows.iter().zip(aimed).zip(near) {
+        if aimed.cosine > 0.0 {
+            let colour = mattes.colour[surface.matte as usize];
+            let distance_squared = aimed.distance * aimed.distance;
+            let brings = reflected_radiance(colour, lights.intensity[light], aimed.cosine, distance_squared);
+            let reach = if lights.casts_shadows[light] { shadow_reach(aimed.distance) } else { 0.0 };
+            rays.push(row, &aimed, reach, brings);
+        }
     }
 }
 

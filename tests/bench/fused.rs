@@ -110,7 +110,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
     for (light, &position) in scene.lights.position.iter().enumerate() {
         let to_light = position - origin.as_dvec3();
         let distance = to_light.length();
-        let direction = (to_light / distance).as_vec3().as_dvec3();
+        let direction = (to_light * (1.0 / distance)).as_vec3().as_dvec3();
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.mattes.colour[surface.matte as usize];
@@ -139,6 +139,7 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
     }
     let spheres = &scene.spheres;
     let count = spheres.x.len();
+    let inverse = 1.0 / direction.dot(direction);
     let mut start = 0;
     while start < count && !(any && shape != NO_SHAPE) {
         let mut near = [f64::NEG_INFINITY; LANES];
@@ -147,7 +148,7 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
             (&spheres.x[start..start + here], &spheres.y[start..start + here], &spheres.z[start..start + here]);
         let radius = &spheres.radius[start..start + here];
         for lane in 0..here {
-            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, radius[lane]);
+            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, inverse, radius[lane]);
         }
         for lane in 0..here {
             if near[lane] >= 0.0 {

@@ -95,7 +95,7 @@ fn bounce_cost(chapter: &Chapter, options: &Options) {
     let offer = chapter.stages();
     let run = |bounces| {
         let execution = Execution { threads: Some(1), bounces, ..Execution::default() };
-        cpu(|| render(&world, &offer, &execution, &()).expect("renders").film)
+        cpu(&|| render(&world, &offer, &execution, &()).expect("renders").film)
     };
     let logs: Vec<f64> =
         (0..options.pairs).map(|_| (run(Some(8)).as_secs_f64() / run(None).as_secs_f64()).ln()).collect();
@@ -103,7 +103,7 @@ fn bounce_cost(chapter: &Chapter, options: &Options) {
     println!("{:<12} 8 empty bounces a tile over none: CPU time {middle:.3} [{low:.3}, {high:.3}]", chapter.name);
 }
 
-fn cpu<T>(run: impl Fn() -> T) -> Duration {
+fn cpu<T>(run: &impl Fn() -> T) -> Duration {
     let started = ProcessTime::now();
     let result = run();
     let time = started.elapsed();
@@ -180,5 +180,5 @@ fn memory() {
         measured.push((number("width") * number("height"), peak));
     }
     let growth = (measured[1].1 - measured[0].1) / (measured[1].0 - measured[0].0);
-    println!("memory: {growth:.2} bytes a further pixel, of which the film takes 28");
+    println!("memory: {growth:.2} bytes a further pixel");
 }

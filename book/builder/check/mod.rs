@@ -27,11 +27,7 @@ pub struct Problem {
 impl Problem {
     /// A problem at a line.
     pub fn new(file: &str, line: usize, what: impl Into<String>) -> Self {
-        Self {
-            file: file.to_owned(),
-            line,
-            what: what.into(),
-        }
+        Self { file: file.to_owned(), line, what: what.into() }
     }
 }
 
@@ -60,31 +56,17 @@ pub struct Page {
 /// Reads `SUMMARY.md` and every page of a folder, in the order of their names.
 pub fn read_pages(folder: &Path) -> Result<Vec<Page>, Problem> {
     let unreadable = |path: &Path, error: &dyn fmt::Display| {
-        Problem::new(
-            &path.display().to_string(),
-            0,
-            format!("cannot be read: {error}."),
-        )
+        Problem::new(&path.display().to_string(), 0, format!("cannot be read: {error}."))
     };
     let entries = std::fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    let mut paths: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .collect();
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
     paths.sort();
     let read = |path: PathBuf| {
         let text = std::fs::read_to_string(&path).map_err(|error| unreadable(&path, &error))?;
-        let name = path
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned())
-            .unwrap_or_default();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let label = format!("book/src/{name}");
-        Ok(Page {
-            path,
-            name,
-            label,
-            text: text.replace("\r\n", "\n"),
-        })
+        Ok(Page { path, name, label, text: text.replace("\r\n", "\n") })
     };
     paths.into_iter().map(read).collect()
 }
@@ -109,10 +91,5 @@ pub fn pages(all: &[Page]) -> Vec<Problem> {
 #[cfg(test)]
 pub fn made_up(name: &str, text: &str) -> Page {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-    Page {
-        path,
-        name: name.to_owned(),
-        label: name.to_owned(),
-        text: text.to_owned(),
-    }
+    Page { path, name: name.to_owned(), label: name.to_owned(), text: text.to_owned() }
 }

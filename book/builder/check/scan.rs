@@ -46,8 +46,7 @@ impl<'a> Scan<'a> {
             let here = marks_of(text);
             if let Some(open) = marks {
                 scan.push(index, start, text, true);
-                let closes =
-                    here.is_some_and(|(found, rest)| found.starts_with(open) && rest.is_empty());
+                let closes = here.is_some_and(|(found, rest)| found.starts_with(open) && rest.is_empty());
                 if closes {
                     marks = None;
                     scan.close(index, true);
@@ -55,12 +54,7 @@ impl<'a> Scan<'a> {
             } else {
                 if let Some((open, info)) = here {
                     marks = Some(open);
-                    scan.fences.push(Fence {
-                        first: index,
-                        last: index,
-                        info,
-                        closed: false,
-                    });
+                    scan.fences.push(Fence { first: index, last: index, info, closed: false });
                 }
                 scan.push(index, start, text, here.is_some());
             }
@@ -74,12 +68,7 @@ impl<'a> Scan<'a> {
 
     fn push(&mut self, index: usize, start: usize, text: &'a str, code: bool) {
         let fence = code.then(|| self.fences.len() - 1);
-        self.lines.push(Line {
-            number: index + 1,
-            start,
-            text,
-            fence,
-        });
+        self.lines.push(Line { number: index + 1, start, text, fence });
     }
 
     fn close(&mut self, index: usize, closed: bool) {
@@ -91,9 +80,7 @@ impl<'a> Scan<'a> {
 
     /// The lines between a fence's own two.
     pub fn body(&self, fence: &Fence<'_>) -> &[Line<'a>] {
-        self.lines
-            .get(fence.first + 1..fence.last)
-            .unwrap_or_default()
+        self.lines.get(fence.first + 1..fence.last).unwrap_or_default()
     }
 
     /// The lines that are not code.
@@ -105,10 +92,7 @@ impl<'a> Scan<'a> {
 /// The marks and the words of a line that opens or closes a fence.
 fn marks_of(line: &str) -> Option<(&str, &str)> {
     let line = line.trim();
-    let mark = line
-        .chars()
-        .next()
-        .filter(|mark| ['`', '~'].contains(mark))?;
+    let mark = line.chars().next().filter(|mark| ['`', '~'].contains(mark))?;
     let length = line.len() - line.trim_start_matches(mark).len();
     let (marks, info) = line.split_at(length);
     let opens = length >= 3 && !(mark == '`' && info.contains('`'));
@@ -144,18 +128,9 @@ fn span_length(text: &str) -> usize {
 /// How many words of prose a page has: code, tables, formulas and directives are not counted.
 pub fn words(text: &str) -> usize {
     let scan = Scan::new(text);
-    let prose = scan
-        .prose()
-        .filter(|line| !line.text.trim_start().starts_with(['|', '{']));
+    let prose = scan.prose().filter(|line| !line.text.trim_start().starts_with(['|', '{']));
     let spoken = |word: &&str| word.chars().any(char::is_alphanumeric);
-    prose
-        .map(|line| {
-            blank_spans(line.text)
-                .split_whitespace()
-                .filter(spoken)
-                .count()
-        })
-        .sum()
+    prose.map(|line| blank_spans(line.text).split_whitespace().filter(spoken).count()).sum()
 }
 
 #[cfg(test)]
@@ -167,29 +142,18 @@ mod tests {
         let scan = Scan::new("a\n````rust\n```\nb\n````\nc\n");
         let inside: Vec<bool> = scan.lines.iter().map(|line| line.fence.is_some()).collect();
         assert_eq!(inside, [false, true, true, true, true, false]);
-        assert_eq!(
-            (scan.fences[0].info, scan.body(&scan.fences[0]).len()),
-            ("rust", 2)
-        );
+        assert_eq!((scan.fences[0].info, scan.body(&scan.fences[0]).len()), ("rust", 2));
         assert!(!Scan::new("```\nopen").fences[0].closed);
     }
 
     #[test]
     fn spans_are_blanked() {
-        assert_eq!(
-            blank_spans("a `b` $c$ \\$ d"),
-            format!("a{}d", " ".repeat(12))
-        );
+        assert_eq!(blank_spans("a `b` $c$ \\$ d"), format!("a{}d", " ".repeat(12)));
         assert_eq!(blank_spans("a ` b"), "a   b");
     }
 
     #[test]
     fn words_are_prose_only() {
-        assert_eq!(
-            words(
-                "One two – three.\n\n| a | b |\n\n{{#kit plan}}\n\n```text\nno\n```\n`no` $no$\n"
-            ),
-            3
-        );
+        assert_eq!(words("One two – three.\n\n| a | b |\n\n{{#kit plan}}\n\n```text\nno\n```\n`no` $no$\n"), 3);
     }
 }
