@@ -7,9 +7,6 @@ use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use multiversion::multiversion;
 
-/// Surfaces aimed from together.
-const LANES: usize = 16;
-
 column! {
     /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if it gets there.
     pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
@@ -42,23 +39,6 @@ impl LightRays {
     /// The direction: each part from −1 to 1 becomes 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
-    }
-}
-
-impl LightRays {
-    #[inline(always)]
-    fn push(&mut self, path: u32, aimed: &Aimed, reach: f32, brings: [f64; 3]) {
-        self.path.push(path);
-        self.ox.push(aimed.origin.x);
-        self.oy.push(aimed.origin.y);
-        self.oz.push(aimed.origin.z);
-        self.dx.push(aimed.direction.x);
-        self.dy.push(aimed.direction.y);
-        self.dz.push(aimed.direction.z);
-        self.reach.push(reach);
-        self.r.push(brings[0] as f32);
-        self.g.push(brings[1] as f32);
-        self.b.push(brings[2] as f32);
     }
 }
 
@@ -112,16 +92,18 @@ pub fn aim_at_lights(
     mut tiles: Query<(&Surfaces, &MatteRows, &mut LightRays)>,
 ) {
     for (surfaces, list, mut rays) in &mut tiles {
-        rays.clear();
+        let mut length = 0;
+        rays.slices_mut(list.rows() * lights.position.len());
         for light in 0..lights.position.len() {
-            for rows in list.row.chunks(LANES) {
-                aim_rows(surfaces, rows, &lights, light, &mattes, &mut rays);
-            }
+            length = aim_rows(surfaces, &list.row, &lights, light, &mattes, &mut rays, length);
         }
+        rays.slices_mut(length);
     }
 }
 
-/// Aims from a few surfaces at once, then keeps those that face the light.
+/// Aims from all surfaces of a tile at one light, keeps those that face it, and says how many rays there are now.
+///
+/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn aim_rows(
     surfaces: &Surfaces,
@@ -130,21 +112,29 @@ fn aim_rows(
     light: usize,
     mattes: &MatteTable,
     rays: &mut LightRays,
-) {
-    let mut near = [Surface::default(); LANES];
-    for (surface, &row) in near.iter_mut().zip(rows) {
-        *surface = surfaces.get(row as usize);
+    length: usize,
+) -> usize {
+    let (position, intensity) = (lights.position[light], lights.intensity[light]);
+    let most = rays.rows();
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
+    let mut at = length;
+    for &row in rows {
+        let surface = surfaces.get(row as usize);
+        let aimed = aim(&surface, position);
+        let distance_squared = aimed.distance * aimed.distance;
+        let colour = mattes.colour[surface.matte as usize];
+        let brings = reflected_radiance(colour, intensity, aimed.cosine, distance_squared);
+        path[at] = row;
+        (ox[at], oy[at], oz[at]) = aimed.origin.into();
+        (dx[at], dy[at], dz[at]) = aimed.direction.into();
+        reach[at] = shadow_reach(aimed.distance);
+        (r[at], g[at], b[at]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
+        at += usize::from(aimed.cosine > 0.0);
     }
-    let aimed = near.map(|surface| aim(&surface, lights.position[light]));
-    for ((&row, aimed), surface) in rows.iter().zip(aimed).zip(near) {
-        if aimed.cosine > 0.0 {
-            let colour = mattes.colour[surface.matte as usize];
-            let distance_squared = aimed.distance * aimed.distance;
-            let brings = reflected_radiance(colour, lights.intensity[light], aimed.cosine, distance_squared);
-            let reach = if lights.casts_shadows[light] { shadow_reach(aimed.distance) } else { 0.0 };
-            rays.push(row, &aimed, reach, brings);
-        }
+    if !lights.casts_shadows[light] {
+        reach[length..at].fill(0.0);
     }
+    at
 }
 
 /// Adds what each light ray brings to its path, unless something stands in between.
