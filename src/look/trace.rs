@@ -104,8 +104,7 @@ impl Trace {
     /// Lanes of a row, vectors in brackets, a shape by its name.
     fn show_row(&self, lanes: &[(&'static str, String)]) -> String {
         let mut words = Vec::new();
-        let mut lanes = lanes.iter().filter(|(name, _)| *name != "path").peekable();
-        while let Some((name, value)) = lanes.next() {
+        for (name, value) in lanes.iter().filter(|(name, _)| *name != "path") {
             let shown = if *name == "shape" {
                 let shape = value.parse().ok().and_then(|number: usize| self.shapes.get(number));
                 shape.cloned().unwrap_or_else(|| "none".into())
