@@ -14,7 +14,9 @@
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
 //! 10. [`review`]: what a picture was made of, as text to compare with.
-//! 11. [`command`]: the command line.
+//! 11. [`naive`]: the methods that break, for the book and the extremes.
+//! 12. [`measure`]: exact arithmetic, oracles, extremes.
+//! 13. [`command`]: the command line.
 
 pub mod scene;
 
@@ -35,6 +37,10 @@ pub mod render;
 pub mod look;
 
 pub mod review;
+
+pub mod naive;
+
+pub mod measure;
 
 pub mod command;
 
