@@ -153,7 +153,8 @@ mod tests {
 
     #[test]
     fn a_stage_that_comes_or_goes_is_named() {
-        let without = OLD.replace("\"List rows\" writes sphere rows\n-------- bbbb cccc\n-------- -------- --------\n", "");
+        let without =
+            OLD.replace("\"List rows\" writes sphere rows\n-------- bbbb cccc\n-------- -------- --------\n", "");
         let named = |difference: Option<Difference>| difference.map(|difference| (difference.stage, difference.place));
         assert_eq!(named(first_difference(OLD, &without)), Some(("List rows".into(), Place::Gone)));
         assert_eq!(named(first_difference(&without, OLD)), Some(("List rows".into(), Place::New)));

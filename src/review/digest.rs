@@ -144,7 +144,8 @@ mod tests {
         let before = two_blocks(|_| ());
         for (row, changed) in [(0, 0), (7, 0), (8, 1), (127, 1)] {
             let after = two_blocks(|raster| raster.y[row] = f64::from_bits(raster.y[row].to_bits() ^ 1));
-            let differs = before.split_whitespace().zip(after.split_whitespace()).map(|(before, after)| before != after);
+            let differs =
+                before.split_whitespace().zip(after.split_whitespace()).map(|(before, after)| before != after);
             assert_eq!(differs.collect::<Vec<bool>>(), [changed == 0, changed == 1], "row {row}");
         }
     }
