@@ -46,8 +46,7 @@ fn every_chapter_has_its_test() {
 }
 
 #[test]
-fn every_snapshot_file_is_there_and_none_is_unused() {
+fn every_snapshot_file_is_there_and_none_is_unused() -> Result<(), message::Mismatch> {
     let names: Vec<&str> = chapters::all().iter().map(|chapter| chapter.name).collect();
-    let faults = files::faults(&names);
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    files::check(&names)
 }

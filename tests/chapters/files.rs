@@ -1,23 +1,29 @@
 //! Which snapshot files there should be, and which there are.
 
+use crate::message::Mismatch;
 use crate::snapshots::{FILES, folder};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// A sentence a file that is missing or that no chapter uses.
-pub fn faults(chapters: &[&str]) -> Vec<String> {
+/// Errors: the files that are missing and those that no chapter uses.
+pub fn check(chapters: &[&str]) -> Result<(), Mismatch> {
     let mut expected = BTreeSet::new();
     for chapter in chapters {
         expected.extend(FILES.map(|file| format!("chapters/{chapter}/snapshots/{file}")));
     }
     let found = found(&Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters"));
-    let unused = found.difference(&expected).map(|file| format!("{file} is not used by any chapter: remove it"));
-    let missing = expected
-        .difference(&found)
-        .filter(|_| !being_written())
-        .map(|file| format!("{file} is missing: `INSTA_UPDATE=always cargo test --test chapters` writes it"));
-    unused.chain(missing).collect()
+    let unused: Vec<String> = found.difference(&expected).cloned().collect();
+    let missing: Vec<String> = expected.difference(&found).filter(|_| !being_written()).cloned().collect();
+    let mut text = String::new();
+    if !unused.is_empty() {
+        text = format!("snapshots that no chapter uses, to be removed:\n  {}\n", unused.join("\n  "));
+    }
+    if !missing.is_empty() {
+        text += &format!("snapshots that are missing:\n  {}\n", missing.join("\n  "));
+        text += "`INSTA_UPDATE=always cargo test --test chapters` writes them\n";
+    }
+    if text.is_empty() { Ok(()) } else { Err(Mismatch(text)) }
 }
 
 /// All kept snapshots, whether their folder is a chapter's or not; not those that wait to be kept.

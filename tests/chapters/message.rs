@@ -106,7 +106,8 @@ fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference
 fn what_to_do(chapter: &str, [x, y]: [u32; 2]) -> String {
     let (width, height) = (SIZE.width, SIZE.height);
     let snapshots = format!("chapters/{chapter}/snapshots");
-    let pictures = if folder(chapter).join("image.snap.new.png").is_file() {
+    let kept = |file: &str| folder(chapter).join(file).is_file();
+    let pictures = if kept("image.snap.png") && kept("image.snap.new.png") {
         format!("\n          {snapshots}/image.snap.png is before, image.snap.new.png beside it is now")
     } else {
         String::new()
