@@ -51,7 +51,7 @@ fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&s
 /// The probes before and now: every column that changed of the first probe, the first column of the others.
 fn probes(before: &str, now: &str) -> String {
     let rows = changed_rows(before, now);
-    let Some(first) = rows.first() else { return String::new() };
+    let Some(first) = rows.first() else { return "\nprobes: none of the nine changed\n".into() };
     let mut text = String::from("\nprobes, where they changed\n");
     let (mut last, mut left_out) = ("", 0);
     for ChangedRow { probe, before, now } in &rows {
@@ -108,15 +108,58 @@ fn what_to_do(chapter: &str, [x, y]: [u32; 2]) -> String {
     let snapshots = format!("chapters/{chapter}/snapshots");
     let kept = |file: &str| folder(chapter).join(file).is_file();
     let pictures = if kept("image.snap.png") && kept("image.snap.new.png") {
-        format!("\n          {snapshots}/image.snap.png is before, image.snap.new.png beside it is now")
+        format!("\n             {snapshots}/image.snap.png is before, image.snap.new.png beside it is now")
     } else {
         String::new()
     };
     format!(
         "\n\
-        to look   cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}{pictures}\n\
-        to keep   INSTA_UPDATE=always cargo test --test chapters chapter_{chapter}\n          \
-                  or, with cargo-insta: cargo insta accept\n\
-        to go back   undo your edit (`git diff` shows it; `git checkout chapters/{chapter}/main.rs` if it is there)\n"
+        to look      cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}{pictures}\n\
+        to keep      INSTA_UPDATE=always cargo test --test chapters chapter_{chapter}\n             \
+                     or, with cargo-insta: cargo insta accept\n\
+        to go back   undo your edit: `git diff` shows it, \
+                     and if it is in the chapter, `git checkout chapters/{chapter}/main.rs` undoes it\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snapshots(digests: &str, plan: &str) -> Snapshots {
+        Snapshots { digests: digests.into(), plan: plan.into(), ..Snapshots::default() }
+    }
+
+    const DIGESTS: &str = "8 × 8 pixels\n\n\"Add light\" writes radiance\naaaa\n";
+
+    #[test]
+    fn the_first_line_says_what_differs_first() {
+        let (before, now) = (snapshots(DIGESTS, "a plan"), snapshots(&DIGESTS.replace("aaaa", "bbbb"), "another plan"));
+        let line = headline(&before, &now, &[], &["digests", "plan", "image"]);
+        assert!(line.starts_with("the first stage whose numbers differ is \"Add light\" (column radiance)"), "{line}");
+        let line = headline(&before, &before, &[], &["image"]);
+        assert!(line.starts_with("all columns of all stages are the same, and the picture differs"), "{line}");
+        let line = headline(&before, &snapshots(DIGESTS, "another plan"), &[], &["plan"]);
+        assert_eq!(line, "all numbers and pixels are the same; what differs is the wording of plan");
+        assert_eq!(headline(&now, &now, &FILES, &["image"]), "no snapshot of it is kept yet");
+        assert_eq!(headline(&now, &now, &["plan.snap"], &["plan"]), "of its snapshots plan.snap is missing");
+    }
+
+    #[test]
+    fn only_lines_that_changed_are_told() {
+        let text = changed_lines("plan", "one\ntwo\nthree\n", "one\n2\nthree\n");
+        assert_eq!(text, "\nplan, where it changed\n    before two\n    now    2\n");
+        assert_eq!(changed_lines("plan", "one\n", "one\n"), "");
+    }
+
+    #[test]
+    fn every_column_of_the_first_probe_and_the_first_of_the_others() {
+        let probe = |x: u32| format!("\nplace {x}\nraster {x}\nndc {x}\n");
+        let before = format!("size\n{}{}{}", probe(1), probe(2), probe(3));
+        let now = before.replace(" 1\nndc 1", " 7\nndc 7").replace(" 2\nndc 2", " 8\nndc 8");
+        let text = probes(&before, &now);
+        assert!(text.contains("now    ndc 7") && text.contains("now    raster 8"), "{text}");
+        assert!(!text.contains("ndc 8") && !text.contains("place 3"), "{text}");
+        assert!(text.ends_with("  and 1 more columns at these probes\n"), "{text}");
+    }
 }
