@@ -11,6 +11,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("01_image", "the image: a grid of numbers", scene)
         .offer(rays::raster_stage())

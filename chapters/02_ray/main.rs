@@ -11,6 +11,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("02_ray", "a ray: r(t) = O + tR", scene).offer(rays::stages()).show::<rays::WorldRays>()
 }

@@ -11,6 +11,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("03_hit", "a ray meets a sphere and a plane", scene)
         .offer(rays::stages())

@@ -11,6 +11,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("04_orthographic", "the rectangle with a grid", scene)
         .offer(rays::stages())

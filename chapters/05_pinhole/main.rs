@@ -11,6 +11,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("05_pinhole", "the eye behind the grid", scene)
         .offer(rays::stages())

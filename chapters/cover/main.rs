@@ -10,6 +10,7 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("cover", "the cover: spheres on a plane, in light and shadow", scene)
         .offer(rays::stages())

@@ -70,11 +70,13 @@ pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> 
 // ANCHOR_END: sphere_verdict
 
 /// At least 0 where a ray may meet the sphere or be in doubt, below 0 where it passes by for certain.
+///
+/// `inverse` is 1 / R·R, taken once a ray; the slack is many times what its rounding can do.
 #[inline(always)]
-fn nearness(f: DVec3, direction: DVec3, radius: f64) -> f64 {
+pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
     const SLACK: f64 = 1.0 / (1_u64 << 47) as f64;
     let (ff, rr) = (f.dot(f), radius * radius);
-    let across = f - f.dot(direction) / direction.dot(direction) * direction;
+    let across = f - f.dot(direction) * inverse * direction;
     rr - across.dot(across) + SLACK * (ff + rr)
 }
 
@@ -103,11 +105,15 @@ fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: 
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
+        let mut inverse = [1.0_f64; LANES];
+        for (lane, inverse) in inverse.iter_mut().enumerate() {
+            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
+        }
         for sphere in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for lane in 0..LANES {
-                nearest[lane] = nearness(centre - vector(&o, lane), vector(&d, lane), radius);
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                *nearness_of_lane = nearness(centre - vector(&o, lane), vector(&d, lane), inverse[lane], radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let (t, shape) = (&mut t[start..end], &mut shape[start..end]);

@@ -25,7 +25,7 @@ column! {
 }
 
 /// One row of [`Surfaces`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Where, in render space.
     pub position: Vec3,
