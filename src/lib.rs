@@ -13,9 +13,10 @@
 //! 7. [`film`]: light → pixels → files.
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
-//! 10. [`naive`]: the methods that break, for the book and the extremes.
-//! 11. [`measure`]: exact arithmetic, oracles, extremes.
-//! 12. [`command`]: the command line.
+//! 10. [`review`]: what a picture was made of, as text to compare with.
+//! 11. [`naive`]: the methods that break, for the book and the extremes.
+//! 12. [`measure`]: exact arithmetic, oracles, extremes.
+//! 13. [`command`]: the command line.
 
 pub mod scene;
 
@@ -34,6 +35,8 @@ pub mod film;
 pub mod render;
 
 pub mod look;
+
+pub mod review;
 
 pub mod naive;
 

@@ -4,7 +4,7 @@ use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
 use crate::chapter::Chapter;
 use crate::extract::ImageShape;
-use crate::film::{Curve, Film, write_exr, write_png};
+use crate::film::{Film, write_exr, write_png};
 use crate::look::RenderStats;
 use crate::plan::Table;
 use crate::render::{Execution, Rendered, render};
@@ -80,13 +80,8 @@ fn ending(file: &Path) -> &str {
 fn write_file(rendered: &Rendered, file: &Path) -> Result {
     match ending(file) {
         "exr" => write_exr(&rendered.film, file),
-        _ => write_png(&rendered.film, curve(rendered), file),
+        _ => write_png(&rendered.film, rendered.curve(), file),
     }
-}
-
-/// Light is shown by the sRGB curve, a view's numbers as they are.
-fn curve(rendered: &Rendered) -> Curve {
-    if rendered.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
 }
 
 fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
