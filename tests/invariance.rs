@@ -7,7 +7,7 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use glam::DVec3;
 use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
-use pinhole::render::{Execution, RenderWorld, Worlds, inspect, prepare};
+use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
 use scenes::{EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, ties, turned};
 use std::collections::BTreeSet;
@@ -99,8 +99,8 @@ fn inspected(scene: &World, tile_side: u32) -> FilmBits {
 }
 
 /// The names of the systems in the order in which a shuffled schedule runs them.
-fn order_of(scene: &World, execution: &Execution) -> Vec<String> {
-    let (plan, tables) = prepare(scene, &offer()).expect("prepares");
+fn order_of(scene: &World, offer: &[Stage], execution: &Execution) -> Vec<String> {
+    let (plan, tables) = prepare(scene, offer).expect("prepares");
     let mut frame = RenderWorld::new(&plan, &tables, 1, execution, &[]);
     let built = frame.schedule.initialize(&mut frame.world);
     if let Err(error) = built {
@@ -130,9 +130,11 @@ fn every_order_that_the_schedule_allows() {
         for seed in 0..SEEDS {
             for worlds in [Worlds::One, Worlds::PerWorker] {
                 let execution = shuffled(seed, Execution { worlds, threads: Some(2), ..Execution::default() });
-                let film = film_by(&scene, &offer(), &execution).expect("renders");
+                // A shuffle alone reaches only half of the orders; the stages on offer change places too.
+                let offer = permuted(offer(), seed);
+                let film = film_by(&scene, &offer, &execution).expect("renders");
                 film.assert_is(&expected, &format!("{name}, shuffled by {seed}, {worlds:?}"));
-                orders.insert(order_of(&scene, &execution));
+                orders.insert(order_of(&scene, &offer, &execution));
             }
         }
         // Two kinds of shape and two columns to start, so each order-free set that runs has two orders.
@@ -140,6 +142,20 @@ fn every_order_that_the_schedule_allows() {
         assert_eq!(orders.len(), least, "{name}: not every order that is allowed was seen in {SEEDS} seeds");
         eprintln!("orders of {name}: {SEEDS} seeds × 4 renders, {} different orders, all equal", orders.len());
     }
+}
+
+/// Recorders and clocks follow each stage one after the other, never in an order that chance decides.
+#[test]
+fn hooks_are_ordered() {
+    let scene = with_statistics(turned(Setup::default()));
+    let (plan, tables) = prepare(&scene, &offer()).expect("prepares");
+    let hook: Hook = Arc::new(|_, _, _| (|_: &mut World| {}).into_configs());
+    let execution = shuffled(7, Execution { bounces: Some(1), ..one_world() });
+    let mut frame = RenderWorld::new(&plan, &tables, 1, &execution, &[hook.clone(), hook]);
+    if let Err(error) = frame.schedule.initialize(&mut frame.world) {
+        panic!("{}", error.to_string(frame.schedule.graph(), &frame.world));
+    }
+    assert_eq!(frame.schedule.systems_len(), plan.stages.len() * 4 + 1, "a stage, a clock and two hooks; the bounce");
 }
 
 #[test]
