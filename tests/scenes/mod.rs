@@ -72,7 +72,7 @@ pub fn offer() -> Vec<Stage> {
 /// All coordinates lie on a 2⁻³² grid, and nothing but the view is turned, so that it may be moved by 2²⁰ exactly.
 pub fn full(setup: Setup) -> World {
     let mut world = World::new();
-    let look = LookAt { eye: setup.point(0.25, 1.5, 5.0), target: setup.point(0.0, 0.75, 0.0), up: DVec3::Y };
+    let look = LookAt { eye: setup.point(0.25, 1.0, 5.0), target: setup.point(0.0, 1.25, 0.0), up: DVec3::Y };
     setup.camera(&mut world, look);
     add_things(&mut world, &setup);
     world
@@ -105,8 +105,8 @@ fn add_things(world: &mut World, setup: &Setup) {
     let group = world.spawn((Name::new("group"), mirrored)).id();
     let child = Placement { position: DVec3::new(0.0, 0.25, 0.0) * setup.scale, ..Placement::default() };
     world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
-    let wall = Plane { normal: DVec3::new(0.0, 0.25, 1.0) };
-    world.spawn((Name::new("wall"), wall, at(0.0, 0.0, -4.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
+    world.spawn((Name::new("wall"), wall, at(-3.0, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
     world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.5, 4.0, 3.0)));
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.0, -1.0, 2.5)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-3.0, 2.0, 2.0)));
