@@ -11,9 +11,7 @@ use bevy_ecs::world::EntityRef;
 use pinhole::Error;
 use pinhole::extract::ImageShape;
 use pinhole::film::FilmTile;
-use pinhole::plan::{
-    ColumnKind, Evidence, LaneValues, Plan, PlanError, Stage, StageKind, TableKind, plan, view_names,
-};
+use pinhole::plan::{ColumnKind, Evidence, LaneValues, Plan, PlanError, Stage, StageKind, TableKind, plan, view_names};
 use pinhole::rays::Tile;
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
@@ -89,7 +87,8 @@ fn rows_systems_columns_and_tables_are_one_list() {
         let expected: Vec<&String> = kept.iter().map(|name| &systems[position(&offer, name)]).collect();
         let scheduled: Vec<String> =
             frame.schedule.systems().expect("initialised").map(|(_, system)| system.name().to_string()).collect();
-        let (laps, found): (Vec<&String>, Vec<&String>) = scheduled.iter().partition(|name| name.contains("clock_hook"));
+        let (laps, found): (Vec<&String>, Vec<&String>) =
+            scheduled.iter().partition(|name| name.contains("clock_hook"));
         assert_eq!(found.iter().collect::<BTreeSet<_>>(), expected.iter().collect::<BTreeSet<_>>(), "{on:?}: systems");
         assert_eq!(found.len(), kept.len(), "{on:?}: systems");
         let timed = on.contains(&Toggle::Statistics);
@@ -103,7 +102,11 @@ fn rows_systems_columns_and_tables_are_one_list() {
         for column in &columns {
             assert_eq!((column.present)(&tile), of_plan.contains(column.name), "{on:?}: column {}", column.name);
         }
-        assert_eq!(tile.archetype().components().len(), plan.columns.len() + 1, "{on:?}: columns and the tile, no more");
+        assert_eq!(
+            tile.archetype().components().len(),
+            plan.columns.len() + 1,
+            "{on:?}: columns and the tile, no more"
+        );
 
         let of_rows: BTreeSet<&str> = plan.rows.iter().flat_map(|row| &row.tables).copied().collect();
         let of_plan: BTreeSet<&str> = plan.tables.iter().map(|table| table.name).collect();
@@ -119,7 +122,10 @@ fn rows_systems_columns_and_tables_are_one_list() {
             assert!(!row.reason.is_empty(), "{on:?}: {} is dropped for a reason", row.stage);
         }
     }
-    eprintln!("one list: all {planned} + {refused} combinations of {} toggles; {refused} refused", scenes::TOGGLES.len());
+    eprintln!(
+        "one list: all {planned} + {refused} combinations of {} toggles; {refused} refused",
+        scenes::TOGGLES.len()
+    );
 }
 
 fn position(offer: &[Stage], name: &str) -> usize {
