@@ -55,7 +55,7 @@ pub struct TraceChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: String,
     /// The pixel, counted from 0 at the top left corner
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub pixel: TracePixel,
     #[command(flatten)]
     pub options: SceneOptions,
@@ -64,7 +64,7 @@ pub struct TraceChapter {
 #[derive(Args, Clone, Default)]
 pub struct SceneOptions {
     /// How many pixels the image has
-    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
     pub size: Option<Resolution>,
     /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
     #[arg(long, value_name = "COLUMN")]
@@ -76,7 +76,7 @@ pub struct RenderOptions {
     #[command(flatten)]
     pub scene: SceneOptions,
     /// How many workers render (default: as many as the machine has cores)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
     pub threads: Option<u16>,
     /// Where to write, ending in .png or .exr (default: both, in out/)
     #[arg(short, long, value_name = "FILE")]
@@ -96,7 +96,7 @@ pub struct ExampleArguments {
     #[command(flatten)]
     pub options: RenderOptions,
     /// Follow one pixel from raster to light instead, and print what every stage wrote for it
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub trace: Option<TracePixel>,
 }
 
@@ -115,6 +115,11 @@ fn resolution(text: &str) -> Result<Resolution, String> {
 fn pixel(text: &str) -> Result<TracePixel, String> {
     let (x, y) = pair(text, ',').ok_or("a pixel is two whole numbers with a comma between, such as 48,27")?;
     Ok(TracePixel { x, y })
+}
+
+fn workers(text: &str) -> Result<u16, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
+    number.ok_or("a number of workers is a whole number from 1 to 1024".into())
 }
 
 fn pair(text: &str, between: char) -> Option<(u32, u32)> {

@@ -8,6 +8,7 @@ mod hints;
 mod interrupt;
 mod list;
 mod plan;
+mod refused;
 mod render;
 mod trace;
 
@@ -58,10 +59,7 @@ fn parsed<'a, P: Parser>(words: impl Iterator<Item = &'a str>, out: &mut dyn Wri
             write!(out, "{answer}")?;
             Ok(None)
         }
-        Err(answer) => {
-            let text = answer.to_string();
-            Err(Error::Usage(text.trim_start_matches("error: ").trim_end().to_string()))
-        }
+        Err(answer) => Err(Error::Usage(refused::sentence(&answer, &P::command()))),
     }
 }
 

@@ -4,7 +4,7 @@ use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
 use crate::chapter::Chapter;
 use crate::extract::ImageShape;
-use crate::film::{Film, write_exr, write_png};
+use crate::film::{Film, check_place, write_exr, write_png};
 use crate::look::RenderStats;
 use crate::plan::Table;
 use crate::render::{Execution, Rendered, render};
@@ -20,6 +20,7 @@ pub fn render_cover(chapters: &[Chapter], out: &mut dyn Write) -> Result {
 /// Renders a chapter's scene and says what ran, what was left out, and what to try next.
 pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
     let files = files(chapter, options)?;
+    files.iter().try_for_each(|file| check_place(file))?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
     let rendered = render_world(chapter, options, &execution)?;
     for file in &files {
