@@ -3,6 +3,7 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod cost;
 mod extremes;
 mod find;
 mod hints;
@@ -39,7 +40,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
         Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
-        Some(Command::Cost(_)) => Ok(()),
+        Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }
 }
 
