@@ -71,13 +71,13 @@ fn percentiles(laps: &[Lap]) -> Option<[f64; 3]> {
 
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{:<31}{:>8}{:>9}{:>15}   error of what it writes", "what ran", "rows", "ns a row", "10 to 90 %")?;
+        writeln!(f, "{:<31}{:>8}{:>9}{:>18}   error of what it writes", "what ran", "rows", "ns a row", "10 to 90 %")?;
         for StageCost { stage, rows, nanoseconds, error } in &self.stages {
             let (median, range) = match nanoseconds {
                 Some([low, median, high]) => (format!("{median:.2}"), format!("{low:.2} to {high:.2}")),
                 None => ("-".into(), "-".into()),
             };
-            writeln!(f, "{stage:<31}{rows:>8}{median:>9}{range:>15}   {error}")?;
+            writeln!(f, "{stage:<31}{rows:>8}{median:>9}{range:>18}   {error}")?;
         }
         Ok(())
     }

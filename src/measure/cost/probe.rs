@@ -254,7 +254,7 @@ impl Worst {
         words.extend(world.map(|world| (rays::world_stage().name, world)));
         let hit_stages = [intersect::sphere_stage().name, intersect::plane_stage().name];
         for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
-            let error = format!("{worst:.1e} u of t, {misjudged} of {probes} misjudged");
+            let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
         let [sphere, plane] = self.surfaces;

@@ -82,11 +82,11 @@ pub fn sphere_table(spheres: &[Sphere]) -> SphereTable {
     }
 }
 
-/// The table of these planes; a plane's shape number is its place after the `first`.
-pub fn plane_table(planes: &[Plane], first: usize) -> PlaneTable {
+/// The table of these planes; a plane's shape number is its place.
+pub fn plane_table(planes: &[Plane]) -> PlaneTable {
     PlaneTable {
         normal: planes.iter().map(|plane| plane.normal).collect(),
         offset: planes.iter().map(|plane| plane.offset).collect(),
-        shape: (first as u32..).take(planes.len()).collect(),
+        shape: (0..planes.len() as u32).collect(),
     }
 }

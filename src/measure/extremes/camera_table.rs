@@ -7,6 +7,9 @@ use crate::measure::ray_aim::Draws;
 use crate::scene::{FovAxis, LookAt};
 use glam::{DMat3, DQuat, DVec3};
 
+/// Pixels that are tried of each camera.
+const PIXELS: u64 = 8;
+
 /// The cases of limits.
 pub fn trials() -> Vec<Trial> {
     let lens = |name: &str, size, fov| trial(name, move |index| posed(index, size, fov));
@@ -30,11 +33,11 @@ pub fn trials() -> Vec<Trial> {
 }
 
 fn posed(index: u64, size: [u32; 2], fov: f64) -> AskedCamera {
-    AskedCamera { size, fov, axis: FovAxis::Vertical, pose: any_pose(&mut Draws::new(73, index)) }
+    AskedCamera { size, fov, axis: FovAxis::Vertical, pose: any_pose(&mut Draws::new(73, index / PIXELS)) }
 }
 
 fn far_eye(index: u64, distance: f64) -> AskedCamera {
-    let mut draws = Draws::new(74, index);
+    let mut draws = Draws::new(74, index / PIXELS);
     let eye = draws.unit_vector() * distance;
     AskedCamera { size: [1024, 768], fov: 40.0, axis: FovAxis::Vertical, pose: any_pose_at(eye, &mut draws) }
 }

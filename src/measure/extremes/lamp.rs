@@ -54,7 +54,7 @@ struct Standing {
 }
 
 fn judge_walls(standing: Standing, range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(WALL.len()), ShadowStages::new());
+    let (mut tally, mut stages) = (Tally::new(WALL.len()), ShadowStages::of_planes());
     for index in range {
         let shadow = shadow_before_wall(standing, index, &mut stages);
         tally.count(shadow.is_some());
@@ -88,7 +88,7 @@ fn shadow_before_wall(standing: Standing, index: u64, stages: &mut ShadowStages)
     let off = away.length() * (standing.least + draws.power_of_ten(standing.closest, 0.0));
     let wall = Plane { normal: facing, offset: facing.dot(light) - off };
 
-    stages.shapes(&[], &[floor, wall]);
+    stages.planes(&[floor, wall]);
     let eye = (foot.as_dvec3() + ahead * (size * 1e-3)).as_vec3();
     let (shape, surface) = stages.surface(rounded_ray(eye, foot.as_dvec3() - eye.as_dvec3()))?;
     let shadow = stages.shadow(surface, light).filter(|_| shape == 0)?;
@@ -104,11 +104,11 @@ fn depth(point: DVec3, plane: Plane) -> f64 {
 }
 
 fn judge_balls(range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(BALL.len()), ShadowStages::new());
+    let (mut tally, mut stages) = (Tally::new(BALL.len()), ShadowStages::of_spheres());
     for index in range {
         let mut draws = Draws::new(63, index);
         let (ray, body) = seen_sphere_of_any_size(64, index);
-        stages.shapes(&[body], &[]);
+        stages.spheres(&[body]);
         let Some((_, surface)) = stages.surface(ray) else {
             tally.count(false);
             continue;
@@ -116,7 +116,7 @@ fn judge_balls(range: Range<u64>) -> Tally {
         let radius = body.radius * draws.power_of_ten(-3.0, 0.0);
         let away = leaving(&mut draws, surface.normal, 0.5).normalize();
         let ball = Sphere { centre: surface.position.as_dvec3() + away * (3.0 * radius), radius };
-        stages.shapes(&[body, ball], &[]);
+        stages.spheres(&[body, ball]);
         let light = surface.position.as_dvec3() + away * (6.0 * radius);
         // A ball that is not well larger than the bound is smaller than what f32 can tell apart there.
         let shadow = stages.shadow(surface, light).filter(|_| radius >= 64.0 * f64::from(surface.bound));

@@ -79,12 +79,12 @@ fn leave(stages: &mut ShadowStages, surface: Surface, size: f64, draws: &mut Dra
 }
 
 fn judge_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::new());
+    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_spheres());
     for index in range {
         let (ray, sphere) = aim(index);
         let ray = scaled(ray, scale);
         let sphere = Sphere { centre: sphere.centre * scale, radius: sphere.radius * scale };
-        stages.shapes(&[sphere], &[]);
+        stages.spheres(&[sphere]);
         let started = start_on_sphere(&mut stages, ray, sphere, &mut Draws::new(45, index));
         tally.count(started.is_some());
         if let Some((side, surface, shadow)) = started {
@@ -130,11 +130,11 @@ fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
 }
 
 fn judge_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
-    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::new());
+    let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_planes());
     for index in range {
         let (ray, plane) = aim_at_plane(46, index, flattest);
         let (ray, plane) = (scaled(ray, scale), Plane { offset: plane.offset * scale, ..plane });
-        stages.shapes(&[], &[plane]);
+        stages.planes(&[plane]);
         let side = side_of_plane(ray.origin.as_dvec3(), plane);
         let surface = stages.surface(ray).map(|(_, surface)| surface);
         let surface = surface.filter(|surface| surface.position.abs().max_element() < FARTHEST);

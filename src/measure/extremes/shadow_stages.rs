@@ -6,7 +6,7 @@ use crate::intersect::{self, Hits, MatteRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
 use crate::measure::ray_aim::{AimedRay, Draws};
-use crate::plan::Column;
+use crate::plan::{Column, Stage};
 use crate::shade::{self, LightRays, ShadowHits};
 use glam::{DVec3, Vec3};
 
@@ -30,15 +30,22 @@ pub struct ShadowStages {
 }
 
 impl ShadowStages {
-    /// A scene without shapes, and a light still to be placed.
-    pub fn new() -> Self {
-        let to_light = [
-            shade::aim_stage(),
-            shade::start_shadow_stage(),
-            shade::sphere_shadow_stage(),
-            shade::plane_shadow_stage(),
-        ];
-        let mut stages = Self { to_surface: Bench::new(&intersect::stages()), to_light: Bench::new(&to_light) };
+    /// The stages for spheres, a light still to be placed.
+    pub fn of_spheres() -> Self {
+        let to_surface = [intersect::sphere_stage(), intersect::classify_stage(), intersect::sphere_surface_stage()];
+        Self::of(&to_surface, shade::sphere_shadow_stage())
+    }
+
+    /// The stages for planes, a light still to be placed.
+    pub fn of_planes() -> Self {
+        let to_surface = [intersect::plane_stage(), intersect::classify_stage(), intersect::plane_surface_stage()];
+        Self::of(&to_surface, shade::plane_shadow_stage())
+    }
+
+    fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
+        let to_surface = [&[intersect::start_stage()], to_surface].concat();
+        let to_light = [shade::aim_stage(), shade::start_shadow_stage(), shadow_stage];
+        let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
         stages.to_light.share(MatteTable { colour: vec![[0.5; 3]] });
         let mut first = MatteRows::default();
         first.slices_mut(1)[0] = 0;
@@ -46,20 +53,24 @@ impl ShadowStages {
         stages
     }
 
-    /// The scene: its spheres, then its planes; their places are their numbers.
-    pub fn shapes(&mut self, spheres: &[Sphere], planes: &[Plane]) {
-        let rows = || (0..spheres.len() as u32).chain(0..planes.len() as u32);
-        let kinds = [(ShapeKind::Sphere, spheres.len()), (ShapeKind::Plane, planes.len())];
-        self.to_surface.share(ShapeTable {
-            kind: kinds.into_iter().flat_map(|(kind, count)| std::iter::repeat_n(kind, count)).collect(),
-            row: rows().collect(),
-            matte: rows().map(|_| 0).collect(),
-            name: Vec::new(),
-        });
-        for bench in [&mut self.to_surface, &mut self.to_light] {
-            bench.share(sphere_table(spheres));
-            bench.share(plane_table(planes, spheres.len()));
-        }
+    /// The scene's spheres; a sphere's place is its number.
+    pub fn spheres(&mut self, spheres: &[Sphere]) {
+        self.shapes(ShapeKind::Sphere, spheres.len());
+        self.to_surface.share(sphere_table(spheres));
+        self.to_light.share(sphere_table(spheres));
+    }
+
+    /// The scene's planes; a plane's place is its number.
+    pub fn planes(&mut self, planes: &[Plane]) {
+        self.shapes(ShapeKind::Plane, planes.len());
+        self.to_surface.share(plane_table(planes));
+        self.to_light.share(plane_table(planes));
+    }
+
+    fn shapes(&mut self, kind: ShapeKind, count: usize) {
+        let row = (0..count as u32).collect();
+        let table = ShapeTable { kind: vec![kind; count], row, matte: vec![0; count], name: Vec::new() };
+        self.to_surface.share(table);
     }
 
     /// The number of the shape that a ray meets first, and the surface there.
