@@ -1,4 +1,5 @@
 use crate::chapter::Asked;
+use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -15,7 +16,8 @@ use std::path::PathBuf;
     cargo run --release -- render 05_pinhole --size 960x540\n  \
     cargo run --release -- render cover --view surface\n  \
     cargo run --release -- plan 04_orthographic\n  \
-    cargo run --release -- trace cover --pixel 480,300"
+    cargo run --release -- trace cover --pixel 480,300\n  \
+    cargo run --release -- extremes sphere"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -32,6 +34,29 @@ pub enum Command {
     Plan(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
+    /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
+    Extremes(TryExtremes),
+    /// Measure what a chapter's stages cost, and how exact what they write is
+    Cost(CostOfChapter),
+}
+
+#[derive(Args)]
+pub struct TryExtremes {
+    /// sphere, plane, shadow or camera (default: all)
+    #[arg(value_parser = |word: &str| word.parse::<Group>())]
+    pub group: Option<Group>,
+    /// How many rays each case tries
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub rays: u64,
+}
+
+#[derive(Args)]
+pub struct CostOfChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole), or all
+    pub chapter: String,
+    /// Keep what was measured in the chapter's folder, as costs.txt
+    #[arg(long)]
+    pub write: bool,
 }
 
 #[derive(Args)]

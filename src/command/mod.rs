@@ -3,6 +3,8 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod cost;
+mod extremes;
 mod find;
 mod hints;
 mod interrupt;
@@ -38,6 +40,8 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Trace(asked)) => {
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
+        Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
+        Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }
 }
 

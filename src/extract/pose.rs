@@ -5,8 +5,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// How far a quaternion's length may be from 1 before it is taken for a mistake rather than for rounding.
 const UNIT_TOLERANCE: f64 = 1e-6;
-/// Sine of the least angle between up and the view.
-const LEAST_SINE: f64 = 1e-8;
+/// Sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
+const LEAST_SINE: f64 = 1e-6;
 const ONE_OF_THE_TWO: &str = "a LookAt already says where it stands and looks: give one of the two";
 
 /// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.

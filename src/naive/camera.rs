@@ -24,7 +24,8 @@ pub fn viewport_f32(eye: Vec3, rotation: Mat3, vertical_degrees: f32, size: [u32
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::oracle_camera::{ExactCamera, FovAxis};
+    use crate::measure::oracle_camera::ExactCamera;
+    use crate::scene::FovAxis;
     use glam::{DMat3, DVec2};
 
     const SIZE: [u32; 2] = [1024, 768];
