@@ -1,4 +1,5 @@
 use super::arguments::TryExtremes;
+use super::interrupt::{Waiting, interrupted};
 use crate::measure::extremes::{Case, Group, try_group, unbroken};
 use crate::{Error, Result};
 use std::io::Write;
@@ -11,7 +12,10 @@ pub fn print_extremes(asked: &TryExtremes, out: &mut dyn Write) -> Result {
     let mut cases: Vec<Case> = Vec::new();
     for group in groups {
         writeln!(out, "{}", group.heading())?;
-        let tried = try_group(group, asked.rays);
+        let tried = try_group(group, asked.rays, &Waiting::new(0, true));
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
         for case in &tried {
             write!(out, "{case}")?;
         }

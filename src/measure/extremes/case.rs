@@ -2,6 +2,7 @@
 
 use super::Group;
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
+use crate::render::Watch;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -123,11 +124,12 @@ impl Trial {
         self
     }
 
-    /// Tries so many rays; the same on any number of threads.
-    pub fn run(&self, rays: u64) -> Case {
+    /// Tries so many rays, the same on any number of threads; fewer if the one who watches stops it.
+    pub fn run(&self, rays: u64, watch: &dyn Watch) -> Case {
         let rays = rays.min(self.most);
         let chunks = (0..rays.div_ceil(CHUNK)).into_par_iter();
         let tally = chunks
+            .filter(|_| !watch.stopped())
             .map(|chunk| (self.judge)(chunk * CHUNK..rays.min((chunk + 1) * CHUNK)))
             .reduce(|| Tally::new(self.methods.len()), Tally::add);
         let outcome = |(&method, score)| Outcome { method, score };

@@ -19,6 +19,7 @@ mod sphere;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial};
 
+use crate::render::Watch;
 use rayon::prelude::*;
 use std::fmt;
 use std::str::FromStr;
@@ -70,9 +71,10 @@ impl FromStr for Group {
     }
 }
 
-/// Tries every case of a group with so many rays; the same on any number of threads.
-pub fn try_group(group: Group, rays: u64) -> Vec<Case> {
-    group.trials().par_iter().map(|trial| trial.run(rays)).collect()
+/// Tries every case of a group with so many rays, the same on any number of threads; fewer if the one who watches
+/// stops it.
+pub fn try_group(group: Group, rays: u64, watch: &dyn Watch) -> Vec<Case> {
+    group.trials().par_iter().map(|trial| trial.run(rays, watch)).collect()
 }
 
 /// The naive methods that no case shows to break: there, the cases prove nothing.
