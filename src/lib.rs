@@ -13,7 +13,8 @@
 //! 7. [`film`]: light → pixels → files.
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
-//! 10. [`command`]: the command line.
+//! 10. [`figure`]: drawings of a scene and of what the stages wrote for it.
+//! 11. [`command`]: the command line.
 
 pub mod scene;
 
@@ -32,6 +33,8 @@ pub mod film;
 pub mod render;
 
 pub mod look;
+
+pub mod figure;
 
 pub mod command;
 

@@ -32,6 +32,17 @@ pub enum Command {
     Plan(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
+    /// Draw a figure of the book from its chapter's scene; without a name, list the figures
+    Figure(DrawFigure),
+}
+
+#[derive(Args)]
+pub struct DrawFigure {
+    /// The figure's name, such as 05_pinhole
+    pub name: Option<String>,
+    /// Where to write the SVG (default: out/<name>.svg)
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Args)]

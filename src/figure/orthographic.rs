@@ -1,0 +1,90 @@
+use super::Figure;
+use super::grid::Grid;
+use super::label::Label;
+use super::scenery::{Scenery, Side, Strand};
+use super::sketch::{Extent, Frame};
+use super::subject::{Lens, PixelRay, Subject, screen_colour};
+use super::svg::{Drawing, Fill, INK, Pen, RAY, Svg, WIDTH};
+use crate::Result;
+use crate::chapter::Chapter;
+use glam::{DVec2, DVec3};
+
+const HEIGHT: f64 = 440.0;
+const SIDE: Side = Side { around: 54.0, above: 20.0 };
+/// In how many steps a ray that meets nothing fades.
+const FADES: usize = 7;
+
+/// The simplest camera: a rectangle of pixels in the scene, and a ray from each perpendicular to it.
+pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let subject = Subject::of(chapter, 8, 5)?;
+    if matches!(subject.lens, Lens::Perspective(_)) {
+        return Err(figure.unsuited("an orthographic camera"));
+    }
+    let grid = Grid::of(&subject, 0.0);
+    let reach = reach(&subject);
+    let near = |ray: &&PixelRay| ray.hit.is_some_and(|(t, _)| t <= reach);
+    let hits: Vec<&PixelRay> = subject.rays.iter().filter(near).collect();
+    let more: Vec<Extent> = hits.iter().filter_map(|ray| ray.point()).map(|point| (point, 0.0)).collect();
+    let frame = Frame { low: DVec2::new(10.0, 12.0), high: DVec2::new(WIDTH - 10.0, HEIGHT - 34.0) };
+    let scenery = Scenery::new(&subject, grid, SIDE, &more, frame)?;
+    let mut svg = Svg::new(figure.name, HEIGHT);
+    let strands: Vec<Strand> = subject.rays.iter().flat_map(|ray| strands_of(ray, reach)).collect();
+    scenery.paint(&mut svg, &strands);
+    for ray in &subject.rays {
+        svg.dot(scenery.point(grid.centre(ray.pixel)), 1.7, RAY);
+    }
+    hits.iter().for_each(|ray| mark_hit(&mut svg, &scenery, ray));
+    label(&mut svg, &scenery, &hits, reach);
+    Ok(svg.finish(figure.about, &figure.foot(&subject, "")))
+}
+
+/// How far rays that meet nothing are drawn: a little past the last sphere.
+fn reach(subject: &Subject) -> f64 {
+    let ahead = -subject.axes.z_axis;
+    let last = subject.balls.iter().map(|ball| ball.centre.dot(ahead) + ball.radius).fold(0.0, f64::max);
+    if last > 0.0 { last * 1.1 } else { 4.0 }
+}
+
+/// A ray up to its surface, or into nothing.
+fn strands_of(ray: &PixelRay, reach: f64) -> Vec<Strand> {
+    let pen = Pen::new(RAY, 1.3);
+    match ray.hit {
+        Some((t, _)) if t <= reach => vec![Strand::new(ray.origin, ray.at(t), pen)],
+        _ => {
+            let at = |step: usize| ray.at(reach * step as f64 / FADES as f64);
+            let fading = |step: usize| 0.5 * (1.0 - step as f64 / FADES as f64);
+            (0..FADES).map(|step| Strand::new(at(step), at(step + 1), pen.faint(fading(step)))).collect()
+        }
+    }
+}
+
+/// A dot in the surface's own colour.
+fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
+    let Some(point) = ray.point() else { return };
+    if scenery.sketch.hidden(point, &scenery.subject.balls) {
+        return;
+    }
+    let flat = scenery.subject.flats.first().map(|flat| flat.colour);
+    let colour = scenery.subject.ball_met(ray).map(|ball| ball.colour).or(flat).unwrap_or_default();
+    let fill = Fill::new(screen_colour(colour.map(|part| part as f32)), 1.0);
+    svg.circle(scenery.point(point), 3.6, Some(&fill), Some(Pen::new(INK, 1.2)));
+}
+
+fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
+    let [width, height] = scenery.grid.size.map(f64::from);
+    let at = |point: DVec3| scenery.point(point);
+    let top = at(scenery.grid.point(width * 0.5, 0.0));
+    svg.label(Label::near(top, "image: a rectangle of pixels", DVec2::NEG_Y, 8.0));
+    svg.label(Label::near(at(scenery.grid.centre([0, scenery.grid.size[1] - 1])), "pixel centre", DVec2::Y, 14.0));
+    let right_way =
+        |ray: &&&PixelRay| !scenery.sketch.hidden(ray.at(ray.hit.map_or(0.0, |hit| hit.0)), &scenery.subject.balls);
+    let highest = hits.iter().filter(right_way).min_by_key(|ray| ray.pixel[1]);
+    if let Some(point) = highest.and_then(|ray| ray.point()) {
+        svg.label(Label::near(at(point), "hit", DVec2::new(0.3, -1.0), 8.0));
+    }
+    let missing = scenery.subject.rays.iter().find(|ray| ray.hit.is_none_or(|(t, _)| t > reach));
+    if let Some(ray) = missing {
+        svg.label(Label::near(at(ray.at(reach * 0.8)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
+    }
+    let _ = height;
+}

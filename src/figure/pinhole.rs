@@ -1,0 +1,96 @@
+use super::Figure;
+use super::grid::{Grid, drawn_distance};
+use super::label::Label;
+use super::scenery::{Scenery, Side, Strand, paint_eye};
+use super::sketch::{Extent, Frame};
+use super::subject::{Lens, PixelRay, Subject};
+use super::svg::{Drawing, INK, LIGHT, Pen, RAY, Svg, WIDTH};
+use crate::Result;
+use crate::chapter::Chapter;
+use glam::{DVec2, DVec3};
+
+const HEIGHT: f64 = 440.0;
+/// From behind the eye and from its right, so that the picture is seen the right way round.
+const SIDE: Side = Side { around: 52.0, above: 20.0 };
+
+/// The pinhole camera: the eye, the image plane before it, rays through pixel centres, and one on to the light.
+pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let subject = Subject::of(chapter, 8, 5)?;
+    if matches!(subject.lens, Lens::Orthographic(_)) {
+        return Err(figure.unsuited("a perspective camera"));
+    }
+    let distance = drawn_distance(&subject);
+    let grid = Grid::of(&subject, distance);
+    let rays = chosen_rays(&subject);
+    let Some(first) = rays.first() else { return Err(figure.unsuited("a sphere that a pixel's ray meets")) };
+    let mut more: Vec<Extent> = vec![(DVec3::ZERO, 0.1)];
+    more.extend(rays.iter().filter_map(|ray| ray.point()).map(|point| (point, 0.0)));
+    let frame = Frame { low: DVec2::new(10.0, 12.0), high: DVec2::new(WIDTH - 10.0, HEIGHT - 34.0) };
+    let scenery = Scenery::new(&subject, grid, SIDE, &more, frame)?;
+    let mut svg = Svg::new(figure.name, HEIGHT);
+    let mut strands = edges(&grid);
+    let camera_ray = |ray: &&PixelRay| Some(Strand::arrow(ray.origin, ray.point()?, Pen::new(RAY, 1.9)));
+    strands.extend(rays.iter().filter_map(camera_ray));
+    strands.extend(first.lit().map(|on| Strand::arrow(on.from, on.to, Pen::new(LIGHT, 1.9).dashed("7 4"))));
+    scenery.paint(&mut svg, &strands);
+    for ray in &rays {
+        mark(&mut svg, &scenery, ray);
+    }
+    paint_eye(&mut svg, scenery.point(DVec3::ZERO), scenery.sketch.direction(-subject.axes.z_axis));
+    label(&mut svg, &scenery, first);
+    let note = format!("image plane drawn {distance} before the eye");
+    Ok(svg.finish(figure.about, &figure.foot(&subject, &note)))
+}
+
+/// For each sphere that the image shows, the lit ray that meets it most squarely: largest sphere in the image first.
+pub fn chosen_rays(subject: &Subject) -> Vec<&PixelRay> {
+    let mut chosen: Vec<(usize, &PixelRay)> = Vec::new();
+    for ball in &subject.balls {
+        let met: Vec<&PixelRay> =
+            subject.rays.iter().filter(|ray| ray.hit.is_some_and(|(_, shape)| shape == ball.shape)).collect();
+        let off = |ray: &PixelRay| (ball.centre - ray.origin).cross(ray.direction).length();
+        // A lit ray first; among equals the one that passes nearest the centre.
+        let best =
+            met.iter().min_by(|a, b| a.lit().is_none().cmp(&b.lit().is_none()).then_with(|| off(a).total_cmp(&off(b))));
+        chosen.extend(best.map(|ray| (met.len(), *ray)));
+    }
+    chosen.sort_by_key(|(count, ray)| (ray.lit().is_none(), std::cmp::Reverse(*count)));
+    chosen.into_iter().map(|(_, ray)| ray).take(3).collect()
+}
+
+/// The edges of what the camera sees, from the eye to the corners of the image.
+fn edges(grid: &Grid) -> Vec<Strand> {
+    let pen = Pen::new(INK, 0.9).faint(0.35);
+    grid.corners().map(|corner| Strand::new(DVec3::ZERO, corner, pen)).to_vec()
+}
+
+/// The pixel that a ray goes through, and its centre.
+fn mark(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
+    let cell = scenery.grid.cell(ray.pixel).map(|corner| scenery.point(corner));
+    svg.polygon(&cell, None, Some(Pen::new(RAY, 1.8)));
+    svg.dot(scenery.point(scenery.grid.centre(ray.pixel)), 2.8, RAY);
+}
+
+fn label(svg: &mut Svg, scenery: &Scenery<'_>, first: &PixelRay) {
+    let at = |point| scenery.point(point);
+    svg.label(Label::near(at(DVec3::ZERO), "eye", DVec2::new(-0.4, -1.0), 15.0));
+    let top = at(scenery.grid.point(f64::from(scenery.grid.size[0]) * 0.5, 0.0));
+    svg.label(Label::near(top, "image plane", DVec2::NEG_Y, 8.0));
+    svg.label(Label::near(at(scenery.grid.centre(first.pixel)), "pixel centre", DVec2::new(-0.5, 1.0), 40.0));
+    if let Some(point) = first.point() {
+        let centre = scenery.grid.centre(first.pixel);
+        let half_way = centre.lerp(point, 0.55);
+        svg.label(Label::near(at(half_way), "ray", DVec2::NEG_Y, 6.0).coloured(RAY));
+    }
+    if let Some(ball) = scenery.subject.ball_met(first) {
+        let rim = at(ball.centre) + DVec2::new(0.0, ball.radius * scenery.sketch.scale);
+        svg.label(Label::near(rim, "sphere", DVec2::Y, 5.0));
+    }
+    if let Some(light) = scenery.subject.lights.first() {
+        svg.label(Label::near(at(*light), "light", DVec2::X, 17.0));
+    }
+    if let Some(onward) = first.lit() {
+        let half_way = onward.from.lerp(onward.to, 0.5);
+        svg.label(Label::near(at(half_way), "shadow ray", DVec2::X, 8.0).coloured(LIGHT));
+    }
+}
