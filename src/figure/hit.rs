@@ -3,7 +3,7 @@ use super::label::Label;
 use super::section::Section;
 use super::sketch::Frame;
 use super::subject::{Ball, PixelRay, Subject, screen_colour};
-use super::svg::{Drawing, IMAGE, INK, Pen, RAY, Svg, WIDTH};
+use super::svg::{Drawing, IMAGE, INK, Pen, RAY, Svg, TEXT, WIDTH};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::DVec2;
@@ -86,15 +86,19 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
         section.drop(svg, t, aside);
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
+    // Both halves are named where there is room for both names.
+    let wide = (chord.far - chord.s) * section.scale > 6.2 * TEXT;
     for (from, to, row, name) in [
-        (0.0, chord.near, rows[0], "`near`"),
-        (chord.near, chord.s, rows[0], "`half_chord`"),
+        (0.0, chord.near, rows[0], "`near` = `s` − `half_chord`"),
+        (chord.near, chord.s, rows[0], if wide { "`half_chord`" } else { "" }),
         (chord.s, chord.far, rows[0], "`half_chord`"),
         (0.0, chord.s, rows[1], "`s`"),
-        (0.0, chord.far, rows[2], "`far`"),
+        (0.0, chord.far, rows[2], "`far` = `s` + `half_chord`"),
     ] {
         let middle = section.measure(svg, from, to, row, pen);
-        svg.label(Label::near(middle, name, -section.up(), 5.0));
+        if !name.is_empty() {
+            svg.label(Label::near(middle, name, -section.up(), 5.0));
+        }
     }
 }
 
@@ -105,7 +109,7 @@ fn label(svg: &mut Svg, section: &Section, chord: &Chord) {
     svg.label(Label::near(centre, "*C*", up + section.along, 9.0));
     svg.label(Label::near(at(0.6), "*R*", -up, 11.0).coloured(RAY));
     svg.label(Label::near(section.point(chord.s, chord.across * 0.5), "`across`", section.along, 9.0));
-    svg.label(Label::near((at(chord.near) + centre) / 2.0, "*r*", up - section.along, 8.0));
+    svg.label(Label::near((at(chord.near) + centre) / 2.0, "`radius`", up - section.along, 8.0));
     let towards = section.point(chord.s * 0.45, chord.across * 0.45);
     svg.label(Label::near(towards, "`to_centre` = *C* − *O*", up, 14.0).coloured(IMAGE));
 }

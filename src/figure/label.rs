@@ -19,6 +19,8 @@ pub struct Label {
     pub size: f64,
     /// The rectangle that they may not leave, upper left and lower right; the drawing's own where none is given.
     pub within: Option<[DVec2; 2]>,
+    /// Whether a thin line leads to them where they stand far off.
+    pub leader: bool,
 }
 
 /// Words with a place.
@@ -52,12 +54,17 @@ pub struct Obstacles {
 impl Label {
     /// Words in the page's colour at their usual size, at this distance to this side of a point.
     pub fn near(anchor: DVec2, text: &str, toward: DVec2, distance: f64) -> Self {
-        Self { anchor, text: text.into(), toward, colour: INK, distance, size: TEXT, within: None }
+        Self { anchor, text: text.into(), toward, colour: INK, distance, size: TEXT, within: None, leader: true }
     }
 
     /// The same in another colour.
     pub fn coloured(self, colour: &'static str) -> Self {
         Self { colour, ..self }
+    }
+
+    /// The same, larger or smaller by a factor, and never with a line to it.
+    pub fn title(self, factor: f64) -> Self {
+        Self { size: self.size * factor, leader: false, ..self }
     }
 
     /// The same, kept within a part of the drawing.
@@ -69,7 +76,11 @@ impl Label {
 impl Placed {
     /// The rectangle that the words take, upper left and lower right, by a cautious guess at the font.
     pub fn extent(&self) -> [DVec2; 2] {
-        let width: f64 = self.text.chars().filter(|c| !"*`".contains(*c)).map(|c| share(c) * self.size).sum();
+        let parts = self.text.split('`').zip([false, true].into_iter().cycle());
+        let share_of = |(part, code): (&str, bool)| -> f64 {
+            part.chars().filter(|c| *c != '*').map(|letter| if code { 0.57 } else { share(letter) }).sum()
+        };
+        let width = parts.map(share_of).sum::<f64>() * self.size;
         let left = match self.anchor {
             "start" => self.at.x,
             "end" => self.at.x - width,
@@ -134,7 +145,9 @@ fn beside(label: &Label, side: DVec2, distance: f64) -> Placed {
 fn cost(placed: &Placed, label: &Label, obstacles: &Obstacles, within: [DVec2; 2]) -> (f64, usize) {
     let [low, high] = placed.extent();
     let outside = (within[0] - low).max(high - within[1]).max(DVec2::ZERO);
-    let on_words = obstacles.words.iter().filter(|words| overlap([low, high], **words)).count();
+    // Two labels side by side must not read as one.
+    let apart = DVec2::new(0.5 * label.size, 0.0);
+    let on_words = obstacles.words.iter().filter(|words| overlap([low - apart, high + apart], **words)).count();
     let crossed = obstacles.strokes.iter().filter(|stroke| crosses(**stroke, [low, high])).count();
     let on_disc = |(centre, radius): &(DVec2, f64)| {
         let nearest = centre.clamp(low, high);
@@ -190,15 +203,7 @@ mod tests {
 
     #[test]
     fn a_label_goes_where_nothing_is() {
-        let label = Label {
-            anchor: DVec2::splat(100.0),
-            text: "eye".into(),
-            toward: DVec2::X,
-            colour: "red",
-            distance: 8.0,
-            size: 14.0,
-            within: None,
-        };
+        let label = Label::near(DVec2::splat(100.0), "eye", DVec2::X, 8.0);
         let within = [DVec2::ZERO, DVec2::splat(200.0)];
         let free = place(&label, &Obstacles::default(), within);
         assert_eq!((free.anchor, free.crosses), ("start", 0));

@@ -1,7 +1,8 @@
 use super::Figure;
 use super::grid::Grid;
 use super::label::Label;
-use super::scenery::{Scenery, Side, Strand};
+use super::scenery::{Scenery, Strand};
+use super::side::best_scenery;
 use super::sketch::{Extent, Frame};
 use super::subject::{Lens, PixelRay, Subject, screen_colour};
 use super::svg::{Drawing, Fill, INK, Pen, RAY, Svg, WIDTH};
@@ -9,8 +10,8 @@ use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
 
-const HEIGHT: f64 = 440.0;
-const SIDE: Side = Side { around: 54.0, above: 20.0 };
+/// Room for the drawing; it is cut where nothing stands.
+const ROOM: Frame = Frame { low: DVec2::new(10.0, 30.0), high: DVec2::new(WIDTH - 10.0, 440.0) };
 /// In how many steps a ray that meets nothing fades.
 const FADES: usize = 7;
 
@@ -25,11 +26,10 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let near = |ray: &&PixelRay| ray.hit.is_some_and(|(t, _)| t <= reach);
     let hits: Vec<&PixelRay> = subject.rays.iter().filter(near).collect();
     let more: Vec<Extent> = hits.iter().filter_map(|ray| ray.point()).map(|point| (point, 0.0)).collect();
-    let frame = Frame { low: DVec2::new(10.0, 12.0), high: DVec2::new(WIDTH - 10.0, HEIGHT - 34.0) };
-    let scenery = Scenery::new(&subject, grid, SIDE, &more, frame)?;
-    let mut svg = Svg::new(figure.name, HEIGHT);
+    let scenery = best_scenery(&subject, &[grid], &hits, &more, ROOM)?;
+    let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
     let strands: Vec<Strand> = subject.rays.iter().flat_map(|ray| strands_of(ray, reach)).collect();
-    scenery.paint(&mut svg, &strands);
+    scenery.paint(&mut svg, &strands, 1.0);
     for ray in &subject.rays {
         svg.dot(scenery.point(grid.centre(ray.pixel)), 1.7, RAY);
     }
@@ -61,7 +61,7 @@ fn strands_of(ray: &PixelRay, reach: f64) -> Vec<Strand> {
 /// A dot in the surface's own colour.
 fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
     let Some(point) = ray.point() else { return };
-    if scenery.sketch.hidden(point, &scenery.subject.balls) {
+    if scenery.veiled(point) {
         return;
     }
     let flat = scenery.subject.flats.first().map(|flat| flat.colour);
@@ -71,20 +71,21 @@ fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
 }
 
 fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
-    let [width, height] = scenery.grid.size.map(f64::from);
+    let size = scenery.grid.size;
     let at = |point: DVec3| scenery.point(point);
-    let top = at(scenery.grid.point(width * 0.5, 0.0));
+    let top = at(scenery.grid.point(f64::from(size[0]) * 0.3, 0.0));
     svg.label(Label::near(top, "image: a rectangle of pixels", DVec2::NEG_Y, 8.0));
-    svg.label(Label::near(at(scenery.grid.centre([0, scenery.grid.size[1] - 1])), "pixel centre", DVec2::Y, 14.0));
-    let right_way =
-        |ray: &&&PixelRay| !scenery.sketch.hidden(ray.at(ray.hit.map_or(0.0, |hit| hit.0)), &scenery.subject.balls);
-    let highest = hits.iter().filter(right_way).min_by_key(|ray| ray.pixel[1]);
-    if let Some(point) = highest.and_then(|ray| ray.point()) {
-        svg.label(Label::near(at(point), "hit", DVec2::new(0.3, -1.0), 8.0));
+    svg.label(Label::near(at(scenery.grid.centre([0, size[1] - 1])), "pixel centre", DVec2::Y, 14.0));
+    let seen = |ray: &&&PixelRay| ray.point().is_some_and(|point| !scenery.veiled(point));
+    let on_sphere = hits.iter().filter(seen).filter(|ray| scenery.subject.ball_met(ray).is_some());
+    if let Some(point) = on_sphere.min_by_key(|ray| ray.pixel[1]).and_then(|ray| ray.point()) {
+        svg.label(Label::near(at(point), "hit", DVec2::new(-0.4, -1.0), 8.0));
     }
     let missing = scenery.subject.rays.iter().find(|ray| ray.hit.is_none_or(|(t, _)| t > reach));
     if let Some(ray) = missing {
-        svg.label(Label::near(at(ray.at(reach * 0.8)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
+        svg.label(Label::near(at(ray.at(reach * 0.9)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
     }
-    let _ = height;
+    if let Some(light) = scenery.subject.lights.first() {
+        svg.label(Label::near(at(*light), "light", DVec2::X, 17.0));
+    }
 }

@@ -39,9 +39,8 @@ impl Patch {
             (low, high) = (low.min(foot - reach), high.max(foot + reach));
         }
         let colour = flat.colour;
-        let patch = Self { origin, normal: flat.normal, u, v, low, high, colour };
-        let step = patch.step();
-        Self { low: (low / step - 0.2).floor() * step, high: (high / step + 0.2).ceil() * step, ..patch }
+        let margin = 0.04 * (high - low).max_element();
+        Self { origin, normal: flat.normal, u, v, low: low - margin, high: high + margin, colour }
     }
 
     /// The distance between lines: 1 scene unit, or 2, 5, 10, … where that would be too dense.
@@ -72,11 +71,12 @@ impl Patch {
         let step = self.step();
         let mut lines = Vec::new();
         for (axis, other) in [(0, 1), (1, 0)] {
-            let count = ((self.high[axis] - self.low[axis]) / step).round() as u32;
-            for line in 0..=count {
+            let first = (self.low[axis] / step).ceil();
+            let count = (self.high[axis] / step).floor() - first;
+            for line in 0..=count.max(0.0) as u32 {
                 let mut ends = [self.low, self.low];
                 for (end, far) in ends.iter_mut().zip([self.low[other], self.high[other]]) {
-                    end[axis] = self.low[axis] + f64::from(line) * step;
+                    end[axis] = (first + f64::from(line)) * step;
                     end[other] = far;
                 }
                 lines.push(ends.map(|end| self.point(end)));

@@ -1,17 +1,18 @@
 use super::Figure;
 use super::grid::{Grid, drawn_distance};
 use super::label::Label;
-use super::scenery::{Scenery, Side, Strand, paint_eye};
-use super::sketch::{Extent, Frame};
+use super::props::paint_eye;
+use super::scenery::{Scenery, Strand};
+use super::side::best_scenery;
+use super::sketch::Frame;
 use super::subject::{Lens, PixelRay, Subject};
 use super::svg::{Drawing, INK, LIGHT, Pen, RAY, Svg, WIDTH};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
 
-const HEIGHT: f64 = 440.0;
-/// From behind the eye and from its right, so that the picture is seen the right way round.
-const SIDE: Side = Side { around: 52.0, above: 20.0 };
+/// Room for the drawing; it is cut where nothing stands.
+const ROOM: Frame = Frame { low: DVec2::new(10.0, 26.0), high: DVec2::new(WIDTH - 10.0, 440.0) };
 
 /// The pinhole camera: the eye, the image plane before it, rays through pixel centres, and one on to the light.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
@@ -19,27 +20,47 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     if matches!(subject.lens, Lens::Orthographic(_)) {
         return Err(figure.unsuited("a perspective camera"));
     }
-    let distance = drawn_distance(&subject);
-    let grid = Grid::of(&subject, distance);
     let rays = chosen_rays(&subject);
-    let Some(first) = rays.first() else { return Err(figure.unsuited("a sphere that a pixel's ray meets")) };
-    let mut more: Vec<Extent> = vec![(DVec3::ZERO, 0.1)];
-    more.extend(rays.iter().filter_map(|ray| ray.point()).map(|point| (point, 0.0)));
-    let frame = Frame { low: DVec2::new(10.0, 12.0), high: DVec2::new(WIDTH - 10.0, HEIGHT - 34.0) };
-    let scenery = Scenery::new(&subject, grid, SIDE, &more, frame)?;
-    let mut svg = Svg::new(figure.name, HEIGHT);
-    let mut strands = edges(&grid);
+    let scenery = eye_scenery(&subject, &rays, ROOM)?;
+    let Some(first) = clearest(&scenery, &rays) else {
+        return Err(figure.unsuited("a sphere that a pixel's ray meets"));
+    };
+    let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
+    let mut strands = edges(&scenery.grid);
     let camera_ray = |ray: &&PixelRay| Some(Strand::arrow(ray.origin, ray.point()?, Pen::new(RAY, 1.9)));
     strands.extend(rays.iter().filter_map(camera_ray));
     strands.extend(first.lit().map(|on| Strand::arrow(on.from, on.to, Pen::new(LIGHT, 1.9).dashed("7 4"))));
-    scenery.paint(&mut svg, &strands);
+    scenery.paint(&mut svg, &strands, 1.0);
     for ray in &rays {
         mark(&mut svg, &scenery, ray);
     }
-    paint_eye(&mut svg, scenery.point(DVec3::ZERO), scenery.sketch.direction(-subject.axes.z_axis));
+    paint_eye(&mut svg, scenery.point(DVec3::ZERO), scenery.sketch.direction(-subject.axes.z_axis), 1.0);
     label(&mut svg, &scenery, first);
-    let note = format!("image plane drawn {distance} before the eye");
-    Ok(svg.finish(figure.about, &figure.foot(&subject, &note)))
+    Ok(svg.finish(figure.about, &figure.foot(&subject, &distance_note(&scenery))))
+}
+
+/// The scene with the eye and with the image plane where it shows best; any distance gives the same rays.
+pub fn eye_scenery<'s>(subject: &'s Subject, rays: &[&PixelRay], room: Frame) -> Result<Scenery<'s>> {
+    let most = drawn_distance(subject);
+    // One decimal, since the figure's foot says it.
+    let grids = [1.0, 0.8, 0.65, 0.5].map(|share| Grid::of(subject, ((most * share * 10.0).floor() / 10.0).max(0.1)));
+    best_scenery(subject, &grids, rays, &[(DVec3::ZERO, 0.1)], room)
+}
+
+/// How far from the eye the image plane is drawn.
+pub fn distance_note(scenery: &Scenery<'_>) -> String {
+    let distance = scenery.grid.middle().dot(-scenery.subject.axes.z_axis);
+    format!("image plane drawn {distance:.1} before the eye")
+}
+
+/// The lit ray whose end is seen best.
+fn clearest<'r>(scenery: &Scenery<'_>, rays: &[&'r PixelRay]) -> Option<&'r PixelRay> {
+    let unseen = |ray: &&PixelRay| {
+        let veiled = |point| scenery.veiled(point);
+        let onward = ray.lit().is_none_or(|on| veiled(on.from.lerp(on.to, 0.1)));
+        u8::from(ray.point().is_none_or(veiled)) + 2 * u8::from(onward)
+    };
+    rays.iter().copied().min_by_key(unseen)
 }
 
 /// For each sphere that the image shows, the lit ray that meets it most squarely: largest sphere in the image first.
@@ -78,9 +99,9 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, first: &PixelRay) {
     svg.label(Label::near(top, "image plane", DVec2::NEG_Y, 8.0));
     svg.label(Label::near(at(scenery.grid.centre(first.pixel)), "pixel centre", DVec2::new(-0.5, 1.0), 40.0));
     if let Some(point) = first.point() {
-        let centre = scenery.grid.centre(first.pixel);
-        let half_way = centre.lerp(point, 0.55);
-        svg.label(Label::near(at(half_way), "ray", DVec2::NEG_Y, 6.0).coloured(RAY));
+        // In the open, between what the image covers and the surface.
+        let open = scenery.open_middle(scenery.grid.centre(first.pixel), point);
+        svg.label(Label::near(at(open), "ray", DVec2::NEG_Y, 6.0).coloured(RAY));
     }
     if let Some(ball) = scenery.subject.ball_met(first) {
         let rim = at(ball.centre) + DVec2::new(0.0, ball.radius * scenery.sketch.scale);

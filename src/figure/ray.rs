@@ -3,7 +3,7 @@ use super::label::Label;
 use super::section::Section;
 use super::sketch::Frame;
 use super::subject::{Ball, PixelRay, Subject, screen_colour};
-use super::svg::{Drawing, INK, Pen, RAY, Svg, TEXT, WIDTH};
+use super::svg::{Drawing, INK, Pen, RAY, Svg, WIDTH};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::DVec2;
@@ -91,8 +91,5 @@ fn label(svg: &mut Svg, section: &Section, t: f64) {
         up + section.along,
         8.0,
     ));
-    svg.label(Label {
-        size: TEXT * 1.3,
-        ..Label::near(section.point(t * 0.5, 0.0), "*r*(*t*) = *O* + *t* *R*", up, 44.0)
-    });
+    svg.label(Label::near(section.point(t * 0.5, 0.0), "*r*(*t*) = *O* + *t* *R*", up, 52.0).title(1.3));
 }

@@ -70,9 +70,9 @@ impl Section {
         for end in [from, to] {
             svg.line(end - tick, end + tick, pen);
         }
-        let small = Pen { width: pen.width * 0.9, ..pen };
-        svg.arrow((from + to) / 2.0, from, small);
-        svg.arrow((from + to) / 2.0, to, small);
+        svg.line(from, to, pen);
+        svg.head(from, -self.along, pen);
+        svg.head(to, self.along, pen);
         (from + to) / 2.0
     }
 

@@ -29,11 +29,18 @@ pub struct Frame {
     pub high: DVec2,
 }
 
+impl Frame {
+    /// As much higher and lower.
+    pub fn taller(self, more: f64) -> Self {
+        Self { low: self.low - DVec2::Y * more, high: self.high + DVec2::Y * more }
+    }
+}
+
 /// A point, and how far a thing reaches around it.
 pub type Extent = (DVec3, f64);
 
 impl Sketch {
-    /// Seen from the side that `toward_viewer` points to, as large as the frame allows and in its middle.
+    /// Seen from the side that `toward_viewer` points to, as large as the frame allows, at its top and in its middle.
     ///
     /// Errors: the direction is 0 or along `up`.
     pub fn fitting(toward_viewer: DVec3, up: DVec3, things: &[Extent], frame: Frame) -> Result<Self> {
@@ -47,7 +54,8 @@ impl Sketch {
         }
         let room = (frame.high - frame.low) / (high - low).max(DVec2::splat(1e-9));
         let scale = room.min_element();
-        let origin = (frame.low + frame.high) / 2.0 - scale * (low + high) / 2.0;
+        let middle = (frame.low.x + frame.high.x) / 2.0 - scale * (low.x + high.x) / 2.0;
+        let origin = DVec2::new(middle, frame.low.y - scale * low.y);
         Ok(Self { axes, scale, origin })
     }
 

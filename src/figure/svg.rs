@@ -108,11 +108,10 @@ impl Svg {
     /// A straight line that labels may cross.
     pub fn quiet_line(&mut self, from: DVec2, to: DVec2, pen: Pen) {
         let [[x1, y1], [x2, y2]] = [from, to].map(|end| [number(end.x), number(end.y)]);
-        let _ = writeln!(
-            self.body,
-            "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" stroke-linecap=\"round\" {}/>",
-            pen.attributes()
-        );
+        // Where lines that let light through join, round ends would lie on each other.
+        let cap = if pen.opacity < 1.0 { "" } else { "stroke-linecap=\"round\" " };
+        let line = format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {cap}{}/>", pen.attributes());
+        let _ = writeln!(self.body, "{line}");
     }
 
     /// A line with a head at its end; the head's tip is the end.
@@ -193,7 +192,7 @@ impl Svg {
         let mut labels = Vec::new();
         for label in std::mem::take(&mut self.labels) {
             let placed = place(&label, &self.obstacles, label.within.unwrap_or(canvas));
-            if let Some(end) = placed.leader(label.anchor) {
+            if let Some(end) = placed.leader(label.anchor).filter(|_| label.leader) {
                 self.line(label.anchor, end, Pen::new(INK, 0.8).faint(0.6));
             }
             self.words(&placed, 1.0);
@@ -232,7 +231,9 @@ fn spans(text: &str) -> String {
         for (part, code) in part.split('`').zip([false, true].into_iter().cycle()) {
             let part = escaped(part);
             let _ = match (slanted, code) {
-                (_, true) => write!(out, "<tspan font-family=\"ui-monospace, monospace\">{part}</tspan>"),
+                (_, true) => {
+                    write!(out, "<tspan font-family=\"ui-monospace, monospace\" font-size=\"0.92em\">{part}</tspan>")
+                }
                 (true, _) => write!(out, "<tspan font-style=\"italic\" font-family=\"serif\">{part}</tspan>"),
                 _ => write!(out, "{part}"),
             };

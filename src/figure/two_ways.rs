@@ -1,47 +1,57 @@
 use super::Figure;
-use super::grid::{Grid, drawn_distance};
 use super::label::Label;
-use super::pinhole::chosen_rays;
-use super::scenery::{Scenery, Side, Strand, paint_eye};
-use super::sketch::{Extent, Frame};
-use super::subject::{Ball, PixelRay, Subject};
-use super::svg::{Drawing, IMAGE, INK, LIGHT, Pen, RAY, Svg, TEXT, WIDTH};
+use super::pinhole::{chosen_rays, distance_note, eye_scenery};
+use super::props::paint_eye;
+use super::scenery::{Scenery, Strand};
+use super::sketch::Frame;
+use super::subject::{Ball, Lens, PixelRay, Subject};
+use super::svg::{Drawing, IMAGE, INK, LIGHT, Pen, RAY, Svg, WIDTH};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
 
-const HEIGHT: f64 = 340.0;
-const SIDE: Side = Side { around: 58.0, above: 22.0 };
+/// How large signs are in half a drawing.
+const SIGNS: f64 = 0.8;
+const HALF: f64 = WIDTH / 2.0;
 
 /// The same scene twice: objects projected onto the image, and pixels that ask where their light came from.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 8, 5)?;
-    let distance = drawn_distance(&subject);
-    let grid = Grid::of(&subject, distance);
+    if matches!(subject.lens, Lens::Orthographic(_)) {
+        return Err(figure.unsuited("a perspective camera"));
+    }
     let rays = chosen_rays(&subject);
     if rays.is_empty() {
         return Err(figure.unsuited("a sphere that a pixel's ray meets"));
     }
-    let mut svg = Svg::new(figure.name, HEIGHT);
-    let half = WIDTH / 2.0;
-    for (left, title, image_first) in [(0.0, "object → pixel", false), (half, "pixel → object → light", true)] {
-        let frame = Frame { low: DVec2::new(left + 8.0, 44.0), high: DVec2::new(left + half - 8.0, HEIGHT - 34.0) };
-        let more: Vec<Extent> = vec![(subject_eye(&subject), 0.15)];
-        let scenery = Scenery::new(&subject, grid, SIDE, &more, frame)?;
-        let strands = if image_first { outward(&rays) } else { inward(&scenery, &rays) };
-        scenery.paint(&mut svg, &strands);
-        paint_eye(&mut svg, scenery.point(DVec3::ZERO), scenery.sketch.direction(-subject.axes.z_axis));
-        let head = DVec2::new(left + half / 2.0, 20.0);
-        let title = Label { size: TEXT * 1.1, ..Label::near(head, title, DVec2::NEG_Y, 0.0) };
-        svg.label(title);
-        label(&mut svg, &scenery, frame, image_first);
-    }
-    svg.quiet_line(DVec2::new(half, 12.0), DVec2::new(half, HEIGHT - 34.0), Pen::new(INK, 0.8).faint(0.25));
-    Ok(svg.finish(figure.about, &figure.foot(&subject, &format!("image plane drawn {distance} before the eye"))))
+    let frame = |left: f64| Frame { low: DVec2::new(left + 8.0, 58.0), high: DVec2::new(left + HALF - 8.0, 400.0) };
+    let [left, right] = [eye_scenery(&subject, &rays, frame(0.0))?, eye_scenery(&subject, &rays, frame(HALF))?];
+    let bottom = left.bottom;
+    let mut svg = Svg::new(figure.name, bottom + 36.0);
+    svg.line(DVec2::new(HALF, 8.0), DVec2::new(HALF, bottom), Pen::new(INK, 0.8).faint(0.3));
+    panel(&mut svg, &left, &inward(&left, &rays), frame(0.0), "projective: object → pixel");
+    panel(&mut svg, &right, &outward(&rays), frame(HALF), "image-space: pixel → object → light");
+    Ok(svg.finish(figure.about, &figure.foot(&subject, &distance_note(&left))))
 }
 
-fn subject_eye(_: &Subject) -> DVec3 {
-    DVec3::ZERO
+fn panel(svg: &mut Svg, scenery: &Scenery<'_>, strands: &[Strand], frame: Frame, title: &str) {
+    scenery.paint(svg, strands, SIGNS);
+    let ahead = scenery.sketch.direction(-scenery.subject.axes.z_axis);
+    paint_eye(svg, scenery.point(DVec3::ZERO), ahead, SIGNS);
+    let head = DVec2::new((frame.low.x + frame.high.x) / 2.0, 24.0);
+    svg.label(Label::near(head, title, DVec2::NEG_Y, 0.0).title(1.05));
+    let near = |point, text: &str, toward, distance| {
+        Label::near(scenery.point(point), text, toward, distance).within(frame.taller(12.0))
+    };
+    svg.label(near(DVec3::ZERO, "eye", DVec2::NEG_Y, 13.0));
+    svg.label(near(scenery.grid.point(f64::from(scenery.grid.size[0]) / 2.0, 0.0), "image", DVec2::NEG_Y, 7.0));
+    if let Some(light) = scenery.subject.lights.first() {
+        svg.label(near(*light, "light", DVec2::X, 14.0));
+    }
+    let nearness = |ball: &&Ball| scenery.sketch.nearness(ball.centre);
+    if let Some(ball) = scenery.subject.balls.iter().max_by(|a, b| nearness(a).total_cmp(&nearness(b))) {
+        svg.label(near(ball.centre, "object", DVec2::Y, ball.radius * scenery.sketch.scale + 5.0));
+    }
 }
 
 /// From points of the objects to where they come to lie in the image, and thin on to the eye.
@@ -77,18 +87,4 @@ fn outward(rays: &[&PixelRay]) -> Vec<Strand> {
         Some([Some(Strand::arrow(ray.origin, ray.point()?, Pen::new(RAY, 1.6))), onward])
     });
     strands.flatten().flatten().collect()
-}
-
-fn label(svg: &mut Svg, scenery: &Scenery<'_>, frame: Frame, image_first: bool) {
-    let near =
-        |point, text: &str, toward, distance| Label::near(scenery.point(point), text, toward, distance).within(frame);
-    svg.label(near(DVec3::ZERO, "eye", DVec2::NEG_Y, 14.0));
-    svg.label(near(scenery.grid.point(f64::from(scenery.grid.size[0]) / 2.0, 0.0), "image", DVec2::NEG_Y, 7.0));
-    if let (true, Some(light)) = (image_first, scenery.subject.lights.first()) {
-        svg.label(near(*light, "light", DVec2::X, 16.0));
-    }
-    if let Some(ball) = scenery.subject.balls.first() {
-        let below = near(ball.centre, "object", DVec2::Y, ball.radius * scenery.sketch.scale + 5.0);
-        svg.label(below);
-    }
 }

@@ -1,0 +1,111 @@
+use super::grid::Grid;
+use super::scenery::Scenery;
+use super::sketch::{Extent, Frame};
+use super::subject::{PixelRay, Subject};
+use crate::Result;
+use crate::scene::Degrees;
+use glam::{DVec2, DVec3};
+
+/// From where a scene is sketched, in degrees: 0 is from behind the camera, 90 from its right, −90 from its left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Around the upward axis.
+    pub around: f64,
+    /// Above the horizon.
+    pub above: f64,
+}
+
+impl Side {
+    /// The direction to the viewer, and what points upward in the drawing.
+    pub fn view(self, subject: &Subject) -> (DVec3, DVec3) {
+        // The world's upward direction keeps the horizon level, unless the camera looks along it.
+        let ahead = -subject.axes.z_axis;
+        let up = if ahead.y.abs() < 0.9 { DVec3::Y } else { subject.axes.y_axis };
+        let level = (ahead - up * ahead.dot(up)).normalize_or(ahead);
+        let right = level.cross(up);
+        let [around, above] = [self.around, self.above].map(|angle| Degrees(angle).radians());
+        let horizontal = right * libm::sin(around) - level * libm::cos(around);
+        (horizontal * libm::cos(above) + up * libm::sin(above), up)
+    }
+
+    /// All sides that a figure may be drawn from: obliquely from behind, where the image is the right way round.
+    fn all() -> impl Iterator<Item = Self> {
+        let around = (0..8).flat_map(|step| [1.0, -1.0].map(|hand| hand * (36.0 + 5.0 * f64::from(step))));
+        around.flat_map(|around| [12.0, 18.0, 24.0, 30.0].map(|above| Self { around, above }))
+    }
+}
+
+/// The scenery from the side, and with the image at the place, that shows these rays, the image and the spheres best.
+pub fn best_scenery<'s>(
+    subject: &'s Subject,
+    grids: &[Grid],
+    rays: &[&PixelRay],
+    more: &[Extent],
+    frame: Frame,
+) -> Result<Scenery<'s>> {
+    let mut best: Option<(f64, Scenery<'s>)> = None;
+    for &grid in grids {
+        for side in Side::all() {
+            let scenery = Scenery::new(subject, grid, side, more, frame)?;
+            let worth = worth(&scenery, rays);
+            if best.as_ref().is_none_or(|(most, _)| worth > *most) {
+                best = Some((worth, scenery));
+            }
+        }
+    }
+    match best {
+        Some((_, scenery)) => Ok(scenery),
+        None => Scenery::new(subject, Grid::of(subject, 1.0), Side { around: 54.0, above: 20.0 }, more, frame),
+    }
+}
+
+/// More where little is hidden, the image is large, and rays are long and apart.
+fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
+    let [a, b, _, d] = scenery.grid.corners().map(|corner| scenery.point(corner));
+    let image = (b - a).perp_dot(d - a).abs();
+    let ends = rays.iter().filter_map(|ray| Some((scenery.point(ray.origin), scenery.point(ray.point()?))));
+    let lengths: Vec<f64> = ends.map(|(from, to)| from.distance(to)).collect();
+    let length = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    let seen = seen(scenery, rays);
+    seen * seen * image.sqrt() * length.sqrt()
+}
+
+/// The share of what matters that nothing hides: the rims of spheres, where rays end, and their way to the light.
+fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
+    let [right, up, toward] = [scenery.sketch.axes.x_axis, scenery.sketch.axes.y_axis, scenery.sketch.axes.z_axis];
+    let balls = &scenery.subject.balls;
+    let (mut seen, mut all) = (0.0, 0.0);
+    let mut ask = |point: DVec3, weight: f64| {
+        all += weight;
+        if !scenery.sketch.hidden(point, balls) && !scenery.grid.hides(point, toward) {
+            seen += weight;
+        }
+    };
+    for ball in balls {
+        for out in RIM {
+            ask(ball.centre + (right * out.x + up * out.y) * ball.radius * 1.001, 1.0);
+        }
+    }
+    for ray in rays {
+        ray.point().into_iter().for_each(|point| ask(point, 4.0));
+        if let Some(on) = ray.lit() {
+            [0.15, 0.4, 0.7].into_iter().for_each(|share| ask(on.from.lerp(on.to, share), 1.0));
+        }
+    }
+    seen / f64::max(all, 1.0)
+}
+
+/// Eight directions around.
+const RIM: [DVec2; 8] = {
+    const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    [
+        DVec2::X,
+        DVec2::new(HALF, HALF),
+        DVec2::Y,
+        DVec2::new(-HALF, HALF),
+        DVec2::NEG_X,
+        DVec2::new(-HALF, -HALF),
+        DVec2::NEG_Y,
+        DVec2::new(HALF, -HALF),
+    ]
+};
