@@ -1,9 +1,11 @@
 use super::Figure;
 use super::label::Label;
+use super::pen::{IMAGE, INK, Pen, RAY, TEXT, WIDTH};
+use super::pixel_ray::{PixelRay, screen_colour};
 use super::section::Section;
 use super::sketch::Frame;
-use super::subject::{Ball, PixelRay, Subject, screen_colour};
-use super::svg::{Drawing, IMAGE, INK, Pen, RAY, Svg, TEXT, WIDTH};
+use super::subject::{Ball, Subject};
+use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::DVec2;
@@ -65,13 +67,13 @@ fn paint(svg: &mut Svg, section: &Section, chord: &Chord, end: f64) {
     let centre = section.point(chord.s, chord.across);
     svg.line(at(0.0), centre, Pen::new(IMAGE, 1.6));
     svg.line(at(chord.s), centre, Pen::new(INK, 1.6).dashed("5 4"));
-    svg.line(at(chord.near), centre, Pen::new(INK, 1.1).faint(0.75));
+    svg.line(at(chord.far), centre, Pen::new(INK, 1.1).faint(0.75));
     svg.line(at(0.0), at(chord.near), Pen::new(RAY, 2.0));
     svg.arrow(at(chord.near), at(end), Pen::new(RAY, 1.6).faint(0.7));
     svg.line(at(chord.near), at(chord.far), Pen::new(RAY, 3.4).faint(0.55));
     svg.arrow(at(0.0), at(1.0), Pen::new(RAY, 4.0));
     let (corner, side) = (at(chord.s), 9.0);
-    let [left, up] = [-section.along * side, section.up() * side];
+    let [left, up] = [section.along * side, section.up() * side];
     svg.quiet_line(corner + left, corner + left + up, Pen::new(INK, 1.0));
     svg.quiet_line(corner + up, corner + left + up, Pen::new(INK, 1.0));
     for (point, radius) in [(at(0.0), 4.5), (centre, 4.0), (at(chord.near), 4.5), (at(chord.far), 4.5), (corner, 3.0)] {
@@ -87,7 +89,7 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
     // Both halves are named where there is room for both names.
-    let wide = (chord.far - chord.s) * section.scale > 6.2 * TEXT;
+    let wide = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
     for (from, to, row, name) in [
         (0.0, chord.near, rows[0], "`near` = `s` − `half_chord`"),
         (chord.near, chord.s, rows[0], if wide { "`half_chord`" } else { "" }),
@@ -97,7 +99,7 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
     ] {
         let middle = section.measure(svg, from, to, row, pen);
         if !name.is_empty() {
-            svg.label(Label::near(middle, name, -section.up(), 5.0));
+            svg.label(Label::near(middle, name, -section.up(), 5.0).title(0.92));
         }
     }
 }
@@ -108,8 +110,8 @@ fn label(svg: &mut Svg, section: &Section, chord: &Chord) {
     svg.label(Label::near(at(0.0), "*O*", DVec2::new(-1.0, -0.8), 9.0));
     svg.label(Label::near(centre, "*C*", up + section.along, 9.0));
     svg.label(Label::near(at(0.6), "*R*", -up, 11.0).coloured(RAY));
-    svg.label(Label::near(section.point(chord.s, chord.across * 0.5), "`across`", section.along, 9.0));
-    svg.label(Label::near((at(chord.near) + centre) / 2.0, "`radius`", up - section.along, 8.0));
+    svg.label(Label::near(section.point(chord.s, chord.across * 0.5), "`across`", -section.along, 9.0));
+    svg.label(Label::near((at(chord.far) + centre) / 2.0, "`radius`", up + section.along, 8.0));
     let towards = section.point(chord.s * 0.45, chord.across * 0.45);
     svg.label(Label::near(towards, "`to_centre` = *C* − *O*", up, 14.0).coloured(IMAGE));
 }

@@ -1,12 +1,12 @@
+use super::pen::{INK, TEXT};
 use super::sketch::Frame;
-use super::svg::{INK, TEXT};
 use glam::DVec2;
 
 /// Words that belong to a point of a drawing.
 #[derive(Clone, Debug)]
 pub struct Label {
-    /// The point.
-    pub anchor: DVec2,
+    /// The point; where there are several, any of them will do.
+    pub anchors: Vec<DVec2>,
     /// The words; `*slanted*` and code in backticks.
     pub text: String,
     /// On which side of the point they stand if nothing is in the way; y down.
@@ -26,6 +26,8 @@ pub struct Label {
 /// Words with a place.
 #[derive(Clone, Debug)]
 pub struct Placed {
+    /// The point that they belong to.
+    pub point: DVec2,
     /// Where their anchor is; the middle of the line in y.
     pub at: DVec2,
     /// SVG's `text-anchor`.
@@ -54,7 +56,22 @@ pub struct Obstacles {
 impl Label {
     /// Words in the page's colour at their usual size, at this distance to this side of a point.
     pub fn near(anchor: DVec2, text: &str, toward: DVec2, distance: f64) -> Self {
-        Self { anchor, text: text.into(), toward, colour: INK, distance, size: TEXT, within: None, leader: true }
+        Self {
+            anchors: vec![anchor],
+            text: text.into(),
+            toward,
+            colour: INK,
+            distance,
+            size: TEXT,
+            within: None,
+            leader: true,
+        }
+    }
+
+    /// The same, or at another of the thing's points if there is more room.
+    pub fn or(mut self, anchors: impl IntoIterator<Item = DVec2>) -> Self {
+        self.anchors.extend(anchors);
+        self
     }
 
     /// The same in another colour.
@@ -91,11 +108,11 @@ impl Placed {
     }
 
     /// Where a thin line from the point to its words ends, if they stand far enough off to need one.
-    pub fn leader(&self, point: DVec2) -> Option<DVec2> {
+    pub fn leader(&self) -> Option<DVec2> {
         let [low, high] = self.extent();
-        let nearest = point.clamp(low, high);
-        let gap = nearest - point;
-        (gap.length() > 22.0).then(|| point + gap * (1.0 - 3.0 / gap.length()))
+        let nearest = self.point.clamp(low, high);
+        let gap = nearest - self.point;
+        (gap.length() > 22.0).then(|| self.point + gap * (1.0 - 3.0 / gap.length()))
     }
 }
 
@@ -111,25 +128,27 @@ fn share(letter: char) -> f64 {
 /// The best place for words: not on other words, within the drawing, across as few lines as may be, near their point.
 pub fn place(label: &Label, obstacles: &Obstacles, within: [DVec2; 2]) -> Placed {
     let preferred = label.toward.try_normalize().unwrap_or(DVec2::NEG_Y);
-    let mut best: Option<(f64, Placed)> = None;
-    for step in 0..16 {
-        // Turn by turn away from the preferred side: 0, +1, −1, +2, …
-        let turns = (step as i32 + 1) / 2 * if step % 2 == 0 { -1 } else { 1 };
-        let angle = f64::from(turns) * std::f64::consts::PI / 8.0;
-        let side = DVec2::new(libm::cos(angle), libm::sin(angle)).rotate(preferred);
-        for further in [0.0, 5.0, 10.0, 16.0, 24.0, 34.0, 48.0, 64.0] {
-            let placed = beside(label, side, label.distance + further);
-            let (cost, crosses) = cost(&placed, label, obstacles, within);
-            let cost = cost + 5.0 * f64::from(turns.abs()) + 1.1 * further;
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, Placed { crosses, ..placed }));
+    let mut best = (f64::INFINITY, beside(label, label.anchors[0], preferred, label.distance));
+    for (rank, &anchor) in label.anchors.iter().enumerate() {
+        for step in 0..16_i32 {
+            // Turn by turn away from the preferred side: 0, +1, −1, +2, …
+            let turns = (step + 1) / 2 * if step % 2 == 0 { -1 } else { 1 };
+            let angle = f64::from(turns) * std::f64::consts::PI / 8.0;
+            let side = DVec2::new(libm::cos(angle), libm::sin(angle)).rotate(preferred);
+            for further in [0.0, 5.0, 10.0, 16.0, 24.0, 34.0, 48.0, 64.0] {
+                let placed = beside(label, anchor, side, label.distance + further);
+                let (cost, crosses) = cost(&placed, obstacles, within);
+                let cost = cost + 5.0 * f64::from(turns.abs()) + 1.1 * further + 3.0 * rank as f64;
+                if cost < best.0 {
+                    best = (cost, Placed { crosses, ..placed });
+                }
             }
         }
     }
-    best.map_or_else(|| beside(label, preferred, label.distance), |(_, placed)| placed)
+    best.1
 }
 
-fn beside(label: &Label, side: DVec2, distance: f64) -> Placed {
+fn beside(label: &Label, point: DVec2, side: DVec2, distance: f64) -> Placed {
     let anchor = if side.x > 0.4 {
         "start"
     } else if side.x < -0.4 {
@@ -137,27 +156,26 @@ fn beside(label: &Label, side: DVec2, distance: f64) -> Placed {
     } else {
         "middle"
     };
-    let half = label.size * 0.5 * side.y;
-    let at = label.anchor + side * distance + DVec2::new(0.0, half);
-    Placed { at, anchor, size: label.size, colour: label.colour, text: label.text.clone(), crosses: 0 }
+    let at = point + side * distance + DVec2::new(0.0, label.size * 0.5 * side.y);
+    Placed { point, at, anchor, size: label.size, colour: label.colour, text: label.text.clone(), crosses: 0 }
 }
 
-fn cost(placed: &Placed, label: &Label, obstacles: &Obstacles, within: [DVec2; 2]) -> (f64, usize) {
+fn cost(placed: &Placed, obstacles: &Obstacles, within: [DVec2; 2]) -> (f64, usize) {
     let [low, high] = placed.extent();
     let outside = (within[0] - low).max(high - within[1]).max(DVec2::ZERO);
     // Two labels side by side must not read as one.
-    let apart = DVec2::new(0.5 * label.size, 0.0);
+    let apart = DVec2::new(0.5 * placed.size, 0.0);
     let on_words = obstacles.words.iter().filter(|words| overlap([low - apart, high + apart], **words)).count();
     let crossed = obstacles.strokes.iter().filter(|stroke| crosses(**stroke, [low, high])).count();
     let on_disc = |(centre, radius): &(DVec2, f64)| {
         let nearest = centre.clamp(low, high);
         // A label may stand at the rim of the thing it names, not on it.
-        nearest.distance(*centre) < *radius && label.anchor.distance(*centre) > 1e-6 || nearest == *centre
+        nearest.distance(*centre) < *radius && placed.point.distance(*centre) > 1e-6 || nearest == *centre
     };
     let on_discs = obstacles.discs.iter().filter(|disc| on_disc(disc)).count();
     let leader = placed
-        .leader(label.anchor)
-        .map_or(0, |end| obstacles.words.iter().filter(|words| crosses([label.anchor, end], **words)).count());
+        .leader()
+        .map_or(0, |end| obstacles.words.iter().filter(|words| crosses([placed.point, end], **words)).count());
     let total = 4000.0 * (outside.x + outside.y)
         + 2000.0 * on_words as f64
         + 1000.0 * leader as f64

@@ -3,7 +3,7 @@
 //! Reads: a chapter's scene, the tables of `extract`, and the columns of a run at a small resolution.
 //! Writes: SVG text.
 //! Space: render space, up to [`Sketch`] and [`Section`], which make points of the drawing of it (x to the right, y
-//! down, [`WIDTH`](svg::WIDTH) wide).
+//! down, [`WIDTH`](pen::WIDTH) wide).
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
 
 mod grid;
@@ -11,7 +11,9 @@ mod hit;
 mod label;
 mod orthographic;
 mod patch;
+mod pen;
 mod pinhole;
+mod pixel_ray;
 mod props;
 mod ray;
 mod scenery;
@@ -27,13 +29,15 @@ mod two_ways;
 pub use grid::{Grid, drawn_distance};
 pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
 pub use patch::Patch;
+pub use pen::{Fill, Pen};
 pub use pinhole::chosen_rays;
+pub use pixel_ray::{Onward, PixelRay};
 pub use scenery::{Scenery, Strand};
 pub use section::Section;
 pub use side::{Side, best_scenery};
 pub use sketch::{Extent, Frame, Sketch};
-pub use subject::{Ball, Flat, Lens, Onward, PixelRay, Subject};
-pub use svg::{Drawing, Fill, Pen, Svg};
+pub use subject::{Ball, Flat, Lens, Subject};
+pub use svg::{Drawing, Svg};
 
 use crate::chapter::Chapter;
 use crate::{Error, Result};

@@ -1,11 +1,13 @@
 use super::Figure;
 use super::grid::Grid;
 use super::label::Label;
+use super::pen::{Fill, INK, Pen, RAY, WIDTH};
+use super::pixel_ray::{PixelRay, screen_colour};
 use super::scenery::{Scenery, Strand};
 use super::side::best_scenery;
 use super::sketch::{Extent, Frame};
-use super::subject::{Lens, PixelRay, Subject, screen_colour};
-use super::svg::{Drawing, Fill, INK, Pen, RAY, Svg, WIDTH};
+use super::subject::{Lens, Subject};
+use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
@@ -73,9 +75,12 @@ fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
 fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
     let size = scenery.grid.size;
     let at = |point: DVec3| scenery.point(point);
-    let top = at(scenery.grid.point(f64::from(size[0]) * 0.3, 0.0));
-    svg.label(Label::near(top, "image: a rectangle of pixels", DVec2::NEG_Y, 8.0));
-    svg.label(Label::near(at(scenery.grid.centre([0, size[1] - 1])), "pixel centre", DVec2::Y, 14.0));
+    let edge = |x: f64, y: f64| at(scenery.grid.point(f64::from(size[0]) * x, f64::from(size[1]) * y));
+    let edges = [edge(0.1, 0.0), edge(0.9, 0.0), edge(1.0, 1.0), edge(0.0, 1.0), edge(0.5, 1.0)];
+    svg.label(Label::near(edge(0.5, 0.0), "image: a rectangle of pixels", DVec2::NEG_Y, 8.0).or(edges));
+    let centre = at(scenery.grid.centre([0, size[1] - 1]));
+    let others = [at(scenery.grid.centre([size[0] - 1, size[1] - 1]))];
+    svg.label(Label::near(centre, "pixel centre", DVec2::Y, 14.0).or(others));
     let seen = |ray: &&&PixelRay| ray.point().is_some_and(|point| !scenery.veiled(point));
     let on_sphere = hits.iter().filter(seen).filter(|ray| scenery.subject.ball_met(ray).is_some());
     if let Some(point) = on_sphere.min_by_key(|ray| ray.pixel[1]).and_then(|ray| ray.point()) {

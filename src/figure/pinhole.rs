@@ -1,12 +1,14 @@
 use super::Figure;
 use super::grid::{Grid, drawn_distance};
 use super::label::Label;
+use super::pen::{INK, LIGHT, Pen, RAY, WIDTH};
+use super::pixel_ray::PixelRay;
 use super::props::paint_eye;
 use super::scenery::{Scenery, Strand};
 use super::side::best_scenery;
 use super::sketch::Frame;
-use super::subject::{Lens, PixelRay, Subject};
-use super::svg::{Drawing, INK, LIGHT, Pen, RAY, Svg, WIDTH};
+use super::subject::{Lens, Subject};
+use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
@@ -29,13 +31,13 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let mut strands = edges(&scenery.grid);
     let camera_ray = |ray: &&PixelRay| Some(Strand::arrow(ray.origin, ray.point()?, Pen::new(RAY, 1.9)));
     strands.extend(rays.iter().filter_map(camera_ray));
-    strands.extend(first.lit().map(|on| Strand::arrow(on.from, on.to, Pen::new(LIGHT, 1.9).dashed("7 4"))));
+    strands.extend(first.lit().map(|onward| scenery.shadow_ray(onward, Pen::new(LIGHT, 1.9).dashed("7 4"), 1.0)));
     scenery.paint(&mut svg, &strands, 1.0);
     for ray in &rays {
         mark(&mut svg, &scenery, ray);
     }
     paint_eye(&mut svg, scenery.point(DVec3::ZERO), scenery.sketch.direction(-subject.axes.z_axis), 1.0);
-    label(&mut svg, &scenery, first);
+    label(&mut svg, &scenery, &rays, first);
     Ok(svg.finish(figure.about, &figure.foot(&subject, &distance_note(&scenery))))
 }
 
@@ -92,26 +94,30 @@ fn mark(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
     svg.dot(scenery.point(scenery.grid.centre(ray.pixel)), 2.8, RAY);
 }
 
-fn label(svg: &mut Svg, scenery: &Scenery<'_>, first: &PixelRay) {
+fn label(svg: &mut Svg, scenery: &Scenery<'_>, rays: &[&PixelRay], first: &PixelRay) {
     let at = |point| scenery.point(point);
+    let down = scenery.sketch.scale * DVec2::Y;
     svg.label(Label::near(at(DVec3::ZERO), "eye", DVec2::new(-0.4, -1.0), 15.0));
-    let top = at(scenery.grid.point(f64::from(scenery.grid.size[0]) * 0.5, 0.0));
-    svg.label(Label::near(top, "image plane", DVec2::NEG_Y, 8.0));
-    svg.label(Label::near(at(scenery.grid.centre(first.pixel)), "pixel centre", DVec2::new(-0.5, 1.0), 40.0));
-    if let Some(point) = first.point() {
-        // In the open, between what the image covers and the surface.
-        let open = scenery.open_middle(scenery.grid.centre(first.pixel), point);
-        svg.label(Label::near(at(open), "ray", DVec2::NEG_Y, 6.0).coloured(RAY));
-    }
-    if let Some(ball) = scenery.subject.ball_met(first) {
-        let rim = at(ball.centre) + DVec2::new(0.0, ball.radius * scenery.sketch.scale);
-        svg.label(Label::near(rim, "sphere", DVec2::Y, 5.0));
-    }
     if let Some(light) = scenery.subject.lights.first() {
         svg.label(Label::near(at(*light), "light", DVec2::X, 17.0));
     }
-    if let Some(onward) = first.lit() {
-        let half_way = onward.from.lerp(onward.to, 0.5);
-        svg.label(Label::near(at(half_way), "shadow ray", DVec2::X, 8.0).coloured(LIGHT));
+    let mut rims = scenery.subject.balls.iter().map(|ball| at(ball.centre) + down * ball.radius);
+    if let Some(rim) = rims.next() {
+        svg.label(Label::near(rim, "sphere", DVec2::Y, 5.0).or(rims));
     }
+    if let Some(onward) = first.lit() {
+        let share = |share| at(onward.from.lerp(onward.to, share));
+        let shadow_ray = Label::near(share(0.6), "shadow ray", DVec2::X, 8.0).or([0.5, 0.7].map(share));
+        svg.label(shadow_ray.coloured(LIGHT));
+    }
+    // In the open, between what the image covers and the surface.
+    let open = |ray: &&PixelRay| Some(at(scenery.open_middle(scenery.grid.centre(ray.pixel), ray.point()?)));
+    let mut open = rays.iter().filter_map(open);
+    if let Some(middle) = open.next() {
+        svg.label(Label::near(middle, "ray", DVec2::NEG_Y, 6.0).or(open).coloured(RAY));
+    }
+    let top = |share: f64| at(scenery.grid.point(f64::from(scenery.grid.size[0]) * share, 0.0));
+    svg.label(Label::near(top(0.5), "image plane", DVec2::NEG_Y, 8.0).or([0.0, 0.25, 0.75, 1.0].map(top)));
+    let centres = rays.iter().map(|ray| at(scenery.grid.centre(ray.pixel)));
+    svg.label(Label::near(at(scenery.grid.centre(first.pixel)), "pixel centre", DVec2::Y, 40.0).or(centres));
 }

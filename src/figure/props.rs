@@ -2,9 +2,11 @@
 
 use super::grid::Grid;
 use super::patch::Patch;
-use super::scenery::Scenery;
-use super::subject::{Ball, screen_colour};
-use super::svg::{Fill, IMAGE, INK, LIGHT, Pen, Svg};
+use super::pen::{Fill, IMAGE, INK, LIGHT, Pen};
+use super::pixel_ray::{Onward, screen_colour};
+use super::scenery::{Scenery, Strand};
+use super::subject::Ball;
+use super::svg::Svg;
 use glam::{DVec2, DVec3};
 
 impl Scenery<'_> {
@@ -46,6 +48,13 @@ impl Scenery<'_> {
         for [from, to] in lines(&self.grid) {
             svg.obstacles.strokes.push([self.point(from), self.point(to)]);
         }
+    }
+
+    /// A ray to a light, up to where the light's sign begins.
+    pub(super) fn shadow_ray(&self, onward: Onward, pen: Pen, size: f64) -> Strand {
+        let length = self.point(onward.from).distance(self.point(onward.to));
+        let share = (1.0 - 15.0 * size / length.max(1.0)).max(0.5);
+        Strand::arrow(onward.from, onward.from.lerp(onward.to, share), pen)
     }
 
     /// A light: a disc with short rays; `size` is 1 in a drawing of full width.

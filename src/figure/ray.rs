@@ -1,9 +1,11 @@
 use super::Figure;
 use super::label::Label;
+use super::pen::{INK, Pen, RAY, WIDTH};
+use super::pixel_ray::{PixelRay, screen_colour};
 use super::section::Section;
 use super::sketch::Frame;
-use super::subject::{Ball, PixelRay, Subject, screen_colour};
-use super::svg::{Drawing, INK, Pen, RAY, Svg, WIDTH};
+use super::subject::{Ball, Subject};
+use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::DVec2;

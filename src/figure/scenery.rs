@@ -1,9 +1,10 @@
 use super::grid::Grid;
 use super::patch::Patch;
+use super::pen::Pen;
 use super::side::Side;
 use super::sketch::{Extent, Frame, Sketch};
 use super::subject::{Ball, Subject};
-use super::svg::{Pen, Svg};
+use super::svg::Svg;
 use crate::Result;
 use glam::{DVec2, DVec3};
 

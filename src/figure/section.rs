@@ -1,6 +1,8 @@
+use super::pen::{Fill, INK, Pen};
+use super::pixel_ray::PixelRay;
 use super::sketch::Frame;
-use super::subject::{Ball, PixelRay};
-use super::svg::{Fill, INK, Pen, Svg};
+use super::subject::Ball;
+use super::svg::Svg;
 use glam::{DVec2, DVec3};
 
 /// The plane through a ray and a sphere's centre, laid flat: the first coordinate is t along the ray, the second is

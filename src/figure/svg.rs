@@ -1,83 +1,7 @@
 use super::label::{Label, Obstacles, Placed, place};
+use super::pen::{Fill, INK, Pen, SMALL_TEXT, WIDTH, number};
 use glam::DVec2;
 use std::fmt::Write;
-
-/// The width of every drawing, in the units that pens and text sizes are given in.
-pub const WIDTH: f64 = 720.0;
-/// The size of a label.
-pub const TEXT: f64 = 14.0;
-/// The size of the words at the foot.
-pub const SMALL_TEXT: f64 = 11.0;
-
-/// Lines and text take the page's own colour, so that a drawing fits light and dark pages.
-pub const INK: &str = "currentColor";
-/// Rays.
-pub const RAY: &str = "#d9822b";
-/// Light, and rays to it.
-pub const LIGHT: &str = "#c9a400";
-/// The image plane and its grid.
-pub const IMAGE: &str = "#5f7f9f";
-
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pen {
-    /// Any colour of SVG.
-    pub colour: &'static str,
-    /// In units of the drawing.
-    pub width: f64,
-    /// From 0, unseen, to 1.
-    pub opacity: f64,
-    /// Lengths of dashes and gaps; empty for an unbroken line.
-    pub dash: &'static str,
-}
-
-impl Pen {
-    /// An unbroken, opaque line.
-    pub const fn new(colour: &'static str, width: f64) -> Self {
-        Self { colour, width, opacity: 1.0, dash: "" }
-    }
-
-    /// The same, letting what is behind it through.
-    pub const fn faint(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-
-    /// The same, broken.
-    pub const fn dashed(self, dash: &'static str) -> Self {
-        Self { dash, ..self }
-    }
-
-    fn attributes(&self) -> String {
-        let mut text = format!("stroke=\"{}\" stroke-width=\"{}\"", self.colour, number(self.width));
-        if self.opacity < 1.0 {
-            let _ = write!(text, " stroke-opacity=\"{}\"", number(self.opacity));
-        }
-        if !self.dash.is_empty() {
-            let _ = write!(text, " stroke-dasharray=\"{}\"", self.dash);
-        }
-        text
-    }
-}
-
-/// An area's colour and how much of it covers what is behind.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fill {
-    /// Any colour of SVG.
-    pub colour: String,
-    /// From 0, unseen, to 1.
-    pub opacity: f64,
-}
-
-impl Fill {
-    /// A colour and its opacity.
-    pub fn new(colour: impl Into<String>, opacity: f64) -> Self {
-        Self { colour: colour.into(), opacity }
-    }
-
-    fn attributes(&self) -> String {
-        format!("fill=\"{}\" fill-opacity=\"{}\"", self.colour, number(self.opacity))
-    }
-}
 
 /// A drawing that grows: x to the right, y down, [`WIDTH`] wide.
 ///
@@ -185,15 +109,25 @@ impl Svg {
     pub fn finish(mut self, about: &str, foot: &str) -> Drawing {
         let foot_at = DVec2::new(8.0, self.height - 12.0);
         self.words(
-            &Placed { at: foot_at, anchor: "start", size: SMALL_TEXT, colour: INK, text: foot.into(), crosses: 0 },
+            &Placed {
+                point: foot_at,
+                at: foot_at,
+                anchor: "start",
+                size: SMALL_TEXT,
+                colour: INK,
+                text: foot.into(),
+                crosses: 0,
+            },
             0.62,
         );
         let canvas = [DVec2::splat(4.0), DVec2::new(WIDTH - 4.0, self.height - 20.0)];
         let mut labels = Vec::new();
         for label in std::mem::take(&mut self.labels) {
             let placed = place(&label, &self.obstacles, label.within.unwrap_or(canvas));
-            if let Some(end) = placed.leader(label.anchor).filter(|_| label.leader) {
-                self.line(label.anchor, end, Pen::new(INK, 0.8).faint(0.6));
+            if let Some(end) = placed.leader().filter(|_| label.leader) {
+                // A rim in the page's colour, so that it is seen on dark pixels too.
+                self.quiet_line(placed.point, end, Pen::new("var(--bg, #fff)", 2.6).faint(0.8));
+                self.line(placed.point, end, Pen::new(INK, 0.9).faint(0.8));
             }
             self.words(&placed, 1.0);
             labels.push(placed);
@@ -244,11 +178,4 @@ fn spans(text: &str) -> String {
 
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// Two decimals, no more than needed, and no minus before a nought.
-fn number(value: f64) -> String {
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.into() }
 }

@@ -1,11 +1,13 @@
 use super::Figure;
 use super::label::Label;
+use super::pen::{IMAGE, INK, LIGHT, Pen, RAY, WIDTH};
 use super::pinhole::{chosen_rays, distance_note, eye_scenery};
+use super::pixel_ray::PixelRay;
 use super::props::paint_eye;
 use super::scenery::{Scenery, Strand};
 use super::sketch::Frame;
-use super::subject::{Ball, Lens, PixelRay, Subject};
-use super::svg::{Drawing, IMAGE, INK, LIGHT, Pen, RAY, Svg, WIDTH};
+use super::subject::{Ball, Lens, Subject};
+use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::Chapter;
 use glam::{DVec2, DVec3};
@@ -30,7 +32,13 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let mut svg = Svg::new(figure.name, bottom + 36.0);
     svg.line(DVec2::new(HALF, 8.0), DVec2::new(HALF, bottom), Pen::new(INK, 0.8).faint(0.3));
     panel(&mut svg, &left, &inward(&left, &rays), frame(0.0), "projective: object → pixel");
-    panel(&mut svg, &right, &outward(&rays), frame(HALF), "image-space: pixel → object → light");
+    for point in object_points(&left, &rays) {
+        arrive(&mut svg, &left, point);
+    }
+    panel(&mut svg, &right, &outward(&right, &rays), frame(HALF), "image-space: pixel → object → light");
+    if let Some(light) = subject.lights.first() {
+        svg.label(Label::near(right.point(*light), "light", DVec2::X, 14.0).within(frame(HALF).taller(12.0)));
+    }
     Ok(svg.finish(figure.about, &figure.foot(&subject, &distance_note(&left))))
 }
 
@@ -45,28 +53,41 @@ fn panel(svg: &mut Svg, scenery: &Scenery<'_>, strands: &[Strand], frame: Frame,
     };
     svg.label(near(DVec3::ZERO, "eye", DVec2::NEG_Y, 13.0));
     svg.label(near(scenery.grid.point(f64::from(scenery.grid.size[0]) / 2.0, 0.0), "image", DVec2::NEG_Y, 7.0));
-    if let Some(light) = scenery.subject.lights.first() {
-        svg.label(near(*light, "light", DVec2::X, 14.0));
-    }
     let nearness = |ball: &&Ball| scenery.sketch.nearness(ball.centre);
     if let Some(ball) = scenery.subject.balls.iter().max_by(|a, b| nearness(a).total_cmp(&nearness(b))) {
-        svg.label(near(ball.centre, "object", DVec2::Y, ball.radius * scenery.sketch.scale + 5.0));
+        let rim = scenery.sketch.axes.y_axis * ball.radius;
+        svg.label(near(ball.centre - rim, "object", DVec2::Y, 5.0));
     }
 }
 
 /// From points of the objects to where they come to lie in the image, and thin on to the eye.
 fn inward(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> Vec<Strand> {
-    let balls = rays.iter().filter_map(|ray| scenery.subject.ball_met(ray));
-    let points = balls.flat_map(|ball| outline(scenery, ball));
     let strand = |point: DVec3| {
-        let ahead = -scenery.subject.axes.z_axis;
-        let met = point * (scenery.grid.middle().dot(ahead) / point.dot(ahead));
-        [
-            Strand::arrow(point, met, Pen::new(IMAGE, 1.6)),
-            Strand::new(met, DVec3::ZERO, Pen::new(IMAGE, 0.8).faint(0.5)),
-        ]
+        let met = projected(scenery, point);
+        let on = Strand::new(met, DVec3::ZERO, Pen::new(IMAGE, 0.8).faint(0.6));
+        [Strand::new(point, met, Pen::new(IMAGE, 1.6)), on]
     };
-    points.flat_map(strand).collect()
+    object_points(scenery, rays).into_iter().flat_map(strand).collect()
+}
+
+fn object_points(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> Vec<DVec3> {
+    let balls = rays.iter().filter_map(|ray| scenery.subject.ball_met(ray));
+    balls.flat_map(|ball| outline(scenery, ball)).collect()
+}
+
+/// Where the line from a point to the eye passes the image plane.
+fn projected(scenery: &Scenery<'_>, point: DVec3) -> DVec3 {
+    let ahead = -scenery.subject.axes.z_axis;
+    point * (scenery.grid.middle().dot(ahead) / point.dot(ahead))
+}
+
+/// A head half-way, since the image hides the end of the line from behind; and the point's place in the image.
+fn arrive(svg: &mut Svg, scenery: &Scenery<'_>, point: DVec3) {
+    let met = projected(scenery, point);
+    let along = (scenery.point(met) - scenery.point(point)).normalize_or(DVec2::X);
+    svg.head(scenery.point(scenery.open_middle(point, met)) + along * 4.0, along, Pen::new(IMAGE, 1.6));
+    svg.dot(scenery.point(point), 2.2, IMAGE);
+    svg.dot(scenery.point(met), 2.2, IMAGE);
 }
 
 /// The highest and the lowest point of a sphere as the eye sees it.
@@ -81,9 +102,9 @@ fn outline(scenery: &Scenery<'_>, ball: &Ball) -> [DVec3; 2] {
 }
 
 /// From the eye through pixels to surfaces, and from there on to the light.
-fn outward(rays: &[&PixelRay]) -> Vec<Strand> {
+fn outward(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> Vec<Strand> {
     let strands = rays.iter().filter_map(|ray| {
-        let onward = ray.lit().map(|on| Strand::arrow(on.from, on.to, Pen::new(LIGHT, 1.5).dashed("6 4")));
+        let onward = ray.lit().map(|on| scenery.shadow_ray(on, Pen::new(LIGHT, 1.5).dashed("6 4"), SIGNS));
         Some([Some(Strand::arrow(ray.origin, ray.point()?, Pen::new(RAY, 1.6))), onward])
     });
     strands.flatten().flatten().collect()
