@@ -14,7 +14,9 @@
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
 //! 10. [`figure`]: drawings of a scene and of what the stages wrote for it.
-//! 11. [`command`]: the command line.
+//! 11. [`naive`]: the methods that break, for the book and the extremes.
+//! 12. [`measure`]: exact arithmetic, oracles, extremes.
+//! 13. [`command`]: the command line.
 
 pub mod scene;
 
@@ -35,6 +37,10 @@ pub mod render;
 pub mod look;
 
 pub mod figure;
+
+pub mod naive;
+
+pub mod measure;
 
 pub mod command;
 

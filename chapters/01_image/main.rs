@@ -1,41 +1,26 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light.
+//! An image is a grid of numbers.
+//! The first picture shows where each pixel is: red grows to the right, green downward.
+//! New here: a world, an entity, its components, and one system that fills a column.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, rays};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("01_image", "the eye behind the grid", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+    Chapter::new("01_image", "the image: a grid of numbers", scene)
+        .offer(rays::raster_stage())
+        .show::<rays::RasterPoints>()
 }
 // ANCHOR_END: chapter
 
 // ANCHOR: scene
 fn scene(world: &mut World) {
-    world.spawn((
-        Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 1.6, 5.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
-    ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.2, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -1.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.2, -4.5, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
-    }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
-    world.spawn(Background { colour: Rgb::new(0.45, 0.6, 0.8) });
+    world.spawn((Name::new("camera"), PerspectiveCamera::default(), Resolution { width: 480, height: 270 }));
 }
 // ANCHOR_END: scene

@@ -1,21 +1,19 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light.
+//! A ray is a point and a direction: r(t) = O + tR, with R of length 1.
+//! The picture paints R for every pixel: x as red, y as green, z as blue, each from −1 to 1.
+//! New here: ray generation, as a closed box that later chapters open.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, rays};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("02_ray", "the eye behind the grid", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+    Chapter::new("02_ray", "a ray: r(t) = O + tR", scene).offer(rays::stages()).show::<rays::WorldRays>()
 }
 // ANCHOR_END: chapter
 
@@ -23,19 +21,10 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 1.6, 5.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(75.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 1.0, 4.0].into(), target: [0.0, 1.0, 0.0].into(), ..LookAt::default() },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.2, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -1.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.2, -4.5, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
-    }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
-    world.spawn(Background { colour: Rgb::new(0.45, 0.6, 0.8) });
+    let red = Matte { colour: Rgb::new(0.85, 0.3, 0.2) };
+    world.spawn((Name::new("ball"), Sphere { radius: 1.0 }, Placement::at(0.0, 1.0, 0.0), red));
 }
 // ANCHOR_END: scene

@@ -1,21 +1,22 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light.
+//! A ray meets a sphere and a plane: which t comes first?
+//! The picture paints the hits, a colour a shape, darker with distance.
+//! New here: intersection, exact enough for a sphere that is very far or very large.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, intersect, rays};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("03_hit", "the eye behind the grid", scene)
+    Chapter::new("03_hit", "a ray meets a sphere and a plane", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
-        .offer(shade::stages())
+        .show::<intersect::Hits>()
 }
 // ANCHOR_END: chapter
 
@@ -23,19 +24,12 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 1.6, 5.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(45.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 1.5, 5.0].into(), target: [0.0, 0.9, 0.0].into(), ..LookAt::default() },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.2, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -1.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.2, -4.5, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
-    }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
-    world.spawn(Background { colour: Rgb::new(0.45, 0.6, 0.8) });
+    let grey = Matte { colour: Rgb::grey(0.6) };
+    world.spawn((Name::new("ball"), Sphere { radius: 1.0 }, Placement::at(-0.6, 1.0, 0.0), grey));
+    world.spawn((Name::new("moon"), Sphere { radius: 40.0 }, Placement::at(120.0, 60.0, -400.0), grey));
+    world.spawn((Name::new("ground"), Plane::default(), grey));
 }
 // ANCHOR_END: scene

@@ -1,6 +1,6 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light.
+//! A rectangle stands in the scene with a square grid on it, and through each square goes a ray, straight ahead.
+//! What a ray hits gives the pixel its colour; a ray that misses leaves the default colour.
+//! New here: the orthographic camera. Its rays are parallel, so all three balls, equally large, look equally large.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -11,11 +11,12 @@ fn main() -> pinhole::Result {
 }
 
 // ANCHOR: chapter
+/// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("04_orthographic", "the eye behind the grid", scene)
+    Chapter::new("04_orthographic", "the rectangle with a grid", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(shade::unlit_stages())
 }
 // ANCHOR_END: chapter
 
@@ -23,19 +24,16 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 1.6, 5.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        OrthographicCamera { view_height: 4.0 },
+        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
     ));
     for (name, x, z, colour) in [
-        ("near ball", -1.2, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -1.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.2, -4.5, Rgb::new(0.25, 0.5, 0.75)),
+        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
+        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
+        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
     ] {
         world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
     }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
-    world.spawn(Background { colour: Rgb::new(0.45, 0.6, 0.8) });
+    world.spawn((Name::new("default colour"), Background { colour: Rgb::new(0.45, 0.6, 0.8) }));
 }
 // ANCHOR_END: scene

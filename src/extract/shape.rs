@@ -28,7 +28,11 @@ pub struct ShapeTable {
 
 /// The enabled entities that are a shape, in spawn order.
 pub fn shape_entities(scene: &World) -> Vec<Entity> {
-    entities::<Or<(With<Sphere>, With<Plane>)>>(scene)
+    let mut shapes = entities::<With<Sphere>>(scene);
+    shapes.extend(entities::<With<Plane>>(scene));
+    shapes.sort_by_key(|shape| shape.index());
+    shapes.dedup();
+    shapes
 }
 
 impl Table for ShapeTable {

@@ -13,7 +13,7 @@ impl Scenery<'_> {
     /// A part of a plane, ruled, with the shadows that fall on it.
     pub(super) fn paint_patch(&self, svg: &mut Svg, patch: &Patch) {
         let fill = Fill::new(screen_colour(patch.colour.map(|part| part as f32)), 0.26);
-        let corners = patch.corners().map(|corner| self.point(corner));
+        let corners: Vec<DVec2> = patch.corners().into_iter().map(|corner| self.point(corner)).collect();
         svg.polygon(&corners, Some(&fill), Some(Pen::new(INK, 0.8).faint(0.25)));
         for [from, to] in patch.lines() {
             svg.quiet_line(self.point(from), self.point(to), Pen::new(INK, 0.7).faint(0.14));

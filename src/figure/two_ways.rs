@@ -1,6 +1,6 @@
 use super::Figure;
 use super::label::Label;
-use super::pen::{IMAGE, INK, LIGHT, Pen, RAY, WIDTH};
+use super::pen::{Fill, IMAGE, INK, LIGHT, Pen, RAY, WIDTH};
 use super::pinhole::{chosen_rays, distance_note, eye_scenery};
 use super::pixel_ray::PixelRay;
 use super::props::paint_eye;
@@ -52,7 +52,9 @@ fn panel(svg: &mut Svg, scenery: &Scenery<'_>, strands: &[Strand], frame: Frame,
         Label::near(scenery.point(point), text, toward, distance).within(frame.taller(12.0))
     };
     svg.label(near(DVec3::ZERO, "eye", DVec2::NEG_Y, 13.0));
-    svg.label(near(scenery.grid.point(f64::from(scenery.grid.size[0]) / 2.0, 0.0), "image", DVec2::NEG_Y, 7.0));
+    let top = |share: f64| scenery.grid.point(f64::from(scenery.grid.size[0]) * share, 0.0);
+    let elsewhere = [0.0, 0.25, 0.75, 1.0].map(|share| scenery.point(top(share)));
+    svg.label(near(top(0.5), "image", DVec2::NEG_Y, 7.0).or(elsewhere));
     let nearness = |ball: &&Ball| scenery.sketch.nearness(ball.centre);
     if let Some(ball) = scenery.subject.balls.iter().max_by(|a, b| nearness(a).total_cmp(&nearness(b))) {
         let rim = scenery.sketch.axes.y_axis * ball.radius;
@@ -87,7 +89,8 @@ fn arrive(svg: &mut Svg, scenery: &Scenery<'_>, point: DVec3) {
     let along = (scenery.point(met) - scenery.point(point)).normalize_or(DVec2::X);
     svg.head(scenery.point(scenery.open_middle(point, met)) + along * 4.0, along, Pen::new(IMAGE, 1.6));
     svg.dot(scenery.point(point), 2.2, IMAGE);
-    svg.dot(scenery.point(met), 2.2, IMAGE);
+    let rim = Pen::new("var(--bg, #fff)", 1.2);
+    svg.circle(scenery.point(met), 3.0, Some(&Fill::new(IMAGE, 1.0)), Some(rim));
 }
 
 /// The highest and the lowest point of a sphere as the eye sees it.

@@ -137,8 +137,9 @@ impl Film {
         (count, self.tiles.iter().flat_map(|tile| tile.first_rejected.iter().copied()).take(REMEMBERED).collect())
     }
 
-    /// Bytes that its sums and counts take.
+    /// Bytes that its sums and counts take, and what holds them together.
     pub fn bytes(&self) -> usize {
-        self.tiles.iter().map(|tile| tile.rows() * (3 * size_of::<f64>() + size_of::<u32>())).sum()
+        let a_row = 3 * size_of::<f64>() + size_of::<u32>();
+        self.tiles.iter().map(|tile| tile.rows() * a_row + size_of::<FilmTile>()).sum()
     }
 }

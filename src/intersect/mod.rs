@@ -10,12 +10,14 @@ mod hits;
 mod plane;
 mod sphere;
 mod surface;
+mod wide;
 
 pub use classify::{MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
 pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, start_hits, start_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
-pub use sphere::{intersect_spheres, sphere_stage, sphere_surface_stage, sphere_t};
-pub use surface::{Surface, Surfaces, offset_bound, offset_origin};
+pub use sphere::{Verdict, intersect_spheres, nearness, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict};
+pub use surface::{Surface, Surfaces, offset_bound, offset_origin, sum_of_parts};
+pub use wide::wide_sphere_t;
 
 use crate::plan::Stage;
 

@@ -1,5 +1,5 @@
 use super::classify::PlaneRows;
-use super::surface::{Surface, Surfaces};
+use super::surface::{Surface, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{PlaneTable, ShapeTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -57,9 +57,11 @@ pub fn fill_plane_surfaces(
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
-            let normal = planes.normal[shapes.row[shape] as usize];
-            let point = rays.point_at(row, hits.t[row]);
-            surfaces.set(row, Surface::facing(rays.direction_of(row), point, normal, shapes.matte[shape]));
+            let plane = shapes.row[shape] as usize;
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let point = origin + hits.t[row] * direction;
+            let bound = offset_bound(point, origin, planes.offset[plane].abs());
+            surfaces.set(row, Surface::facing(direction, point, planes.normal[plane], bound, shapes.matte[shape]));
         }
     }
 }

@@ -1,5 +1,6 @@
 use super::classify::SphereRows;
-use super::surface::{Surface, Surfaces};
+use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
+use super::wide::wide_sphere_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{ShapeTable, SphereTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -11,31 +12,73 @@ use multiversion::multiversion;
 
 /// Rays tested together before it is asked whether any of them came near.
 const LANES: usize = 16;
+/// u, half the spacing of f32 numbers from 1 on.
+const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-// ANCHOR: sphere_t
-/// The smallest t > 0 at which O + tR lies on a sphere, or infinity.
+/// What the quick method says of a ray and a sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// The smallest t > 0 at which they meet, or infinity.
+    pub t: f64,
+    /// Whether rounding could have changed whether they meet, or t by more than 2⁻²⁴ of itself.
+    pub doubtful: bool,
+}
+
+// ANCHOR: sphere_verdict
+/// Where O + tR meets a sphere, f = C − O, in f64.
 ///
-/// `to_centre` is C − O; `direction` need not be exactly 1 long.
-/// The discriminant is taken from the part of C − O across the ray, r² − |f − sR|², so that nothing of the size of the
-/// distance is squared and cancelled (Haines et al., *Ray Tracing Gems* ch. 7), and in f64, so that what is left after
-/// the subtraction is still exact enough at 10⁷ radii.
+/// The discriminant is taken from the part of f across the ray, r² − |f − sR|², so that nothing of the size of the
+/// distance is squared and cancelled (Haines et al., *Ray Tracing Gems* ch. 7).
+/// The nearer root is taken as c / (R·R (s + h)), c = f·f − r², where s − h would cancel.
 #[inline(always)]
-pub fn sphere_t(to_centre: DVec3, direction: DVec3, radius: f64) -> f64 {
-    let (s, inside) = sphere_depth(to_centre, direction, radius);
-    let half_chord = (inside.max(0.0) / direction.dot(direction)).sqrt();
-    let (near, far) = (s - half_chord, s + half_chord);
-    let t = if near > 0.0 { near } else { far };
-    if inside >= 0.0 && t > 0.0 { t } else { f64::INFINITY }
+pub fn sphere_verdict(f: DVec3, direction: DVec3, radius: f64) -> Verdict {
+    let (dd, ff, rr) = (direction.dot(direction), f.dot(f), radius * radius);
+    let s = f.dot(direction) / dd;
+    let across = f - s * direction;
+    let ll = across.dot(across);
+    let (discriminant, c) = (rr - ll, ff - rr);
+    let half_chord = (discriminant.max(0.0) / dd).sqrt();
+
+    let (outside, ahead) = (c > 0.0, s > 0.0);
+    let sum = if ahead { s + half_chord } else { s - half_chord };
+    let root = if ahead & !outside { sum } else { c / (dd * sum) };
+    let misses = (discriminant < 0.0) | (outside & !ahead);
+    let t = if misses { f64::INFINITY } else { root };
+
+    let error = discriminant_error(ff, rr, ll);
+    let unsure_of_hit = (error >= c.abs()) | (error >= UNIT_ROUNDOFF * dd * root * half_chord);
+    let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error } else { c <= error };
+    Verdict { t, doubtful: if misses { unsure_of_miss } else { unsure_of_hit } }
 }
 
-/// Where the ray passes the centre, and r² less the squared distance there: at least 0 where the line meets the sphere.
+/// How far rounding can have moved the discriminant.
+///
+/// With ε = 2⁻⁵³, f and sR are each rounded by ε|f|, an error of s acts along R only, and the squares add 3ε|l|² + εr²:
+/// at most 9ε|f||l| + εr² together, and 50ε²|f|² of second order.
 #[inline(always)]
-fn sphere_depth(to_centre: DVec3, direction: DVec3, radius: f64) -> (f64, f64) {
-    let s = to_centre.dot(direction) / direction.dot(direction);
-    let across = to_centre - s * direction;
-    (s, radius * radius - across.dot(across))
+fn discriminant_error(ff: f64, rr: f64, ll: f64) -> f64 {
+    const TWO_TO_MINUS_50: f64 = 1.0 / (1_u64 << 50) as f64;
+    TWO_TO_MINUS_50 * (2.0 * ff * (rr + ll + TWO_TO_MINUS_50 * TWO_TO_MINUS_50 * ff)).sqrt()
 }
-// ANCHOR_END: sphere_t
+
+/// The smallest t > 0 at which O + tR lies on a sphere, or infinity; right also where f64 alone would leave a doubt.
+#[inline(always)]
+pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> f64 {
+    let verdict = sphere_verdict(centre - origin, direction, radius);
+    if verdict.doubtful { wide_sphere_t(origin, direction, centre, radius) } else { verdict.t }
+}
+// ANCHOR_END: sphere_verdict
+
+/// At least 0 where a ray may meet the sphere or be in doubt, below 0 where it passes by for certain.
+///
+/// `inverse` is 1 / R·R, taken once a ray; the slack is many times what its rounding can do.
+#[inline(always)]
+pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
+    const SLACK: f64 = 1.0 / (1_u64 << 47) as f64;
+    let (ff, rr) = (f.dot(f), radius * radius);
+    let across = f - f.dot(direction) * inverse * direction;
+    rr - across.dot(across) + SLACK * (ff + rr)
+}
 
 /// Narrows hits by all spheres, for any column of rays.
 pub fn intersect_spheres<R: RayColumn, H: HitColumn>(
@@ -62,25 +105,29 @@ fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: 
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
+        let mut inverse = [1.0_f64; LANES];
+        for (lane, inverse) in inverse.iter_mut().enumerate() {
+            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
+        }
         for sphere in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
-            let mut inside = [0.0_f64; LANES];
-            let mut nearest = f64::NEG_INFINITY;
-            for lane in 0..LANES {
-                let origin = DVec3::new(o[0][lane], o[1][lane], o[2][lane]);
-                let direction = DVec3::new(d[0][lane], d[1][lane], d[2][lane]);
-                inside[lane] = sphere_depth(centre - origin, direction, radius).1;
+            let mut nearest = [f64::NEG_INFINITY; LANES];
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                *nearness_of_lane = nearness(centre - vector(&o, lane), vector(&d, lane), inverse[lane], radius);
             }
-            for depth in inside {
-                nearest = if depth > nearest { depth } else { nearest };
+            if nearest.iter().any(|&nearness| nearness >= 0.0) {
+                let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
+                narrow(&o, &d, centre, radius, spheres.shape[sphere], t, shape);
             }
-            if nearest < 0.0 {
-                continue;
-            }
-            narrow(&o, &d, centre, radius, spheres.shape[sphere], &mut t[start..end], &mut shape[start..end]);
         }
         start = end;
     }
+}
+
+/// Three lanes' numbers as a vector.
+#[inline(always)]
+fn vector(lanes: &[[f64; LANES]; 3], lane: usize) -> DVec3 {
+    DVec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
 }
 
 #[inline(always)]
@@ -93,15 +140,16 @@ fn narrow(
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let mut found = [f64::INFINITY; LANES];
+    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
     for lane in 0..LANES {
-        let origin = DVec3::new(o[0][lane], o[1][lane], o[2][lane]);
-        let direction = DVec3::new(d[0][lane], d[1][lane], d[2][lane]);
-        found[lane] = sphere_t(centre - origin, direction, radius);
+        let verdict = sphere_verdict(centre - vector(o, lane), vector(d, lane), radius);
+        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
     }
     for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        let closer = found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY);
-        if closer {
+        if doubtful[lane] {
+            found[lane] = wide_sphere_t(vector(o, lane), vector(d, lane), centre, radius);
+        }
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
             (*t, *shape) = (found[lane], number);
         }
     }
@@ -117,10 +165,14 @@ pub fn fill_sphere_surfaces(
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
-            let centre = spheres.centre(shapes.row[shape] as usize);
-            let point = rays.point_at(row, hits.t[row]);
-            let outward = (point - centre).normalize();
-            surfaces.set(row, Surface::facing(rays.direction_of(row), point, outward, shapes.matte[shape]));
+            let sphere = shapes.row[shape] as usize;
+            let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let point = origin + hits.t[row] * direction;
+            // A sphere smaller than the spacing of numbers at its place may have no normal left; any serves it.
+            let outward = (point - centre).try_normalize().unwrap_or(-direction);
+            let bound = offset_bound(point, origin, sum_of_parts(centre) + radius);
+            surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.matte[shape]));
         }
     }
 }

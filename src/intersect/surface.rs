@@ -25,7 +25,7 @@ column! {
 }
 
 /// One row of [`Surfaces`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Where, in render space.
     pub position: Vec3,
@@ -40,22 +40,32 @@ pub struct Surface {
 impl Surface {
     /// The surface at an f64 point, its normal turned to the side that a ray of this direction came from.
     #[inline(always)]
-    pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, matte: u32) -> Self {
+    pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, bound: f32, matte: u32) -> Self {
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
-        Self { position: point.as_vec3(), normal: normal.as_vec3(), bound: offset_bound(point), matte }
+        Self { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
     }
+}
+
+/// |x| + |y| + |z|.
+#[inline(always)]
+pub fn sum_of_parts(v: DVec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
 }
 
 // ANCHOR: offset_bound
 /// How far along its normal a hit must be moved for the next ray to start off the surface for certain.
 ///
-/// Rounding a point to f32 moves it by at most u(|x| + |y| + |z|), u = 2⁻²⁴, and rounding the moved point by as much
-/// again; twice their sum leaves room for the roundings of this product itself.
-/// The bound scales with the scene, and no constant in it has a length.
+/// With u = 2⁻²⁴: rounding a point p to f32 moves it by at most u(|x| + |y| + |z|), and rounding the moved point by as
+/// much again; twice that sum is the first part.
+/// The second is what f64 lost on the way to p, from numbers as large as the ray's origin and the shape's own
+/// (a sphere's centre and radius, a plane's offset); the third is the floor of f32.
+/// The bound grows and shrinks with the scene: it has no length in it.
 #[inline(always)]
-pub fn offset_bound(point: DVec3) -> f32 {
-    const UNIT_ROUNDOFF: f64 = 1.0 / 16_777_216.0;
-    (4.0 * UNIT_ROUNDOFF * (point.x.abs() + point.y.abs() + point.z.abs())) as f32
+pub fn offset_bound(point: DVec3, origin: DVec3, shape_size: f64) -> f32 {
+    const ROUNDING: f64 = 4.0 / (1_u64 << 24) as f64;
+    const COMPUTING: f64 = 1.0 / (1_u64 << 48) as f64;
+    const FLOOR: f64 = f32::from_bits(8) as f64;
+    (ROUNDING * sum_of_parts(point) + COMPUTING * (sum_of_parts(origin) + shape_size) + FLOOR) as f32
 }
 
 /// Where a new ray from a surface starts: its position, moved along the normal by its bound.
@@ -100,12 +110,17 @@ impl WorldRays {
         DVec3::new(f64::from(self.dx[row]), f64::from(self.dy[row]), f64::from(self.dz[row]))
     }
 
+    /// The origin of a row, exact in f64.
+    #[inline(always)]
+    pub fn origin_of(&self, row: usize) -> DVec3 {
+        DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]))
+    }
+
     // ANCHOR: point_at
     /// r(t) = O + tR of a row, in f64.
     #[inline(always)]
     pub fn point_at(&self, row: usize, t: f64) -> DVec3 {
-        let origin = DVec3::new(f64::from(self.ox[row]), f64::from(self.oy[row]), f64::from(self.oz[row]));
-        origin + t * self.direction_of(row)
+        self.origin_of(row) + t * self.direction_of(row)
     }
     // ANCHOR_END: point_at
 }

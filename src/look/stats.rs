@@ -117,7 +117,7 @@ impl fmt::Display for RenderStats {
             self.peak_memory_bytes.map_or_else(String::new, |peak| format!(", {} MiB at most in all", peak >> 20));
         writeln!(
             f,
-            "memory: film {} KiB ({:.0} bytes a pixel), tables {} bytes, columns {} KiB a worker{peak}",
+            "memory: film {} KiB ({:.1} bytes a pixel), tables {} bytes, columns {} KiB a worker{peak}",
             self.film_bytes >> 10,
             self.film_bytes_a_pixel,
             self.table_bytes,

@@ -103,17 +103,12 @@ impl fmt::Display for Trace {
 impl Trace {
     /// Lanes of a row, vectors in brackets, a shape by its name.
     fn show_row(&self, lanes: &[(&'static str, String)]) -> String {
-        let mut words = Vec::new();
-        let mut lanes = lanes.iter().filter(|(name, _)| *name != "path").peekable();
-        while let Some((name, value)) = lanes.next() {
-            let shown = if *name == "shape" {
-                let shape = value.parse().ok().and_then(|number: usize| self.shapes.get(number));
-                shape.cloned().unwrap_or_else(|| "none".into())
-            } else {
-                value.clone()
-            };
-            words.push(format!("{name} {shown}"));
-        }
+        let shape_name = |value: &str| value.parse().ok().and_then(|number: usize| self.shapes.get(number).cloned());
+        let word = |(name, value): &(&'static str, String)| match *name {
+            "shape" => format!("shape {}", shape_name(value).unwrap_or_else(|| "none".into())),
+            name => format!("{name} {value}"),
+        };
+        let words: Vec<String> = lanes.iter().filter(|(name, _)| *name != "path").map(word).collect();
         words.join("  ")
     }
 }

@@ -155,8 +155,7 @@ fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> R
             return Err(PlanError::NoSuchView { asked: column.name.into(), why: fate(decided, column.name) });
         }
         for column in &stage.reads {
-            let own = stage.writes.iter().any(|own| own.name == column.name);
-            if !written.contains(column.name) && !own {
+            if !written.contains(column.name) {
                 let why = fate(decided, column.name);
                 return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
             }

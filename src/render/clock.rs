@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 pub struct Lap {
     /// Time within the stage.
     pub time: Duration,
-    /// Rows of the column it wrote.
+    /// Rows of the longest column it wrote.
     pub rows: u64,
 }
 
@@ -43,11 +43,12 @@ impl StageClock {
 /// A system after each stage that takes its lap; its own work falls between two laps.
 pub(super) fn clock_hook() -> Hook {
     Arc::new(|slot, stage, plan| {
-        let written: Option<ColumnKind> =
-            plan.columns.iter().copied().find(|column| stage.writes.iter().any(|own| own.name == column.name));
+        let of_stage = |column: &&ColumnKind| stage.writes.contains(column);
+        let written: Vec<ColumnKind> = plan.columns.iter().filter(of_stage).copied().collect();
         let take_lap = move |world: &mut World, tiles: &mut QueryState<EntityRef<'static>, With<Tile>>| {
             let ended = Instant::now();
-            let rows = written.map_or(0, |column| tiles.iter(world).map(|tile| (column.rows)(&tile) as u64).sum());
+            let rows_of = |tile| written.iter().map(|column| (column.rows)(&tile) as u64).max().unwrap_or(0);
+            let rows = tiles.iter(world).map(rows_of).sum();
             world.resource_mut::<StageClock>().lap(slot, ended, rows);
         };
         take_lap.into_configs()

@@ -5,6 +5,7 @@ use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, colum
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
+use multiversion::multiversion;
 
 column! {
     /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if it gets there.
@@ -59,20 +60,28 @@ pub fn reflected_radiance(colour: [f64; 3], intensity: [f64; 3], cosine: f64, di
 }
 // ANCHOR_END: reflected_radiance
 
-/// A ray from a surface to a light: its origin, direction, and distance; or none where the surface faces away.
+/// A ray from a surface to a light.
+#[derive(Clone, Copy, Debug, Default)]
+struct Aimed {
+    origin: Vec3,
+    direction: Vec3,
+    distance: f64,
+    /// Of the angle between the normal and the direction; not above 0 where the surface faces away.
+    cosine: f64,
+}
+
 #[inline(always)]
-fn aim(surface: &Surface, light: DVec3) -> Option<(Vec3, Vec3, f64, f64)> {
+fn aim(surface: &Surface, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
-    let direction = (to_light / distance).as_vec3();
-    let cosine = surface.normal.as_dvec3().dot(direction.as_dvec3());
-    (cosine > 0.0).then_some((origin, direction, distance, cosine))
+    let direction = (to_light * (1.0 / distance)).as_vec3();
+    Aimed { origin, direction, distance, cosine: surface.normal.as_dvec3().dot(direction.as_dvec3()) }
 }
 
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
 #[inline(always)]
-fn shadow_reach(distance: f64) -> f32 {
+pub fn shadow_reach(distance: f64) -> f32 {
     (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
 }
 
@@ -84,23 +93,48 @@ pub fn aim_at_lights(
 ) {
     for (surfaces, list, mut rays) in &mut tiles {
         let mut length = 0;
-        let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.rows() * lights.position.len());
-        for (light, &position) in lights.position.iter().enumerate() {
-            for &row in &list.row {
-                let surface = surfaces.get(row as usize);
-                let Some((origin, direction, distance, cosine)) = aim(&surface, position) else { continue };
-                let colour = mattes.colour[surface.matte as usize];
-                let brings = reflected_radiance(colour, lights.intensity[light], cosine, distance * distance);
-                path[length] = row;
-                (ox[length], oy[length], oz[length]) = origin.into();
-                (dx[length], dy[length], dz[length]) = direction.into();
-                reach[length] = if lights.casts_shadows[light] { shadow_reach(distance) } else { 0.0 };
-                (r[length], g[length], b[length]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
-                length += 1;
-            }
+        rays.slices_mut(list.rows() * lights.position.len());
+        for light in 0..lights.position.len() {
+            length = aim_rows(surfaces, &list.row, &lights, light, &mattes, &mut rays, length);
         }
         rays.slices_mut(length);
     }
+}
+
+/// Aims from all surfaces of a tile at one light, keeps those that face it, and says how many rays there are now.
+///
+/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn aim_rows(
+    surfaces: &Surfaces,
+    rows: &[u32],
+    lights: &PointLightTable,
+    light: usize,
+    mattes: &MatteTable,
+    rays: &mut LightRays,
+    length: usize,
+) -> usize {
+    let (position, intensity) = (lights.position[light], lights.intensity[light]);
+    let most = rays.rows();
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
+    let mut at = length;
+    for &row in rows {
+        let surface = surfaces.get(row as usize);
+        let aimed = aim(&surface, position);
+        let distance_squared = aimed.distance * aimed.distance;
+        let colour = mattes.colour[surface.matte as usize];
+        let brings = reflected_radiance(colour, intensity, aimed.cosine, distance_squared);
+        path[at] = row;
+        (ox[at], oy[at], oz[at]) = aimed.origin.into();
+        (dx[at], dy[at], dz[at]) = aimed.direction.into();
+        reach[at] = shadow_reach(aimed.distance);
+        (r[at], g[at], b[at]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
+        at += usize::from(aimed.cosine > 0.0);
+    }
+    if !lights.casts_shadows[light] {
+        reach[length..at].fill(0.0);
+    }
+    at
 }
 
 /// Adds what each light ray brings to its path, unless something stands in between.

@@ -12,7 +12,7 @@ mod shadow;
 
 pub use background::{add_background, background_stage};
 pub use flat::{flat_stage, shade_flat};
-pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance};
+pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance, shadow_reach};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{ShadowHits, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows};
 

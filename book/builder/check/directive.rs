@@ -1,0 +1,149 @@
+//! The directives a page may use, each alone on its line.
+
+use super::scan::{Scan, blank_spans};
+use super::{Page, Problem};
+
+/// What one line of a page asks the builder for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Directive<'a> {
+    /// `{{#include file:anchor}}`: a listing from compiled source.
+    Include {
+        /// The file, relative to the page.
+        path: &'a str,
+        /// The part of it, or the whole file.
+        anchor: Option<&'a str>,
+    },
+    /// `{{#kit command}}`: what a command of the kit prints.
+    Kit {
+        /// The command's words.
+        command: &'a str,
+    },
+    /// `{{#figure command | caption}}`: a picture that a command of the kit draws.
+    Figure {
+        /// The command's words.
+        command: &'a str,
+        /// Its caption, in markdown.
+        caption: &'a str,
+    },
+}
+
+const ACCEPTED: &str = "a page may use {{#include file:anchor}}, {{#kit command}} and {{#figure command | caption}}";
+
+/// Reads a line: no directive at all, a good one, or one sentence about a bad one.
+pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
+    if !blank_spans(line).contains("{{#") {
+        return None;
+    }
+    let alone = line.trim().strip_prefix("{{#").and_then(|rest| rest.strip_suffix("}}"));
+    let Some(inside) = alone.filter(|inside| !inside.contains("}}")) else {
+        return Some(Err(format!("a directive stands alone on its line, and `{}` does not.", line.trim())));
+    };
+    let (name, rest) = inside.split_once(char::is_whitespace).unwrap_or((inside, ""));
+    Some(match (name, rest.trim()) {
+        ("include", rest) => include(rest),
+        ("kit", "") => Err("{{#kit}} names no command: write {{#kit plan 05_pinhole}}.".to_owned()),
+        ("kit", command) => words(command).map(|command| Directive::Kit { command }),
+        ("figure", rest) => figure(rest),
+        _ => Err(format!("there is no directive {{{{#{name}}}}}: {ACCEPTED}.")),
+    })
+}
+
+fn include(rest: &str) -> Result<Directive<'_>, String> {
+    let (path, anchor) = match rest.split_once(':') {
+        Some((path, anchor)) => (path, Some(anchor)),
+        None => (rest, None),
+    };
+    let named = |name: &str| name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+    let counted = |name: &str| name.chars().all(|letter| letter.is_ascii_digit());
+    match anchor {
+        _ if path.is_empty() => Err("{{#include}} names no file: write {{#include ../../src/file.rs:anchor}}.".into()),
+        Some(name) if !named(name) || counted(name) => {
+            Err(format!("`{name}` is no anchor: name one, as line numbers change ({{{{#include {path}:name}}}})."))
+        }
+        anchor => Ok(Directive::Include { path, anchor }),
+    }
+}
+
+fn figure(rest: &str) -> Result<Directive<'_>, String> {
+    let (command, caption) = rest.split_once('|').unwrap_or((rest, ""));
+    match (command.trim(), caption.trim()) {
+        ("", _) => Err("{{#figure}} names no command: write {{#figure render 05_pinhole | caption}}.".to_owned()),
+        (command, "") => Err(format!("the figure `{command}` has no caption: write it after a `|`.")),
+        (command, caption) => words(command).map(|command| Directive::Figure { command, caption }),
+    }
+}
+
+/// A command is words between spaces; quotes would promise a shell that is not there.
+fn words(command: &str) -> Result<&str, String> {
+    let quoted = command.contains(['"', '\'', '`']);
+    if quoted { Err(format!("`{command}` holds a quote: its words are split at spaces only.")) } else { Ok(command) }
+}
+
+/// Bad directives, directives in running text, and pictures that no directive made.
+pub fn problems(page: &Page) -> Vec<Problem> {
+    let scan = Scan::new(&page.text);
+    let mut problems = Vec::new();
+    for line in scan.prose() {
+        match parse(line.text) {
+            Some(Ok(Directive::Include { path, .. })) => {
+                let what = format!("the include of `{path}` stands outside a code fence: put ```rust around it.");
+                problems.push(Problem::new(&page.label, line.number, what));
+            }
+            Some(Ok(_)) => {}
+            Some(Err(what)) => problems.push(Problem::new(&page.label, line.number, what)),
+            None => problems.extend(raw_image(page, line.number, line.text)),
+        }
+    }
+    problems
+}
+
+fn raw_image(page: &Page, number: usize, line: &str) -> Option<Problem> {
+    let prose = blank_spans(line);
+    let found = ["![", "<img", "<svg", "<picture"].into_iter().find(|mark| prose.contains(mark))?;
+    let what = format!("`{found}` puts in a picture by hand: draw it with {{{{#figure command | caption}}}}.");
+    Some(Problem::new(&page.label, number, what))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made_up;
+    use super::*;
+
+    fn sentence(line: &str) -> String {
+        parse(line).expect("a directive").expect_err("a bad one")
+    }
+
+    #[test]
+    fn good_directives_are_read() {
+        let include = Directive::Include { path: "../a.rs", anchor: Some("b") };
+        assert_eq!(parse("  {{#include ../a.rs:b}}"), Some(Ok(include)));
+        assert_eq!(parse("{{#kit plan 05_pinhole}}"), Some(Ok(Directive::Kit { command: "plan 05_pinhole" })));
+        let figure = Directive::Figure { command: "render 05 --size 4x3", caption: "A *box* of |x|" };
+        assert_eq!(parse("{{#figure render 05 --size 4x3 | A *box* of |x|}}"), Some(Ok(figure)));
+        assert_eq!(parse("prose with `{{#kit x}}` in code, or \\{{#kit x}}"), None);
+    }
+
+    #[test]
+    fn bad_directives_say_what_is_accepted() {
+        assert_eq!(sentence("{{#figure render 05}}"), "the figure `render 05` has no caption: write it after a `|`.");
+        assert!(sentence("{{#figrue render 05}}").starts_with("there is no directive {{#figrue}}: a page may use"));
+        assert!(sentence("See {{#kit plan}} here.").starts_with("a directive stands alone on its line"));
+        assert!(sentence("{{#include ../a.rs:3:9}}").starts_with("`3:9` is no anchor: name one"));
+        assert!(sentence("{{#include }}").starts_with("{{#include}} names no file"));
+        assert!(sentence("{{#kit }}").starts_with("{{#kit}} names no command"));
+        assert!(sentence("{{#kit trace \"a b\"}}").ends_with("holds a quote: its words are split at spaces only."));
+    }
+
+    #[test]
+    fn a_raw_image_is_refused() {
+        let found = problems(&made_up("a.md", "text\n\n![a box](box.png)\n`![code]`\n"));
+        let what = "`![` puts in a picture by hand: draw it with {{#figure command | caption}}.";
+        assert_eq!(found, [Problem::new("a.md", 3, what)]);
+    }
+
+    #[test]
+    fn an_include_belongs_in_a_fence() {
+        let found = problems(&made_up("a.md", "{{#include ../a.rs:b}}\n"));
+        assert!(found[0].what.ends_with("stands outside a code fence: put ```rust around it."));
+    }
+}

@@ -1,0 +1,182 @@
+//! Figures: a picture the kit made, its caption, and the command that makes it.
+
+use crate::edit::escape;
+use crate::kit::Kit;
+use crate::math;
+use pulldown_cmark::{Event, Options, Parser};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// What a reader types before a command of the kit.
+pub const TYPED: &str = "cargo run --release --";
+
+/// Pictures narrower than this are meant to show their pixels.
+const SHOWS_PIXELS: u32 = 200;
+
+/// How wide a picture that shows its pixels may grow.
+const GROWN: u32 = 480;
+
+/// The pictures of one build, by the name they will have under `figures/`.
+pub type Pictures = BTreeMap<String, (String, Rc<[u8]>)>;
+
+/// The block that stands for one figure directive.
+pub fn block(kit: &mut Kit, pictures: &mut Pictures, command: &str, caption: &str) -> Result<String, String> {
+    let spoken = escape(&plain(caption));
+    let drawn = ["figure", "chart"].contains(&command.split_whitespace().next().unwrap_or_default());
+    let picture = if drawn {
+        let file = kit.file(command, "svg")?;
+        inline(&String::from_utf8_lossy(&file), &spoken, &stem_of(command))
+            .map_err(|what| format!("`{command}` {what}"))?
+    } else {
+        let file = kit.file(command, "png")?;
+        let size = png_size(&file).ok_or_else(|| format!("`{command}` wrote a file that is no PNG."))?;
+        image(&store(pictures, command, file), size, &spoken)
+    };
+    let caption = math::expand(caption)?;
+    // A line may break between the words of a command, never inside `--size`.
+    let words = [TYPED, command].join(" ");
+    let words: Vec<String> = words.split_whitespace().map(|word| format!("<span>{}</span>", escape(word))).collect();
+    let made = words.join(" ");
+    // Blank lines let markdown into the caption; the picture itself must hold none.
+    Ok(format!(
+        "\n<figure>\n{picture}\n<figcaption>\n\n{caption}\n\n\
+         <div class=\"made\">made by <code>{made}</code></div>\n</figcaption>\n</figure>\n"
+    ))
+}
+
+/// The words of a caption, for those who hear the page.
+fn plain(caption: &str) -> String {
+    let events = Parser::new_ext(caption, Options::ENABLE_MATH);
+    let words = events.filter_map(|event| match event {
+        Event::Text(text) | Event::Code(text) | Event::InlineMath(text) | Event::DisplayMath(text) => Some(text),
+        _ => None,
+    });
+    words.map(String::from).collect()
+}
+
+fn image(name: &str, (width, height): (u32, u32), spoken: &str) -> String {
+    let pixels = if width < SHOWS_PIXELS {
+        let grown = width * (GROWN / width.max(1)).max(1);
+        format!(" class=\"pixels\" style=\"width: {grown}px\"")
+    } else {
+        String::new()
+    };
+    format!("<img src=\"figures/{name}\" width=\"{width}\" height=\"{height}\" alt=\"{spoken}\"{pixels}>")
+}
+
+/// A command as one word that can name a file.
+fn stem_of(command: &str) -> String {
+    let letter = |letter: char| {
+        if letter.is_ascii_alphanumeric() || letter == '_' { letter } else { '-' }
+    };
+    let stem: String = command.chars().map(letter).collect();
+    let words: Vec<&str> = stem.split('-').filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}
+
+/// Keeps a picture under a name that tells its command.
+fn store(pictures: &mut Pictures, command: &str, file: Rc<[u8]>) -> String {
+    let stem = stem_of(command);
+    let mut name = format!("{stem}.png");
+    let mut count = 1;
+    // Two commands may come down to the same letters.
+    while pictures.get(&name).is_some_and(|(other, _)| other != command) {
+        count += 1;
+        name = format!("{stem}-{count}.png");
+    }
+    pictures.insert(name.clone(), (command.to_owned(), file));
+    name
+}
+
+/// Width and height as the header of a PNG states them.
+pub fn png_size(file: &[u8]) -> Option<(u32, u32)> {
+    let header = file.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
+    let number = |at: usize| Some(u32::from_be_bytes(header.get(at..at + 4)?.try_into().ok()?));
+    (header.get(4..8)? == b"IHDR").then_some(())?;
+    Some((number(8)?, number(12)?))
+}
+
+/// An SVG as part of the page, so that `currentColor` is the text's, as wide as the text allows and no wider than drawn.
+fn inline(svg: &str, spoken: &str, stem: &str) -> Result<String, String> {
+    let start = svg.find("<svg").ok_or("wrote a file that is no SVG.")?;
+    let svg = svg[start..].trim_end();
+    let end = svg.find('>').ok_or("wrote an SVG whose first tag does not end.")?;
+    let (tag, rest) = svg.split_at(end);
+    let view = attribute(tag, "viewBox").ok_or("wrote an SVG without a viewBox, which cannot be fitted to a page.")?;
+    let width = attribute(tag, "width").and_then(|width| width.trim_end_matches("px").parse::<f64>().ok());
+    let width = width.or_else(|| view.split([' ', ',']).filter_map(|number| number.parse().ok()).nth(2));
+    let width = width.ok_or_else(|| format!("wrote an SVG with the viewBox `{view}`, which has no width."))?;
+    let kept = ["xmlns", "viewBox", "font-family", "font-size", "fill", "stroke", "stroke-width", "text-anchor"];
+    let kept = kept.iter().filter_map(|name| Some(format!("{name}=\"{}\"", attribute(tag, name)?)));
+    let kept: Vec<String> = kept.collect();
+    let lines: Vec<&str> = rest.lines().filter(|line| !line.trim().is_empty()).collect();
+    let style = format!("width: 100%; max-width: {width}px; height: auto");
+    let tag = format!("<svg {} role=\"img\" aria-label=\"{spoken}\" style=\"{style}\"", kept.join(" "));
+    Ok(format!("{tag}{}", own_names(&lines.join("\n"), stem)))
+}
+
+/// Two drawings on one page must not answer to each other's ids.
+fn own_names(svg: &str, stem: &str) -> String {
+    [" id=\"", "url(#", "href=\"#"]
+        .iter()
+        .fold(svg.to_owned(), |svg, mark| svg.replace(mark, &format!("{mark}{stem}-")))
+}
+
+fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
+    let (_, rest) = tag.split_once(&format!(" {name}=\""))?;
+    rest.split_once('"').map(|(value, _)| value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x60\0\0\0\x36";
+    const SVG: &str = "<?xml version=\"1.0\"?>\n<svg xmlns=\"s\" width=\"300\" height=\"9\" viewBox=\"0 0 300 9\">\n\n<g id=\"a\" fill=\"url(#a)\"/>\n</svg>\n";
+
+    fn kit(svg: &'static str) -> Rc<std::cell::RefCell<Kit>> {
+        Kit::with(move |words, _| {
+            let path = words.last().cloned().unwrap_or_default();
+            let bytes = if path.ends_with(".svg") { svg.as_bytes() } else { PNG };
+            std::fs::write(path, bytes).map_err(|error| error.to_string())
+        })
+    }
+
+    #[test]
+    fn a_picture_has_its_size_and_its_command() {
+        let mut pictures = Pictures::new();
+        let kit = kit(SVG);
+        let block = block(&mut kit.borrow_mut(), &mut pictures, "render 05_x --size 96x54", "A *box* of `a<b`");
+        let block = block.expect("a figure");
+        let image = "<img src=\"figures/render-05_x-size-96x54.png\" width=\"96\" height=\"54\" \
+                     alt=\"A box of a&lt;b\" class=\"pixels\" style=\"width: 480px\">";
+        assert!(block.contains(image), "{block}");
+        assert!(block.contains("<span>--size</span> <span>96x54</span></code></div>"), "{block}");
+        assert!(pictures.contains_key("render-05_x-size-96x54.png"));
+    }
+
+    #[test]
+    fn a_drawing_is_inlined_and_fluid() {
+        let kit = kit(SVG);
+        let block = block(&mut kit.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It");
+        let expected = "<figure>\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
+                        style=\"width: 100%; max-width: 300px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n<figcaption>";
+        assert!(block.as_ref().is_ok_and(|block| block.contains(expected)), "{block:?}");
+    }
+
+    #[test]
+    fn a_drawing_without_a_view_box_is_refused() {
+        let kit = kit("<svg width=\"3\"></svg>");
+        let told = block(&mut kit.borrow_mut(), &mut Pictures::new(), "chart 05_x", "It").expect_err("refused");
+        assert_eq!(told, "`chart 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
+    }
+
+    #[test]
+    fn names_do_not_collide() {
+        let mut pictures = Pictures::new();
+        let bytes: Rc<[u8]> = Rc::from(PNG);
+        assert_eq!(store(&mut pictures, "render a --b", Rc::clone(&bytes)), "render-a-b.png");
+        assert_eq!(store(&mut pictures, "render a -b", Rc::clone(&bytes)), "render-a-b-2.png");
+        assert_eq!(store(&mut pictures, "render a --b", bytes), "render-a-b.png");
+    }
+}

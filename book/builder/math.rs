@@ -1,0 +1,168 @@
+//! Formulas: `$…$` and `$$…$$` become MathML, which a browser draws without scripts, fonts or network.
+
+use crate::edit::{Edit, apply};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Storage, push_mathml};
+use std::error::Error;
+use std::ops::Range;
+
+/// A formula, or a `$` that belongs to none, that cannot be shown.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Slip {
+    /// Where in the text.
+    pub at: usize,
+    /// One sentence.
+    pub what: String,
+}
+
+/// The options of mdBook's own reading, and formulas.
+fn options() -> Options {
+    Options::ENABLE_TABLES
+        | Options::ENABLE_FOOTNOTES
+        | Options::ENABLE_STRIKETHROUGH
+        | Options::ENABLE_HEADING_ATTRIBUTES
+        | Options::ENABLE_GFM
+        | Options::ENABLE_MATH
+}
+
+/// Finds every formula of a markdown text outside code, and what to put in its place.
+pub fn edits(text: &str) -> (Vec<Edit>, Vec<Slip>) {
+    let (mut edits, mut slips) = (Vec::new(), Vec::new());
+    let mut in_code = false;
+    for (event, range) in Parser::new_ext(text, options()).into_offset_iter() {
+        let found = match event {
+            Event::Start(Tag::CodeBlock(_)) => {
+                in_code = true;
+                continue;
+            }
+            Event::End(TagEnd::CodeBlock) => {
+                in_code = false;
+                continue;
+            }
+            Event::InlineMath(latex) => formula(&latex, false),
+            Event::DisplayMath(latex) => formula(&latex, true),
+            Event::Text(_) if !in_code => {
+                slips.extend(stray(text, range));
+                continue;
+            }
+            _ => continue,
+        };
+        match found {
+            Ok(text) => edits.push(Edit { range, text }),
+            Err(what) => slips.push(Slip { at: range.start, what }),
+        }
+    }
+    (edits, slips)
+}
+
+/// A short text with its formulas converted.
+pub fn expand(text: &str) -> Result<String, String> {
+    let (edits, slips) = edits(text);
+    match slips.into_iter().next() {
+        Some(slip) => Err(slip.what),
+        None => Ok(apply(text, edits)),
+    }
+}
+
+/// A `$` that markdown took for plain text is most often half a formula.
+fn stray(text: &str, range: Range<usize>) -> Option<Slip> {
+    let here = |at: &usize| !text[..*at].ends_with('\\');
+    let at = text[range.clone()].match_indices('$').map(|(at, _)| range.start + at).find(here)?;
+    let what = "a `$` stands alone: a formula is $x$, without a space just inside; for a dollar sign write `\\$`.";
+    Some(Slip { at, what: what.to_owned() })
+}
+
+fn formula(latex: &str, display: bool) -> Result<String, String> {
+    let latex = latex.trim();
+    let storage = Storage::new();
+    let broken = |error: &dyn std::fmt::Display| format!("the formula `{latex}` cannot be read: {error}.");
+    if let Some(error) = pulldown_latex::Parser::new(latex, &storage).find_map(Result::err) {
+        // The error's own text draws a box over several lines; its cause is the sentence.
+        return Err(match error.source() {
+            Some(cause) => broken(cause),
+            None => broken(&error),
+        });
+    }
+    let mode = if display { DisplayMode::Block } else { DisplayMode::Inline };
+    let config = RenderConfig { display_mode: mode, ..RenderConfig::default() };
+    let mut mathml = String::new();
+    let parser = pulldown_latex::Parser::new(latex, &storage);
+    push_mathml(&mut mathml, parser, config).map_err(|error| broken(&error))?;
+    // pulldown-latex 0.8 escapes its own `&nbsp;` once too often.
+    let spaces = mathml.replace("&amp;nbsp;", "\u{a0}").replace("&nbsp;", "\u{a0}");
+    let mathml = guarded(&spaces.replace('\n', " "));
+    Ok(if display { format!("<span class=\"formula\">{mathml}</span>") } else { mathml })
+}
+
+/// The MathML goes through markdown once more: what markdown would read as marks is written by number.
+fn guarded(mathml: &str) -> String {
+    let mut inside_tag = false;
+    let mut inside_entity = false;
+    let mut result = String::with_capacity(mathml.len());
+    for letter in mathml.chars() {
+        match letter {
+            '<' => inside_tag = true,
+            '>' => inside_tag = false,
+            '&' => inside_entity = true,
+            ';' if inside_entity => inside_entity = false,
+            _ => {}
+        }
+        let plain = inside_tag || inside_entity || !letter.is_ascii_punctuation() || "<>;".contains(letter);
+        if plain {
+            result.push(letter);
+        } else {
+            result.push_str(&format!("&#{};", u32::from(letter)));
+        }
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_become_mathml() {
+        let text = expand("the angle $\\theta$ is").expect("a formula");
+        assert!(text.starts_with("the angle <math"), "{text}");
+        assert!(text.contains("<mi>θ</mi>") && text.ends_with("</math> is"), "{text}");
+        let text = expand("$$\n\\frac{a}{b}\n$$").expect("a formula");
+        assert!(text.starts_with("<span class=\"formula\"><math display=\"block\""), "{text}");
+        let space = expand("$a,\\ b$").expect("a formula");
+        assert!(space.contains("<mtext>\u{a0}</mtext>"), "{space}");
+        assert!(text.contains("<mfrac>") && !text.contains('\n'), "{text}");
+    }
+
+    #[test]
+    fn code_is_left_alone() {
+        for text in ["`$x$`", "``$x$ ` $y$``", "```text\n$x$ and $\n```", "    $x$", "\\$5 and \\$6", "<b title=\"$\">"]
+        {
+            assert_eq!(expand(text).as_deref(), Ok(text));
+        }
+    }
+
+    #[test]
+    fn what_markdown_would_read_is_guarded() {
+        let text = expand("$a*b*c$ | $x_1' [y](z)$").expect("formulas");
+        let inside: String = text.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
+        assert!(!inside.contains(['*', '_', '[', '(', '\'']), "{text}");
+    }
+
+    #[test]
+    fn a_broken_formula_is_named() {
+        let told = expand("so $\\frac{a}$ is").expect_err("a slip");
+        assert!(told.starts_with("the formula `\\frac{a}` cannot be read: "), "{told}");
+        let told = expand("so $\\nosuchthing$ is").expect_err("a slip");
+        assert!(told.starts_with("the formula `\\nosuchthing` cannot be read: "), "{told}");
+        assert!(!told.contains('\n'), "{told}");
+    }
+
+    #[test]
+    fn half_a_formula_is_named() {
+        let (_, slips) = edits("one\n\nx $ y\n\n`$`\n");
+        assert_eq!(slips.len(), 1);
+        assert_eq!(slips[0].at, 7);
+        assert!(slips[0].what.starts_with("a `$` stands alone"));
+    }
+}

@@ -1,0 +1,156 @@
+//! The one preprocessor: a page as its author wrote it becomes the markdown that mdBook shows.
+
+use crate::check::directive::{Directive, parse};
+use crate::check::scan::{Fence, Scan};
+use crate::check::{Page, Problem, listing};
+use crate::edit::{Edit, apply, escape};
+use crate::figure::{self, Pictures, TYPED};
+use crate::kit::Kit;
+use crate::math;
+use mdbook_preprocessor::book::Book;
+use mdbook_preprocessor::errors::{Error, Result};
+use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Expands every page, and gathers the pictures they show.
+pub struct Pages {
+    /// The pages as read and checked before the build.
+    pub written: Vec<Page>,
+    /// Answers the commands.
+    pub kit: Rc<RefCell<Kit>>,
+    /// Filled by the run.
+    pub pictures: Rc<RefCell<Pictures>>,
+}
+
+impl Preprocessor for Pages {
+    fn name(&self) -> &str {
+        "pinhole"
+    }
+
+    fn run(&self, _context: &PreprocessorContext, mut book: Book) -> Result<Book> {
+        let (kit, pictures) = (&mut self.kit.borrow_mut(), &mut self.pictures.borrow_mut());
+        let mut problems = Vec::new();
+        book.for_each_chapter_mut(|chapter| {
+            let name = chapter.source_path.as_ref().map(|path| path.display().to_string());
+            let page = self.written.iter().find(|page| Some(&page.name) == name.as_ref());
+            match page.map(|page| expand(page, kit, pictures)) {
+                Some(Ok(content)) => chapter.content = content,
+                Some(Err(found)) => problems.extend(found),
+                None => {}
+            }
+        });
+        if problems.is_empty() { Ok(book) } else { Err(Error::msg(told(&problems))) }
+    }
+}
+
+/// Problems as an author reads them, one a line.
+pub fn told(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// A page with its listings, formulas, outputs and figures in place.
+pub fn expand(page: &Page, kit: &mut Kit, pictures: &mut Pictures) -> std::result::Result<String, Vec<Problem>> {
+    let scan = Scan::new(&page.text);
+    let (mut edits, slips) = math::edits(&without_directives(&page.text, &scan));
+    let line_of = |at: usize| page.text[..at].matches('\n').count() + 1;
+    let formulas = slips.into_iter().map(|slip| Problem::new(&page.label, line_of(slip.at), slip.what));
+    let mut problems: Vec<Problem> = formulas.collect();
+    for line in &scan.lines {
+        let made = match (parse(line.text), line.fence) {
+            (Some(Ok(Directive::Kit { command })), None) => kit.text(command).map(|text| printed(command, &text)),
+            (Some(Ok(Directive::Figure { command, caption })), None) => figure::block(kit, pictures, command, caption),
+            (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
+                let margin = &line.text[..line.text.len() - line.text.trim_start().len()];
+                listing::read(page, path, anchor).map(|listing| indented(&listing, margin))
+            }
+            _ => continue,
+        };
+        match made {
+            Ok(text) => edits.push(Edit { range: line.start..line.start + line.text.len(), text }),
+            Err(what) => problems.push(Problem::new(&page.label, line.number, what)),
+        }
+    }
+    edits.extend(scan.fences.iter().filter_map(|fence| source_label(&scan, fence)));
+    problems.sort_by_key(|problem| problem.line);
+    if problems.is_empty() { Ok(apply(&page.text, edits)) } else { Err(problems) }
+}
+
+/// The text with its directive lines blanked byte for byte: a `$` in a command is no formula.
+fn without_directives(text: &str, scan: &Scan<'_>) -> String {
+    let directives = scan.prose().filter(|line| parse(line.text).is_some());
+    let blank = |line: &crate::check::scan::Line<'_>| Edit {
+        range: line.start..line.start + line.text.len(),
+        text: " ".repeat(line.text.len()),
+    };
+    apply(text, directives.map(blank).collect())
+}
+
+/// What a command prints, under the command as a reader types it.
+fn printed(command: &str, text: &str) -> String {
+    let longest = text.split(|letter| letter != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(3.max(longest + 1));
+    let command = escape(command);
+    format!(
+        "\n<div class=\"kit\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
+         {fence}text\n{text}\n{fence}\n\n</div>\n"
+    )
+}
+
+fn indented(listing: &str, margin: &str) -> String {
+    let lines: Vec<String> = listing.lines().map(|line| format!("{margin}{line}")).collect();
+    lines.join("\n")
+}
+
+/// A small line above a listing that says which file it is from.
+fn source_label(scan: &Scan<'_>, fence: &Fence<'_>) -> Option<Edit> {
+    let includes = listing::includes(scan, fence)?;
+    let Some(Directive::Include { path, .. }) = includes.first() else {
+        return None;
+    };
+    let opening = scan.lines.get(fence.first)?;
+    let margin = &opening.text[..opening.text.len() - opening.text.trim_start().len()];
+    let label = escape(&listing::label(path));
+    let text = format!("\n{margin}<div class=\"source\">{label}</div>\n\n");
+    Some(Edit { range: opening.start..opening.start, text })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::made_up;
+
+    fn expanded(text: &str) -> std::result::Result<String, Vec<String>> {
+        let kit = Kit::with(|words, out| match words[0].as_str() {
+            "plan" => writeln!(out, "```\nkept <b> & $x$\n```").map_err(|error| error.to_string()),
+            _ => Err("no such command.".to_owned()),
+        });
+        let expanded = expand(&made_up("a.md", text), &mut kit.borrow_mut(), &mut Pictures::new());
+        expanded.map_err(|problems| problems.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn output_stands_under_its_command() {
+        let text = expanded("a\n\n{{#kit plan 05 --a<b}}\n\nb $\n".trim_end_matches(" $\n")).expect("expands");
+        let expected = "<div class=\"typed\"><code>cargo run --release -- plan 05 --a&lt;b</code></div>\n\n\
+                        ````text\n```\nkept <b> & $x$\n```\n````\n\n</div>";
+        assert!(text.contains(expected), "{text}");
+        assert!(text.starts_with("a\n\n") && text.ends_with("\n\nb"), "{text}");
+    }
+
+    #[test]
+    fn a_listing_is_labelled_and_indented_as_its_fence() {
+        let text = expanded("- a\n\n  ```toml\n  {{#include Cargo.toml}}\n  ```\n").expect("expands");
+        assert!(text.contains("  <div class=\"source\">Cargo.toml</div>\n\n  ```toml\n  [package]\n  name"), "{text}");
+    }
+
+    #[test]
+    fn every_slip_of_a_page_is_named_at_once() {
+        let told = expanded("$\\oops$\n\n{{#kit plan}}\n\n{{#kit nothing}}\n\n{{#figure plan | $\\oops$}}\n");
+        let told = told.expect_err("slips");
+        assert_eq!(told.len(), 3);
+        assert!(told[0].starts_with("a.md:1: the formula `\\oops` cannot be read"), "{told:?}");
+        assert_eq!(told[1], "a.md:5: `nothing` failed: no such command.");
+        assert_eq!(told[2], "a.md:7: `plan` wrote no .png file when told where with `-o`.");
+    }
+}

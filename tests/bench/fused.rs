@@ -1,0 +1,169 @@
+//! The hand-written loop that the stages are measured against: one pixel after another, nothing kept in between.
+//!
+//! It calls the kit's own functions of one row and reads the kit's own tables, so that its image is the same to the
+//! last bit and only the arrangement of the work differs.
+//! Its spheres are tested sixteen at a time for one ray, as the kit's stage tests sixteen rays for one sphere.
+
+use bevy_ecs::prelude::World;
+use glam::{DVec2, DVec3, Vec3};
+use multiversion::multiversion;
+use pinhole::extract::{
+    BackgroundTable, CameraAxes, ImageShape, MatteTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
+    ShapeTable, SphereTable,
+};
+use pinhole::film::{Film, FilmTile};
+use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
+use pinhole::plan::Table;
+use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
+use pinhole::scene::Refusal;
+use pinhole::shade::{reflected_radiance, shadow_reach};
+use std::sync::{Mutex, PoisonError};
+
+/// Spheres tested together.
+const LANES: usize = 16;
+
+/// Everything the loop reads.
+pub struct Scene {
+    image: ImageShape,
+    lens: PinholeLens,
+    axes: CameraAxes,
+    spheres: SphereTable,
+    planes: PlaneTable,
+    shapes: ShapeTable,
+    mattes: MatteTable,
+    lights: PointLightTable,
+    background: BackgroundTable,
+}
+
+impl Scene {
+    /// Reads the same tables as the kit.
+    pub fn extract(world: &World) -> Result<Self, Refusal> {
+        Ok(Self {
+            image: Table::extract(world)?,
+            lens: Table::extract(world)?,
+            axes: Table::extract(world)?,
+            spheres: Table::extract(world)?,
+            planes: Table::extract(world)?,
+            shapes: Table::extract(world)?,
+            mattes: Table::extract(world)?,
+            lights: Table::extract(world)?,
+            background: Table::extract(world)?,
+        })
+    }
+}
+
+/// A whole frame on this many threads.
+pub fn render(world: &World, threads: usize) -> Film {
+    let scene = Scene::extract(world).expect("the scene is a chapter's");
+    let mut film = Film::new(scene.image.width, scene.image.height, 32);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("workers start");
+    let tiles = Mutex::new(film.tiles.iter_mut());
+    pool.broadcast(|_| {
+        while let Some(tile) = { tiles.lock().unwrap_or_else(PoisonError::into_inner).next() } {
+            render_tile(&scene, tile);
+        }
+    });
+    film
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn render_tile(scene: &Scene, film: &mut FilmTile) {
+    for row in 0..film.tile.rows() {
+        let [x, y] = film.tile.pixel_of(row);
+        let radiance = radiance(scene, x, y);
+        film.add(row, radiance);
+    }
+}
+
+#[inline(always)]
+fn radiance(scene: &Scene, x: u32, y: u32) -> [f32; 3] {
+    let ndc = ndc_from_raster(raster_from_pixel(x, y), scene.image.size());
+    let screen: DVec2 = screen_from_ndc(ndc, scene.image.aspect());
+    let camera = camera_ray_perspective(screen, scene.lens.tan_half_vertical);
+    let direction = (scene.axes.world_from_camera * camera).as_vec3().as_dvec3();
+    let (t, shape) = nearest(scene, DVec3::ZERO, direction, f64::INFINITY, false);
+    if shape == NO_SHAPE {
+        return scene.background.radiance;
+    }
+    light(scene, &surface(scene, direction, t, shape as usize))
+}
+
+#[inline(always)]
+fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
+    let (row, matte) = (scene.shapes.row[shape] as usize, scene.shapes.matte[shape]);
+    let point = DVec3::ZERO + t * direction;
+    let (normal, size) = match scene.shapes.kind[shape] {
+        ShapeKind::Sphere => {
+            let centre = scene.spheres.centre(row);
+            let outward = (point - centre).try_normalize().unwrap_or(-direction);
+            (outward, sum_of_parts(centre) + scene.spheres.radius[row])
+        }
+        ShapeKind::Plane => (scene.planes.normal[row], scene.planes.offset[row].abs()),
+    };
+    Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), matte)
+}
+
+#[inline(always)]
+fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
+    let mut radiance = [0.0_f32; 3];
+    let origin: Vec3 = offset_origin(surface.position, surface.normal, surface.bound);
+    for (light, &position) in scene.lights.position.iter().enumerate() {
+        let to_light = position - origin.as_dvec3();
+        let distance = to_light.length();
+        let direction = (to_light * (1.0 / distance)).as_vec3().as_dvec3();
+        let cosine = surface.normal.as_dvec3().dot(direction);
+        if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
+            let colour = scene.mattes.colour[surface.matte as usize];
+            let brings = reflected_radiance(colour, scene.lights.intensity[light], cosine, distance * distance);
+            for (sum, brings) in radiance.iter_mut().zip(brings) {
+                *sum += brings as f32;
+            }
+        }
+    }
+    radiance
+}
+
+#[inline(always)]
+fn blocked(scene: &Scene, light: usize, origin: Vec3, direction: DVec3, distance: f64) -> bool {
+    let reach = f64::from(shadow_reach(distance));
+    scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, reach, true).1 != NO_SHAPE
+}
+
+/// What the ray meets before `reach`: the nearest, or for `any` the first found.
+#[inline(always)]
+fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool) -> (f64, u32) {
+    let (mut t, mut shape) = (reach, NO_SHAPE);
+    for (plane, &normal) in scene.planes.normal.iter().enumerate() {
+        let found = plane_t(origin, direction, normal, scene.planes.offset[plane]);
+        narrow(found, scene.planes.shape[plane], &mut t, &mut shape);
+    }
+    let spheres = &scene.spheres;
+    let count = spheres.x.len();
+    let inverse = 1.0 / direction.dot(direction);
+    let mut start = 0;
+    while start < count && !(any && shape != NO_SHAPE) {
+        let mut near = [f64::NEG_INFINITY; LANES];
+        let here = LANES.min(count - start);
+        let (x, y, z) =
+            (&spheres.x[start..start + here], &spheres.y[start..start + here], &spheres.z[start..start + here]);
+        let radius = &spheres.radius[start..start + here];
+        for lane in 0..here {
+            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, inverse, radius[lane]);
+        }
+        for lane in 0..here {
+            if near[lane] >= 0.0 {
+                let found = sphere_t(origin, direction, spheres.centre(start + lane), radius[lane]);
+                narrow(found, spheres.shape[start + lane], &mut t, &mut shape);
+            }
+        }
+        start += LANES;
+    }
+    (t, shape)
+}
+
+#[inline(always)]
+fn narrow(found: f64, number: u32, t: &mut f64, shape: &mut u32) {
+    if found < *t || (found == *t && number < *shape && found < f64::INFINITY) {
+        (*t, *shape) = (found, number);
+    }
+}

@@ -1,0 +1,184 @@
+//! Stages on columns against one hand-written loop: the same scene, the same image, interleaved runs.
+//!
+//! `cargo bench --bench staged` prints the ratio of CPU times with its 95 % interval, on one and two threads, with and
+//! without the empty bounce schedule; then each stage's nanoseconds a row; then memory at two sizes.
+//! `-- --pairs 5 --size 480x270` takes fewer and smaller runs.
+#![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
+
+mod fused;
+
+#[path = "../../chapters/mod.rs"]
+mod chapters;
+
+use bevy_ecs::prelude::World;
+use cpu_time::ProcessTime;
+use pinhole::render::{Execution, render};
+use pinhole::scene::Resolution;
+use pinhole::{Asked, Chapter};
+use std::time::Duration;
+
+fn main() {
+    let options = Options::read();
+    for name in ["05_pinhole", "cover"] {
+        let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
+        for threads in [1, 2] {
+            for bounces in [None, Some(8)] {
+                compare(&chapter, threads, bounces, &options);
+            }
+        }
+        bounce_cost(&chapter, &options);
+        stages(&chapter, &options);
+    }
+    memory();
+}
+
+struct Options {
+    pairs: usize,
+    size: Resolution,
+}
+
+impl Options {
+    fn read() -> Self {
+        let words: Vec<String> = std::env::args().collect();
+        let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1));
+        let pairs = after("--pairs").and_then(|pairs| pairs.parse().ok()).unwrap_or(15);
+        let size = after("--size").and_then(|size| size.split_once('x'));
+        let size = size.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+        let (width, height) = size.unwrap_or((1920, 1080));
+        Self { pairs, size: Resolution { width, height } }
+    }
+
+    fn world(&self, chapter: &Chapter, statistics: bool) -> World {
+        chapter.world(&Asked { resolution: Some(self.size), statistics, ..Asked::default() })
+    }
+}
+
+/// Staged over fused, interleaved ABBA, after a warm-up of each and a check that the images are the same.
+fn compare(chapter: &Chapter, threads: usize, bounces: Option<u32>, options: &Options) {
+    let world = options.world(chapter, false);
+    let offer = chapter.stages();
+    let execution = Execution { threads: Some(threads), bounces, ..Execution::default() };
+    let staged = || render(&world, &offer, &execution, &()).expect("renders").film;
+    let fused = || fused::render(&world, threads);
+    assert!(staged() == fused(), "the two images differ");
+
+    let mut logs = Vec::new();
+    let (mut staged_ms, mut fused_ms) = (Vec::new(), Vec::new());
+    for pair in 0..options.pairs {
+        let (a, b) = if pair % 2 == 0 {
+            let a = cpu(&staged);
+            (a, cpu(&fused))
+        } else {
+            let b = cpu(&fused);
+            (cpu(&staged), b)
+        };
+        staged_ms.push(a.as_secs_f64() * 1e3);
+        fused_ms.push(b.as_secs_f64() * 1e3);
+        logs.push((a.as_secs_f64() / b.as_secs_f64()).ln());
+    }
+    let (low, middle, high) = interval(&logs);
+    println!(
+        "{:<12} {}x{} threads {threads} {:<18} staged/fused CPU time {middle:.3} [{low:.3}, {high:.3}] of {} pairs; medians {:.0} and {:.0} ms",
+        chapter.name,
+        options.size.width,
+        options.size.height,
+        bounces.map_or("no bounce schedule".into(), |legs| format!("{legs} empty bounces")),
+        options.pairs,
+        median(&mut staged_ms),
+        median(&mut fused_ms),
+    );
+}
+
+/// What eight runs of the empty bounce schedule a tile add, as a ratio of the same staged render with and without.
+fn bounce_cost(chapter: &Chapter, options: &Options) {
+    let world = options.world(chapter, false);
+    let offer = chapter.stages();
+    let run = |bounces| {
+        let execution = Execution { threads: Some(1), bounces, ..Execution::default() };
+        cpu(&|| render(&world, &offer, &execution, &()).expect("renders").film)
+    };
+    let logs: Vec<f64> =
+        (0..options.pairs).map(|_| (run(Some(8)).as_secs_f64() / run(None).as_secs_f64()).ln()).collect();
+    let (low, middle, high) = interval(&logs);
+    println!("{:<12} 8 empty bounces a tile over none: CPU time {middle:.3} [{low:.3}, {high:.3}]", chapter.name);
+}
+
+fn cpu<T>(run: &impl Fn() -> T) -> Duration {
+    let started = ProcessTime::now();
+    let result = run();
+    let time = started.elapsed();
+    drop(result);
+    time
+}
+
+/// Geometric mean of ratios with its 95 % t interval.
+fn interval(logs: &[f64]) -> (f64, f64, f64) {
+    let n = logs.len() as f64;
+    let mean = logs.iter().sum::<f64>() / n;
+    let variance = logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() / (n - 1.0);
+    let half = student_975(logs.len() - 1) * (variance / n).sqrt();
+    ((mean - half).exp(), mean.exp(), (mean + half).exp())
+}
+
+/// The 97.5 % point of Student's t (Abramowitz and Stegun, table 26.10), the next smaller tabulated freedom.
+fn student_975(freedom: usize) -> f64 {
+    const TABLE: [(usize, f64); 10] = [
+        (1, 12.706),
+        (2, 4.303),
+        (3, 3.182),
+        (4, 2.776),
+        (5, 2.571),
+        (7, 2.365),
+        (10, 2.228),
+        (14, 2.145),
+        (20, 2.086),
+        (30, 2.042),
+    ];
+    TABLE.iter().rev().find(|(tabulated, _)| *tabulated <= freedom).map_or(12.706, |(_, point)| *point)
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Each stage's nanoseconds a row, the median of as many runs as there are pairs.
+fn stages(chapter: &Chapter, options: &Options) {
+    let world = options.world(chapter, true);
+    let offer = chapter.stages();
+    let execution = Execution { threads: Some(1), ..Execution::default() };
+    let runs: Vec<_> = (0..options.pairs).map(|_| render(&world, &offer, &execution, &()).expect("renders")).collect();
+    for (slot, stage) in runs[0].plan.stages.iter().enumerate() {
+        let lap = |run: &pinhole::render::Rendered| run.laps[slot];
+        let each = |run| lap(run).time.as_nanos() as f64 / lap(run).rows.max(1) as f64;
+        let mut values: Vec<f64> = runs.iter().map(each).collect();
+        println!("  {:<30} {:>9} rows {:>8.2} ns a row", stage.name, lap(&runs[0]).rows, median(&mut values));
+    }
+}
+
+/// Peak memory of a whole process at two sizes: what is left beside the film must not grow.
+fn memory() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut measured = Vec::new();
+    for size in ["1920x1080", "7680x4320"] {
+        let file = folder.path().join("picture.png");
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_pinhole"))
+            .args(["render", "cover", "--size", size, "--stats", "-o"])
+            .arg(&file)
+            .output()
+            .expect("the kit runs");
+        let stats: serde_json::Value = serde_json::from_slice(&output.stdout).expect("statistics as JSON");
+        let number = |key: &str| stats[key].as_f64().unwrap_or(f64::NAN);
+        let (film, peak) = (number("film_bytes"), number("peak_memory_bytes"));
+        println!(
+            "memory {size}: film {:.1} MiB ({} bytes a pixel), peak {:.1} MiB, beside the film {:.1} MiB",
+            film / 1048576.0,
+            number("film_bytes_a_pixel"),
+            peak / 1048576.0,
+            (peak - film) / 1048576.0
+        );
+        measured.push((number("width") * number("height"), peak));
+    }
+    let growth = (measured[1].1 - measured[0].1) / (measured[1].0 - measured[0].0);
+    println!("memory: {growth:.2} bytes a further pixel");
+}
