@@ -33,14 +33,16 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(svg.finish(figure.about, &figure.foot(&subject, &format!("pixel {},{}", ray.pixel[0], ray.pixel[1]))))
 }
 
-/// The ray that passes a sphere's centre at the most telling distance.
+/// Of the sphere that looks largest, the ray that passes its centre at the most telling distance.
 fn telling_ray(subject: &Subject) -> Option<(&PixelRay, &Ball)> {
+    let met = || subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_met(ray)?)));
+    let away = |(ray, ball): &(&PixelRay, &Ball)| (ball.centre - ray.origin).length() / ball.radius;
+    let (_, largest) = met().min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let off = |(ray, ball): &(&PixelRay, &Ball)| {
         let across = (ball.centre - ray.origin).cross(ray.direction).length() / ball.radius;
         (across - BEST_ACROSS).abs()
     };
-    let met = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_met(ray)?)));
-    met.min_by(|a, b| off(a).total_cmp(&off(b)))
+    met().filter(|(_, ball)| ball.shape == largest.shape).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
 /// The names of `sphere_t`.

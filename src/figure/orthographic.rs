@@ -27,7 +27,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let reach = reach(&subject);
     let near = |ray: &&PixelRay| ray.hit.is_some_and(|(t, _)| t <= reach);
     let hits: Vec<&PixelRay> = subject.rays.iter().filter(near).collect();
-    let more: Vec<Extent> = hits.iter().filter_map(|ray| ray.point()).map(|point| (point, 0.0)).collect();
+    let end = |ray: &PixelRay| ray.point().filter(|_| near(&ray)).unwrap_or(ray.at(reach * 0.85));
+    let more: Vec<Extent> = subject.rays.iter().map(|ray| (end(ray), 0.0)).collect();
     let scenery = best_scenery(&subject, &[grid], &hits, &more, ROOM)?;
     let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
     let strands: Vec<Strand> = subject.rays.iter().flat_map(|ray| strands_of(ray, reach)).collect();

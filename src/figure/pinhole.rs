@@ -18,7 +18,7 @@ const ROOM: Frame = Frame { low: DVec2::new(10.0, 26.0), high: DVec2::new(WIDTH 
 
 /// The pinhole camera: the eye, the image plane before it, rays through pixel centres, and one on to the light.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let subject = Subject::of(chapter, 8, 5)?;
+    let subject = Subject::of(chapter, 12, 8)?;
     if matches!(subject.lens, Lens::Orthographic(_)) {
         return Err(figure.unsuited("a perspective camera"));
     }

@@ -12,14 +12,14 @@ use glam::DVec2;
 
 /// How steeply the ray rises in the drawing, in radians: enough to tell it from a line of the page.
 const RISE: f64 = 0.16;
-const HEIGHT: f64 = 330.0;
+const HEIGHT: f64 = 340.0;
 
 /// The model of a ray: r(t) = O + tR up to the surface that it meets.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = first_with_sphere(chapter, figure)?;
     let (ray, ball, t) = centre_ray(&subject).ok_or_else(|| figure.unsuited("a sphere that a pixel's ray meets"))?;
     let end = ray_end(ray, ball, t);
-    let frame = Frame { low: DVec2::new(46.0, 44.0), high: DVec2::new(WIDTH - 36.0, HEIGHT - 84.0) };
+    let frame = Frame { low: DVec2::new(46.0, 44.0), high: DVec2::new(WIDTH - 36.0, HEIGHT - 96.0) };
     let section = Section::new(ray, ball, RISE, &[DVec2::new(end, 0.0)], frame);
     let mut svg = Svg::new(figure.name, HEIGHT);
     section.paint_sphere(&mut svg, &screen_colour(ball.colour.map(|part| part as f32)));
@@ -68,11 +68,11 @@ fn paint_marks(svg: &mut Svg, section: &Section, t: f64) {
         svg.line(at - tick, at + tick, Pen::new(INK, 1.4));
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
-    section.drop(svg, 0.0, 72.0);
+    section.drop(svg, 0.0, 80.0);
     section.drop(svg, 1.0, 40.0);
-    section.drop(svg, t, 72.0);
+    section.drop(svg, t, 80.0);
     let unit = section.measure(svg, 0.0, 1.0, 40.0, pen);
-    let whole = section.measure(svg, 0.0, t, 72.0, pen);
+    let whole = section.measure(svg, 0.0, t, 80.0, pen);
     let below = -section.up();
     svg.label(Label::near(unit, "length 1", below, 6.0));
     svg.label(Label::near(whole, &format!("*t* = {t:.3}"), below, 6.0));
@@ -82,10 +82,12 @@ fn label(svg: &mut Svg, section: &Section, t: f64) {
     let (at, up) = (|t| section.point(t, 0.0), section.up());
     svg.label(Label::near(at(0.0), "*O*", DVec2::new(-1.0, -0.6), 9.0));
     svg.label(Label::near(section.point(0.5, 0.0), "*R*", up, 10.0).coloured(RAY));
-    for whole in [1.0, 2.0, 3.0] {
+    // A whole number that is also the hit's t gets no second label on the same point.
+    let apart = |whole: &f64| (whole - t).abs() * section.scale > 40.0;
+    for whole in [1.0, 2.0, 3.0].into_iter().filter(apart) {
         svg.label(Label::near(at(whole), &format!("*r*({whole})"), up, 10.0));
     }
-    svg.label(Label::near(at(t), "*r*(*t*)", up - section.along, 10.0));
+    svg.label(Label::near(at(t), "*r*(*t*)", up - section.along * 0.7, 10.0));
     let centre = section.point(section.centre.x, section.centre.y);
     svg.label(Label::near(
         centre + up * section.radius * section.scale,

@@ -136,6 +136,7 @@ impl<'s> Scenery<'s> {
             let (from, to) = (self.point(strand.from), self.point(strand.to));
             // What is inside or behind a sphere is only hinted at.
             let pen = match asked {
+                Veil::Sphere if strand.pen.opacity < 1.0 => continue,
                 Veil::Sphere => Pen { width: strand.pen.width * 0.75, ..strand.pen }.faint(0.45).dashed("2 3"),
                 _ => strand.pen,
             };

@@ -60,34 +60,41 @@ pub fn best_scenery<'s>(
     }
 }
 
-/// More where little is hidden, the image is large, and rays are long and apart.
+/// More where little is hidden, the image is large, and rays are long.
 fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let [a, b, _, d] = scenery.grid.corners().map(|corner| scenery.point(corner));
     let image = (b - a).perp_dot(d - a).abs();
-    let ends = rays.iter().filter_map(|ray| Some((scenery.point(ray.origin), scenery.point(ray.point()?))));
-    let lengths: Vec<f64> = ends.map(|(from, to)| from.distance(to)).collect();
-    let length = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    let length = |from: DVec3, to: DVec3| scenery.point(from).distance(scenery.point(to));
+    let camera = rays.iter().filter_map(|ray| Some(length(ray.origin, ray.point()?)));
+    let shadow = rays.iter().filter_map(|ray| ray.lit()).map(|on| length(on.from, on.to));
     let seen = seen(scenery, rays);
     // Where it makes little difference, the way of the rays is the way one reads.
-    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.12 } else { 1.0 };
-    reads * seen * seen * image.sqrt() * length.sqrt()
+    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.15 } else { 1.0 };
+    reads * seen * seen * seen * image.sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
 }
 
-/// The share of what matters that nothing hides: the rims of spheres, where rays end, and their way to the light.
+/// The mean of lengths; 1 where there are none, so that it can be a factor.
+fn mean(lengths: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
+    if count > 0.0 { sum / count } else { 1.0 }
+}
+
+/// The share of what matters that nothing hides: the rims of spheres, where rays end, their way to the light.
 fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let [right, up, toward] = [scenery.sketch.axes.x_axis, scenery.sketch.axes.y_axis, scenery.sketch.axes.z_axis];
-    let balls = &scenery.subject.balls;
     let (mut seen, mut all) = (0.0, 0.0);
     let mut ask = |point: DVec3, weight: f64| {
         all += weight;
-        if !scenery.sketch.hidden(point, balls) && !scenery.grid.hides(point, toward) {
-            seen += weight;
-        }
+        seen += if scenery.veiled(point) { 0.0 } else { weight };
     };
-    for ball in balls {
+    for ball in &scenery.subject.balls {
         for out in RIM {
             ask(ball.centre + (right * out.x + up * out.y) * ball.radius * 1.001, 1.0);
         }
+    }
+    for light in &scenery.subject.lights {
+        // A light's sign is drawn over everything, so ask from far behind it: nothing may lie there either.
+        ask(*light - toward * 1e3 * (light.length() + 1.0), 8.0);
     }
     for ray in rays {
         ray.point().into_iter().for_each(|point| ask(point, 4.0));

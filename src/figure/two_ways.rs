@@ -18,7 +18,7 @@ const HALF: f64 = WIDTH / 2.0;
 
 /// The same scene twice: objects projected onto the image, and pixels that ask where their light came from.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let subject = Subject::of(chapter, 8, 5)?;
+    let subject = Subject::of(chapter, 12, 8)?;
     if matches!(subject.lens, Lens::Orthographic(_)) {
         return Err(figure.unsuited("a perspective camera"));
     }
