@@ -180,7 +180,7 @@ fn cost(placed: &Placed, obstacles: &Obstacles, within: [DVec2; 2]) -> (f64, usi
         + 2000.0 * on_words as f64
         + 1000.0 * leader as f64
         + 45.0 * crossed as f64
-        + 60.0 * on_discs as f64;
+        + 80.0 * on_discs as f64;
     (total, crossed)
 }
 

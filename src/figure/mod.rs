@@ -109,3 +109,27 @@ impl Figure {
         Error::Usage(format!("the figure {} needs {what}, and the scene of {} has none", self.name, self.chapter))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_follow_their_scene() {
+        for figure in figures() {
+            let drawing = draw(&trial::chapters(), figure.name).expect(figure.name);
+            assert!(drawing.text.contains(&format!("scene {}", figure.chapter)));
+            assert!(drawing.labels.len() >= 5, "{}", figure.name);
+        }
+    }
+
+    #[test]
+    fn a_camera_of_the_other_kind_is_refused_in_a_sentence() {
+        let mut chapters = trial::chapters();
+        chapters[2].name = "05_pinhole";
+        chapters.remove(3);
+        let refused = draw(&chapters, "05_pinhole").err().expect("refused");
+        let sentence = "the figure 05_pinhole needs a perspective camera, and the scene of 05_pinhole has none";
+        assert_eq!(refused.to_string(), sentence);
+    }
+}

@@ -1,7 +1,7 @@
 use super::Figure;
 use super::grid::Grid;
 use super::label::Label;
-use super::pen::{Fill, INK, Pen, RAY, WIDTH};
+use super::pen::{Fill, Pen, RAY, WIDTH};
 use super::pixel_ray::{PixelRay, screen_colour};
 use super::scenery::{Scenery, Strand};
 use super::side::best_scenery;
@@ -27,7 +27,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let reach = reach(&subject);
     let near = |ray: &&PixelRay| ray.hit.is_some_and(|(t, _)| t <= reach);
     let hits: Vec<&PixelRay> = subject.rays.iter().filter(near).collect();
-    let end = |ray: &PixelRay| ray.point().filter(|_| near(&ray)).unwrap_or(ray.at(reach * 0.85));
+    let end = |ray: &PixelRay| ray.point().filter(|_| near(&ray)).unwrap_or(ray.at(reach));
     let more: Vec<Extent> = subject.rays.iter().map(|ray| (end(ray), 0.0)).collect();
     let scenery = best_scenery(&subject, &[grid], &hits, &more, ROOM)?;
     let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
@@ -70,7 +70,7 @@ fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
     let flat = scenery.subject.flats.first().map(|flat| flat.colour);
     let colour = scenery.subject.ball_met(ray).map(|ball| ball.colour).or(flat).unwrap_or_default();
     let fill = Fill::new(screen_colour(colour.map(|part| part as f32)), 1.0);
-    svg.circle(scenery.point(point), 3.6, Some(&fill), Some(Pen::new(INK, 1.2)));
+    svg.circle(scenery.point(point), 3.6, Some(&fill), Some(Pen::new("#222", 1.2)));
 }
 
 fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
@@ -89,7 +89,7 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
     }
     let missing = scenery.subject.rays.iter().find(|ray| ray.hit.is_none_or(|(t, _)| t > reach));
     if let Some(ray) = missing {
-        svg.label(Label::near(at(ray.at(reach * 0.9)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
+        svg.label(Label::near(at(ray.at(reach * 0.7)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
     }
     if let Some(light) = scenery.subject.lights.first() {
         svg.label(Label::near(at(*light), "light", DVec2::X, 17.0));

@@ -55,14 +55,15 @@ pub fn distance_note(scenery: &Scenery<'_>) -> String {
     format!("image plane drawn {distance:.1} before the eye")
 }
 
-/// The lit ray whose end is seen best.
+/// The ray of which most is seen behind the image and, where it is lit, on the way to the light.
 fn clearest<'r>(scenery: &Scenery<'_>, rays: &[&'r PixelRay]) -> Option<&'r PixelRay> {
-    let unseen = |ray: &&PixelRay| {
-        let veiled = |point| scenery.veiled(point);
-        let onward = ray.lit().is_none_or(|on| veiled(on.from.lerp(on.to, 0.1)));
-        u8::from(ray.point().is_none_or(veiled)) + 2 * u8::from(onward)
+    let seen = |ray: &PixelRay| {
+        let centre = scenery.grid.centre(ray.pixel);
+        let camera = ray.point().map_or(0.0, |point| scenery.open_length(centre, point));
+        let onward = ray.lit().map_or(0.0, |on| scenery.open_length(on.from, on.to));
+        camera * onward.max(1.0)
     };
-    rays.iter().copied().min_by_key(unseen)
+    rays.iter().copied().max_by(|a, b| seen(a).total_cmp(&seen(b)))
 }
 
 /// For each sphere that the image shows, the lit ray that meets it most squarely: largest sphere in the image first.

@@ -90,6 +90,13 @@ impl<'s> Scenery<'s> {
         longest.map_or(from.lerp(to, 0.5), |(from, to, _)| from.lerp(to, 0.5))
     }
 
+    /// How much of a straight line nothing stands before, in units of the drawing.
+    pub fn open_length(&self, from: DVec3, to: DVec3) -> f64 {
+        let pieces = self.sketch.cut(from, to, |point| self.veiled(point));
+        let open = pieces.into_iter().filter(|(_, _, veiled)| !veiled);
+        open.map(|(from, to, _)| self.point(from).distance(self.point(to))).sum()
+    }
+
     /// Draws everything from back to front; what hides a line is asked piece by piece.
     /// The size of signs is 1 in a drawing of full width.
     pub fn paint(&self, svg: &mut Svg, strands: &[Strand], size: f64) {

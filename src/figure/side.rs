@@ -64,13 +64,18 @@ pub fn best_scenery<'s>(
 fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let [a, b, _, d] = scenery.grid.corners().map(|corner| scenery.point(corner));
     let image = (b - a).perp_dot(d - a).abs();
+    let upright = image / ((b - a).length() * (d - a).length());
     let length = |from: DVec3, to: DVec3| scenery.point(from).distance(scenery.point(to));
     let camera = rays.iter().filter_map(|ray| Some(length(ray.origin, ray.point()?)));
     let shadow = rays.iter().filter_map(|ray| ray.lit()).map(|on| length(on.from, on.to));
     let seen = seen(scenery, rays);
+    // Rays side by side lie the farther apart, the less one looks along the plane that they lie in.
+    let unit = |axis: DVec3| scenery.sketch.direction(axis) / scenery.sketch.scale;
+    let apart = unit(scenery.subject.axes.z_axis).perp_dot(unit(scenery.subject.axes.x_axis)).abs();
     // Where it makes little difference, the way of the rays is the way one reads.
-    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.15 } else { 1.0 };
-    reads * seen * seen * seen * image.sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
+    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.25 } else { 1.0 };
+    let clear = reads * upright * seen * seen * seen * apart.sqrt();
+    clear * image.sqrt() * image.sqrt().sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
 }
 
 /// The mean of lengths; 1 where there are none, so that it can be a factor.
@@ -97,7 +102,10 @@ fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
         ask(*light - toward * 1e3 * (light.length() + 1.0), 8.0);
     }
     for ray in rays {
-        ray.point().into_iter().for_each(|point| ask(point, 4.0));
+        if let Some(point) = ray.point() {
+            let centre = scenery.grid.centre(ray.pixel);
+            [0.8, 1.0].into_iter().for_each(|share| ask(centre.lerp(point, share), 3.0));
+        }
         if let Some(on) = ray.lit() {
             [0.15, 0.4, 0.7].into_iter().for_each(|share| ask(on.from.lerp(on.to, share), 1.0));
         }
