@@ -30,7 +30,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let end = |ray: &PixelRay| ray.point().filter(|_| near(&ray)).unwrap_or(ray.at(reach));
     let more: Vec<Extent> = subject.rays.iter().map(|ray| (end(ray), 0.0)).collect();
     let scenery = best_scenery(&subject, &[grid], &hits, &more, ROOM)?;
-    let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
+    let mut svg = Svg::new(figure.name, scenery.bottom + 54.0);
     let strands: Vec<Strand> = subject.rays.iter().flat_map(|ray| strands_of(ray, reach)).collect();
     scenery.paint(&mut svg, &strands, 1.0);
     for ray in &subject.rays {
@@ -91,6 +91,9 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
     if let Some(ray) = missing {
         svg.label(Label::near(at(ray.at(reach * 0.7)), "meets nothing", DVec2::NEG_Y, 7.0).coloured(RAY));
     }
+    let lowest = scenery.subject.ray([size[0] - 1, size[1] - 1]);
+    let middle = at(lowest.at(lowest.hit.map_or(reach, |(t, _)| t.min(reach)) * 0.5));
+    svg.label(Label::near(middle, "parallel rays, perpendicular to the image", DVec2::Y, 7.0).coloured(RAY));
     if let Some(light) = scenery.subject.lights.first() {
         svg.label(Label::near(at(*light), "light", DVec2::X, 17.0));
     }

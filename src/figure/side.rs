@@ -2,7 +2,7 @@ use super::grid::Grid;
 use super::pixel_ray::PixelRay;
 use super::scenery::Scenery;
 use super::sketch::{Extent, Frame};
-use super::subject::Subject;
+use super::subject::{Lens, Subject};
 use crate::Result;
 use crate::scene::Degrees;
 use glam::{DVec2, DVec3};
@@ -71,10 +71,12 @@ fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let seen = seen(scenery, rays);
     // Rays side by side lie the farther apart, the less one looks along the plane that they lie in.
     let unit = |axis: DVec3| scenery.sketch.direction(axis) / scenery.sketch.scale;
-    let apart = unit(scenery.subject.axes.z_axis).perp_dot(unit(scenery.subject.axes.x_axis)).abs();
+    let apart = unit(scenery.subject.axes.z_axis).perp_dot(unit(scenery.subject.axes.x_axis)).abs().sqrt();
+    // A camera's rays that spread by themselves need it less.
+    let apart = if matches!(scenery.subject.lens, Lens::Perspective(_)) { apart.sqrt() } else { apart };
     // Where it makes little difference, the way of the rays is the way one reads.
     let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.25 } else { 1.0 };
-    let clear = reads * upright * seen * seen * seen * apart.sqrt();
+    let clear = reads * upright * seen * seen * seen * apart;
     clear * image.sqrt() * image.sqrt().sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
 }
 
@@ -94,7 +96,7 @@ fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     };
     for ball in &scenery.subject.balls {
         for out in RIM {
-            ask(ball.centre + (right * out.x + up * out.y) * ball.radius * 1.001, 1.0);
+            ask(ball.centre + (right * out.x + up * out.y) * ball.radius * 1.001, 2.5);
         }
     }
     for light in &scenery.subject.lights {
