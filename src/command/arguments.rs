@@ -38,6 +38,8 @@ pub enum Command {
     Extremes(TryExtremes),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
+    /// Draw a figure of the book from its chapter's scene; without a name, list the figures
+    Figure(DrawFigure),
 }
 
 #[derive(Args)]
@@ -57,6 +59,15 @@ pub struct CostOfChapter {
     /// Keep what was measured in the chapter's folder, as costs.txt
     #[arg(long)]
     pub write: bool,
+}
+
+#[derive(Args)]
+pub struct DrawFigure {
+    /// The figure's name, such as 05_pinhole
+    pub name: Option<String>,
+    /// Where to write the SVG (default: out/<name>.svg)
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Args)]

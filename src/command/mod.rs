@@ -5,6 +5,7 @@
 mod arguments;
 mod cost;
 mod extremes;
+mod figure;
 mod find;
 mod hints;
 mod interrupt;
@@ -32,6 +33,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
     let Some(arguments) = parsed::<Arguments>(words, out)? else { return Ok(()) };
     match arguments.command {
         None => render::render_cover(chapters, out),
+        Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
         Some(Command::List) => list::list(chapters, out),
         Some(Command::Render(asked)) => {
             render::render_chapter(find::chapter(chapters, &asked.chapter)?, &asked.options, out)

@@ -1,0 +1,135 @@
+//! Figures: drawings of a chapter's scene and of what the stages wrote for it.
+//!
+//! Reads: a chapter's scene, the tables of `extract`, and the columns of a run at a small resolution.
+//! Writes: SVG text.
+//! Space: render space, up to [`Sketch`] and [`Section`], which make points of the drawing of it (x to the right, y
+//! down, [`WIDTH`](pen::WIDTH) wide).
+//! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
+
+mod grid;
+mod hit;
+mod label;
+mod orthographic;
+mod patch;
+mod pen;
+mod pinhole;
+mod pixel_ray;
+mod props;
+mod ray;
+mod scenery;
+mod section;
+mod side;
+mod sketch;
+mod subject;
+mod svg;
+#[cfg(test)]
+mod trial;
+mod two_ways;
+
+pub use grid::{Grid, drawn_distance};
+pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
+pub use patch::Patch;
+pub use pen::{Fill, Pen};
+pub use pinhole::chosen_rays;
+pub use pixel_ray::{Onward, PixelRay};
+pub use scenery::{Scenery, Strand};
+pub use section::Section;
+pub use side::{Side, best_scenery};
+pub use sketch::{Extent, Frame, Sketch};
+pub use subject::{Ball, Flat, Lens, Subject};
+pub use svg::{Drawing, Svg};
+
+use crate::chapter::Chapter;
+use crate::{Error, Result};
+
+/// A figure that the kit can draw.
+#[derive(Clone, Copy)]
+pub struct Figure {
+    /// The word on the command line.
+    pub name: &'static str,
+    /// The chapter whose scene it shows.
+    pub chapter: &'static str,
+    /// What it shows, in a few words.
+    pub about: &'static str,
+    draw: fn(&Chapter, &Figure) -> Result<Drawing>,
+}
+
+/// All figures, in the order of the book.
+pub fn figures() -> [Figure; 5] {
+    let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
+    [
+        Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
+        Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
+        Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
+        Figure {
+            name: "04_orthographic",
+            chapter: "04_orthographic",
+            about: "parallel rays from a rectangle of pixels",
+            draw: orthographic::draw,
+        },
+        Figure {
+            name: "05_pinhole",
+            chapter: "05_pinhole",
+            about: "a pinhole camera: rays from the eye through pixel centres",
+            draw: pinhole::draw,
+        },
+    ]
+}
+
+/// Draws the figure of this name.
+///
+/// Errors: there is no such figure, its chapter is not among these, or the chapter's scene lacks what it shows.
+pub fn draw(chapters: &[Chapter], name: &str) -> Result<Drawing> {
+    let figures = figures();
+    let Some(figure) = figures.iter().find(|figure| figure.name == name) else {
+        let likeness = |figure: &&Figure| (strsim::jaro_winkler(figure.name, name) * 1e6) as u64;
+        let nearest = figures.iter().max_by_key(likeness).map_or("05_pinhole", |figure| figure.name);
+        return Err(Error::Usage(format!(
+            "there is no figure \"{name}\"; the nearest is {nearest}, and `cargo run --release -- figure` shows all"
+        )));
+    };
+    let chapter = chapters.iter().find(|chapter| chapter.name == figure.chapter);
+    let missing = || Error::Usage(format!("the figure {name} shows the chapter {}, which is not here", figure.chapter));
+    (figure.draw)(chapter.ok_or_else(missing)?, figure)
+}
+
+impl Figure {
+    /// The words at a figure's foot: scene, resolution, what else a reader has to know, and the command.
+    pub fn foot(&self, subject: &Subject, note: &str) -> String {
+        let (width, height) = (subject.image.width, subject.image.height);
+        let note = if note.is_empty() { String::new() } else { format!(" · {note}") };
+        format!(
+            "scene {}, {width} × {height} pixels{note} · cargo run --release -- figure {}",
+            subject.chapter, self.name
+        )
+    }
+
+    /// Why a chapter's scene does not suit the figure.
+    fn unsuited(&self, what: &str) -> Error {
+        Error::Usage(format!("the figure {} needs {what}, and the scene of {} has none", self.name, self.chapter))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_follow_their_scene() {
+        for figure in figures() {
+            let drawing = draw(&trial::chapters(), figure.name).expect(figure.name);
+            assert!(drawing.text.contains(&format!("scene {}", figure.chapter)));
+            assert!(drawing.labels.len() >= 5, "{}", figure.name);
+        }
+    }
+
+    #[test]
+    fn a_camera_of_the_other_kind_is_refused_in_a_sentence() {
+        let mut chapters = trial::chapters();
+        chapters[2].name = "05_pinhole";
+        chapters.remove(3);
+        let refused = draw(&chapters, "05_pinhole").err().expect("refused");
+        let sentence = "the figure 05_pinhole needs a perspective camera, and the scene of 05_pinhole has none";
+        assert_eq!(refused.to_string(), sentence);
+    }
+}

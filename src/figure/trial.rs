@@ -1,0 +1,40 @@
+//! Chapters that the figures' own tests draw: small scenes of both kinds of camera.
+
+use crate::chapter::Chapter;
+use crate::scene::{
+    Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rgb, Sphere,
+};
+use crate::{intersect, rays, shade};
+use bevy_ecs::prelude::*;
+
+/// A chapter of this name with a scene that suits its figure.
+pub fn chapter(name: &'static str) -> Chapter {
+    let scene = if name == "04_orthographic" { parallel } else { central };
+    Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
+}
+
+/// All chapters that figures show.
+pub fn chapters() -> Vec<Chapter> {
+    ["02_ray", "03_hit", "04_orthographic", "05_pinhole"].map(chapter).to_vec()
+}
+
+fn central(world: &mut World) {
+    let look = LookAt { eye: [0.0, 1.6, 5.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() };
+    world.spawn((PerspectiveCamera { fov: Degrees(40.0), ..PerspectiveCamera::default() }, look));
+    things(world);
+    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
+    world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
+}
+
+fn parallel(world: &mut World) {
+    let look = LookAt { eye: [0.0, 1.3, 4.0].into(), target: [0.0, 1.0, 0.0].into(), ..LookAt::default() };
+    world.spawn((OrthographicCamera { view_height: 2.4 }, look));
+    things(world);
+}
+
+fn things(world: &mut World) {
+    let (red, gold) = (Rgb::new(0.85, 0.35, 0.2), Rgb::new(0.9, 0.75, 0.3));
+    world.spawn((Sphere { radius: 0.8 }, Placement::at(-1.0, 0.8, 0.5), Matte { colour: red }));
+    world.spawn((Sphere { radius: 0.7 }, Placement::at(0.5, 0.7, -1.5), Matte { colour: gold }));
+    world.spawn((Plane::default(), Matte { colour: Rgb::grey(0.6) }));
+}
