@@ -4,7 +4,7 @@ use pinhole::measure::extremes::{Group, Outcome, try_group, unbroken};
 
 /// Tries a group, prints its table, and asks that the kit holds everywhere and each naive method breaks somewhere.
 fn holds(group: Group, rays: u64) {
-    let cases = try_group(group, rays, &());
+    let cases = try_group(group, "", rays, &());
     for case in &cases {
         eprint!("{case}");
         assert!(case.held(), "the kit does not hold in:\n{case}");
@@ -39,14 +39,14 @@ fn cameras_hold() {
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| try_group(Group::Plane, 3000, &()))
+        pool.install(|| try_group(Group::Plane, "", 3000, &()))
     };
     assert_eq!(on(1), on(3));
 }
 
 #[test]
 fn a_kit_that_misses_would_be_seen() {
-    let mut cases = try_group(Group::Plane, 512, &());
+    let mut cases = try_group(Group::Plane, "", 512, &());
     let first: &mut Outcome = &mut cases[0].outcomes[0];
     first.score.judge(false);
     assert!(!cases[0].held() && cases[1].held());

@@ -47,6 +47,9 @@ pub struct TryExtremes {
     /// sphere, plane, shadow or camera (default: all)
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
+    /// Only the cases whose name holds this text
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub case: String,
     /// How many rays each case tries
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub rays: u64,

@@ -12,7 +12,7 @@ pub fn print_extremes(asked: &TryExtremes, out: &mut dyn Write) -> Result {
     let mut cases: Vec<Case> = Vec::new();
     for group in groups {
         writeln!(out, "{}", group.heading())?;
-        let tried = try_group(group, asked.rays, &Waiting::new(0, true));
+        let tried = try_group(group, &asked.case, asked.rays, &Waiting::new(0, true));
         if interrupted() {
             return Err(Error::Interrupted);
         }
@@ -21,6 +21,9 @@ pub fn print_extremes(asked: &TryExtremes, out: &mut dyn Write) -> Result {
         }
         writeln!(out)?;
         cases.extend(tried);
+    }
+    if cases.is_empty() {
+        return Err(Error::Usage(format!("no case's name holds \"{}\"; without --case all are tried", asked.case)));
     }
     for method in unbroken(&cases) {
         writeln!(out, "no case here breaks \"{method}\"")?;

@@ -3,11 +3,12 @@ use super::find;
 use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
 use crate::chapter::Chapter;
-use crate::extract::ImageShape;
+use crate::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity};
 use crate::film::{Film, check_place, write_exr, write_png};
 use crate::look::RenderStats;
 use crate::plan::Table;
 use crate::render::{Execution, Rendered, render};
+use crate::scene::PerspectiveCamera;
 use crate::{Error, Result};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,7 @@ pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn 
     }
     writeln!(out, "wrote {}", names.join(" and "))?;
     warn_of_rejected(&rendered.film, out)?;
+    warn_of_narrow_pixels(chapter, options, out)?;
     if !options.quiet {
         write!(out, "{}", try_next(chapter, rendered.film.width, rendered.film.height))?;
     }
@@ -94,6 +96,25 @@ fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
             "warning: {count} samples were negative or not finite and did not join the film; \
              the first is sample {} of pixel {x},{y} with radiance ({r}, {g}, {b})",
             sample.sample
+        )?;
+    }
+    Ok(())
+}
+
+/// Says where an angle is so wide that pixels near the corners are narrower than f32 rays can be told apart.
+fn warn_of_narrow_pixels(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
+    let scene = chapter.world(&options.scene.asked(false));
+    let perspective = camera_entity(&scene).is_ok_and(|camera| scene.get::<PerspectiveCamera>(camera).is_some());
+    if !perspective {
+        return Ok(());
+    }
+    let narrowest = PinholeLens::extract(&scene)?.narrowest_pixel(ImageShape::extract(&scene)?);
+    if narrowest < SMALLEST_PIXEL {
+        writeln!(
+            out,
+            "warning: so wide an angle leaves pixels in the corners {narrowest:.1e} rad wide, and world rays in f32 can \
+             be off by about {:.2} of such a pixel",
+            f64::from(f32::EPSILON) / narrowest
         )?;
     }
     Ok(())

@@ -103,6 +103,14 @@ pub struct PinholeLens {
     pub tan_half_vertical: f64,
 }
 
+impl PinholeLens {
+    /// The angle, in radians, that the narrowest pixel of an image of this shape takes up: the one in a corner.
+    pub fn narrowest_pixel(&self, image: ImageShape) -> f64 {
+        let corner = DVec2::new(image.aspect(), 1.0) * self.tan_half_vertical;
+        2.0 * self.tan_half_vertical / f64::from(image.height) / (1.0 + corner.length_squared())
+    }
+}
+
 impl Table for PinholeLens {
     const NAME: &'static str = "pinhole";
 

@@ -13,8 +13,9 @@ pub enum Curve {
 // ANCHOR: srgb_from_linear
 /// The sRGB curve (IEC 61966-2-1): light from 0 to 1 as the number that a screen is sent.
 ///
-/// A screen answers the number 0.5 with about a fifth of its light, because the eye tells dark shades apart better
-/// than bright ones; the curve undoes that, and spends the 256 steps where the eye sees them.
+/// A screen answers the number 0.5 with about a fifth of its light, as the picture tubes did that the standard describes.
+/// The curve undoes that; and since the eye tells dark shades apart better than bright ones, it happens to spend the
+/// 256 steps where they are seen.
 pub fn srgb_from_linear(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }

@@ -24,7 +24,7 @@ impl Hits {
             return [0.0; 3];
         }
         let mixed = self.shape[row].wrapping_add(1).wrapping_mul(0x9E37_79B9);
-        let near = (1.0 / (1.0 + 0.05 * self.t[row])) as f32;
+        let near = (1.0 / (1.0 + 0.05 * self.t[row]).sqrt()) as f32;
         [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].map(|part| (0.35 + 0.65 * part as f32 / 255.0) * near)
     }
 }

@@ -1,5 +1,5 @@
 use super::Hook;
-use crate::plan::{ColumnKind, Plan};
+use crate::plan::{ColumnKind, Plan, Stage};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 pub struct Lap {
     /// Time within the stage.
     pub time: Duration,
-    /// Rows of the longest column it wrote.
+    /// Rows that it visited.
     pub rows: u64,
 }
 
@@ -43,14 +43,25 @@ impl StageClock {
 /// A system after each stage that takes its lap; its own work falls between two laps.
 pub(super) fn clock_hook() -> Hook {
     Arc::new(|slot, stage, plan| {
-        let of_stage = |column: &&ColumnKind| stage.writes.contains(column);
-        let written: Vec<ColumnKind> = plan.columns.iter().filter(of_stage).copied().collect();
+        let counted = counted_columns(stage, plan);
         let take_lap = move |world: &mut World, tiles: &mut QueryState<EntityRef<'static>, With<Tile>>| {
             let ended = Instant::now();
-            let rows_of = |tile| written.iter().map(|column| (column.rows)(&tile) as u64).max().unwrap_or(0);
+            let rows_of = |tile| counted.iter().map(|column| (column.rows)(&tile) as u64).max().unwrap_or(0);
             let rows = tiles.iter(world).map(rows_of).sum();
             world.resource_mut::<StageClock>().lap(slot, ended, rows);
         };
         take_lap.into_configs()
     })
+}
+
+/// The columns whose rows say how much a stage did: the list of rows that it visits where it fills in some rows of a
+/// column that was there before, or else what it writes.
+fn counted_columns(stage: &Stage, plan: &Plan) -> Vec<ColumnKind> {
+    let fills_in = stage.writes.iter().all(|column| stage.reads.contains(column));
+    let list = stage.reads.iter().find(|column| fills_in && column.unit == "rows");
+    let of_stage = |column: &&ColumnKind| stage.writes.contains(column);
+    match list {
+        Some(list) => vec![*list],
+        None => plan.columns.iter().filter(of_stage).copied().collect(),
+    }
 }

@@ -54,7 +54,6 @@ pub fn render(
     Ok(Rendered { plan, film, laps, threads, time: started.elapsed(), table_bytes })
 }
 
-// ANCHOR: run_workers
 /// Every worker takes the next tile of the film until none is left.
 ///
 /// The lock is taken once a tile, for as long as it takes to advance an iterator; the tile it yields belongs to the
@@ -83,7 +82,6 @@ fn run_workers(
     });
     if watch.stopped() { Err(Error::Interrupted) } else { Ok((sum_laps(laps), pool.current_num_threads())) }
 }
-// ANCHOR_END: run_workers
 
 fn next_tile<'film>(tiles: &Mutex<IterMut<'film, FilmTile>>) -> Option<&'film mut FilmTile> {
     tiles.lock().unwrap_or_else(PoisonError::into_inner).next()

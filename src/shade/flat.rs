@@ -29,11 +29,14 @@ pub fn flat_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MatteTable>()
         .when(|scene| {
-            let shapes = shape_evidence(scene);
-            if !shapes.needed {
-                return shapes;
-            }
+            let matter = matter_evidence(scene);
             let lights = Evidence::of::<PointLight>(scene, "point light");
-            Evidence { needed: !lights.needed, ..lights }.and(matte_evidence(scene))
+            if matter.needed { Evidence { needed: !lights.needed, ..lights }.and(matter) } else { matter }
         })
+}
+
+/// Evidence that there is a surface to be shown.
+pub(super) fn matter_evidence(scene: &World) -> Evidence {
+    let shapes = shape_evidence(scene);
+    if shapes.needed { matte_evidence(scene) } else { shapes }
 }

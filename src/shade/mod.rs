@@ -20,12 +20,12 @@ use crate::plan::Stage;
 
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
-    let mut stages = unlit_stages();
+    let mut stages = vec![start_stage(), background_stage(), flat_stage()];
     stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), plane_shadow_stage(), light_stage()]);
     stages
 }
 
-/// A surface's own colour where a scene has no light, and what is behind everything.
+/// A surface's own colour, whether the scene has lights or not, and what is behind everything.
 pub fn unlit_stages() -> Vec<Stage> {
-    vec![start_stage(), background_stage(), flat_stage()]
+    vec![start_stage(), background_stage(), flat_stage().when(flat::matter_evidence)]
 }

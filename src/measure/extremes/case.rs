@@ -101,7 +101,8 @@ impl Tally {
 /// A case that can be tried with any number of rays; an input is a function of its index alone.
 pub struct Trial {
     group: Group,
-    name: String,
+    /// What it tries.
+    pub name: String,
     methods: Vec<Method>,
     most: u64,
     judge: Box<dyn Fn(Range<u64>) -> Tally + Send + Sync>,

@@ -71,10 +71,11 @@ impl FromStr for Group {
     }
 }
 
-/// Tries every case of a group with so many rays, the same on any number of threads; fewer if the one who watches
+/// Tries every case of a group whose name holds `named` with so many rays, the same on any number of threads; fewer if the one who watches
 /// stops it.
-pub fn try_group(group: Group, rays: u64, watch: &dyn Watch) -> Vec<Case> {
-    group.trials().par_iter().map(|trial| trial.run(rays, watch)).collect()
+pub fn try_group(group: Group, named: &str, rays: u64, watch: &dyn Watch) -> Vec<Case> {
+    let trials: Vec<Trial> = group.trials().into_iter().filter(|trial| trial.name.contains(named)).collect();
+    trials.par_iter().map(|trial| trial.run(rays, watch)).collect()
 }
 
 /// The naive methods that no case shows to break: there, the cases prove nothing.
