@@ -14,9 +14,10 @@
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
 //! 10. [`figure`]: drawings of a scene and of what the stages wrote for it.
-//! 11. [`naive`]: the methods that break, for the book and the extremes.
-//! 12. [`measure`]: exact arithmetic, oracles, extremes.
-//! 13. [`command`]: the command line.
+//! 11. [`review`]: what a picture was made of, as text to compare with.
+//! 12. [`naive`]: the methods that break, for the book and the extremes.
+//! 13. [`measure`]: exact arithmetic, oracles, extremes.
+//! 14. [`command`]: the command line.
 
 pub mod scene;
 
@@ -37,6 +38,8 @@ pub mod render;
 pub mod look;
 
 pub mod figure;
+
+pub mod review;
 
 pub mod naive;
 

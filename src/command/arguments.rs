@@ -1,4 +1,5 @@
 use crate::chapter::Asked;
+use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -15,7 +16,8 @@ use std::path::PathBuf;
     cargo run --release -- render 05_pinhole --size 960x540\n  \
     cargo run --release -- render cover --view surface\n  \
     cargo run --release -- plan 04_orthographic\n  \
-    cargo run --release -- trace cover --pixel 480,300"
+    cargo run --release -- trace cover --pixel 480,300\n  \
+    cargo run --release -- extremes sphere"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -32,8 +34,31 @@ pub enum Command {
     Plan(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
+    /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
+    Extremes(TryExtremes),
+    /// Measure what a chapter's stages cost, and how exact what they write is
+    Cost(CostOfChapter),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+}
+
+#[derive(Args)]
+pub struct TryExtremes {
+    /// sphere, plane, shadow or camera (default: all)
+    #[arg(value_parser = |word: &str| word.parse::<Group>())]
+    pub group: Option<Group>,
+    /// How many rays each case tries
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub rays: u64,
+}
+
+#[derive(Args)]
+pub struct CostOfChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole), or all
+    pub chapter: String,
+    /// Keep what was measured in the chapter's folder, as costs.txt
+    #[arg(long)]
+    pub write: bool,
 }
 
 #[derive(Args)]
@@ -66,7 +91,7 @@ pub struct TraceChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: String,
     /// The pixel, counted from 0 at the top left corner
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub pixel: TracePixel,
     #[command(flatten)]
     pub options: SceneOptions,
@@ -75,7 +100,7 @@ pub struct TraceChapter {
 #[derive(Args, Clone, Default)]
 pub struct SceneOptions {
     /// How many pixels the image has
-    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
     pub size: Option<Resolution>,
     /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
     #[arg(long, value_name = "COLUMN")]
@@ -87,7 +112,7 @@ pub struct RenderOptions {
     #[command(flatten)]
     pub scene: SceneOptions,
     /// How many workers render (default: as many as the machine has cores)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
     pub threads: Option<u16>,
     /// Where to write, ending in .png or .exr (default: both, in out/)
     #[arg(short, long, value_name = "FILE")]
@@ -107,7 +132,7 @@ pub struct ExampleArguments {
     #[command(flatten)]
     pub options: RenderOptions,
     /// Follow one pixel from raster to light instead, and print what every stage wrote for it
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub trace: Option<TracePixel>,
 }
 
@@ -126,6 +151,11 @@ fn resolution(text: &str) -> Result<Resolution, String> {
 fn pixel(text: &str) -> Result<TracePixel, String> {
     let (x, y) = pair(text, ',').ok_or("a pixel is two whole numbers with a comma between, such as 48,27")?;
     Ok(TracePixel { x, y })
+}
+
+fn workers(text: &str) -> Result<u16, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
+    number.ok_or("a number of workers is a whole number from 1 to 1024".into())
 }
 
 fn pair(text: &str, between: char) -> Option<(u32, u32)> {

@@ -3,12 +3,15 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod cost;
+mod extremes;
 mod figure;
 mod find;
 mod hints;
 mod interrupt;
 mod list;
 mod plan;
+mod refused;
 mod render;
 mod trace;
 
@@ -39,6 +42,8 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Trace(asked)) => {
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
+        Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
+        Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }
 }
 
@@ -60,10 +65,7 @@ fn parsed<'a, P: Parser>(words: impl Iterator<Item = &'a str>, out: &mut dyn Wri
             write!(out, "{answer}")?;
             Ok(None)
         }
-        Err(answer) => {
-            let text = answer.to_string();
-            Err(Error::Usage(text.trim_start_matches("error: ").trim_end().to_string()))
-        }
+        Err(answer) => Err(Error::Usage(refused::sentence(&answer, &P::command()))),
     }
 }
 

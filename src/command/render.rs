@@ -4,7 +4,7 @@ use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
 use crate::chapter::Chapter;
 use crate::extract::ImageShape;
-use crate::film::{Curve, Film, write_exr, write_png};
+use crate::film::{Film, check_place, write_exr, write_png};
 use crate::look::RenderStats;
 use crate::plan::Table;
 use crate::render::{Execution, Rendered, render};
@@ -20,6 +20,7 @@ pub fn render_cover(chapters: &[Chapter], out: &mut dyn Write) -> Result {
 /// Renders a chapter's scene and says what ran, what was left out, and what to try next.
 pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
     let files = files(chapter, options)?;
+    files.iter().try_for_each(|file| check_place(file))?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
     let rendered = render_world(chapter, options, &execution)?;
     for file in &files {
@@ -80,13 +81,8 @@ fn ending(file: &Path) -> &str {
 fn write_file(rendered: &Rendered, file: &Path) -> Result {
     match ending(file) {
         "exr" => write_exr(&rendered.film, file),
-        _ => write_png(&rendered.film, curve(rendered), file),
+        _ => write_png(&rendered.film, rendered.curve(), file),
     }
-}
-
-/// Light is shown by the sRGB curve, a view's numbers as they are.
-fn curve(rendered: &Rendered) -> Curve {
-    if rendered.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
 }
 
 fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {

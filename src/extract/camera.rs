@@ -1,4 +1,4 @@
-use super::check::{kind_and_name, positive_length, triple};
+use super::check::{kind_and_name, number, positive_length, triple};
 use super::pose::world_from_entity;
 use crate::plan::{Table, counted, entities};
 use crate::scene::{Degrees, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution, called};
@@ -22,6 +22,10 @@ pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
     match cameras[..] {
         [camera] => Ok(camera),
         [] => Err(Refusal::new("the scene", "camera", "missing", accepted)),
+        [one, other] if one == other => {
+            let value = format!("a PerspectiveCamera and an OrthographicCamera at once, on {}", called(scene, one));
+            Err(Refusal::new("the scene", "camera", value, accepted))
+        }
         _ => {
             let names: Vec<String> = cameras.iter().map(|&camera| called(scene, camera)).collect();
             let value = format!("given {}: {}", counted(cameras.len(), "time"), names.join(", "));
@@ -107,12 +111,18 @@ impl Table for PinholeLens {
         let image = ImageShape::extract(scene)?;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         if !(fov.0 > 0.0 && fov.0 < 180.0) {
-            return Err(Refusal::new(who, "fov", format!("{}°", fov.0), "it must lie strictly between 0° and 180°"));
+            return Err(Refusal::new(
+                who,
+                "fov",
+                format!("{}°", number(fov.0)),
+                "it must lie strictly between 0° and 180°",
+            ));
         }
         let tan_half_vertical = tan_half_vertical(fov, axis, image.aspect());
         let pixel = 2.0 * tan_half_vertical / f64::from(image.height);
         if pixel < SMALLEST_PIXEL {
-            let value = format!("{}° over {} × {} pixels, {pixel:.1e} rad a pixel", fov.0, image.width, image.height);
+            let (width, height) = (image.width, image.height);
+            let value = format!("{}° over {width} × {height} pixels, {pixel:.1e} rad a pixel", number(fov.0));
             let accepted = format!(
                 "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
                  widen the angle or take fewer pixels"
@@ -191,7 +201,7 @@ impl Table for CameraAxes {
         if !rotation {
             let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_camera.col(axis).length()));
             let mirrored = if world_from_camera.determinant() < 0.0 { "mirrored, " } else { "" };
-            let accepted = "a camera may be turned and moved, but neither it nor a parent may scale or mirror it";
+            let accepted = "a camera may be turned and moved only, and no parent may scale or mirror it";
             return Err(Refusal::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
         }
         Ok(Self { world_from_camera })

@@ -1,5 +1,6 @@
 //! Checks that several kinds of component share, each giving the one sentence that a refusal is.
 
+use crate::plan::entities;
 use crate::scene::{Refusal, Rgb, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -32,13 +33,13 @@ pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f6
         Ok(length)
     } else {
         let accepted = format!("it must be a length from {:e} to {LARGEST_LENGTH:e}", 1.0 / LARGEST_LENGTH);
-        Err(Refusal::new(who, field, length, accepted))
+        Err(Refusal::new(who, field, number(length), accepted))
     }
 }
 
 /// A colour whose parts are finite and at least 0.
 pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, Refusal> {
-    colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number of at least 0")
+    colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
 }
 
 /// A colour whose parts lie from 0 to 1.
@@ -62,5 +63,26 @@ fn colour_within(who: &str, field: &'static str, colour: Rgb, most: f64, accepte
 
 /// Three numbers as an author would write them.
 pub fn triple(v: DVec3) -> String {
-    format!("({}, {}, {})", v.x, v.y, v.z)
+    format!("({}, {}, {})", number(v.x), number(v.y), number(v.z))
+}
+
+/// A number as an author would write it: with an exponent where it would have too many digits to be read.
+pub fn number(value: f64) -> String {
+    let size = value.abs();
+    if value.is_finite() && size != 0.0 && !(1e-6..1e9).contains(&size) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
+/// The one entity that carries a component of which a scene may have one, or none.
+pub fn at_most_one<C: Component>(scene: &World, field: &'static str, kind: &str) -> Result<Option<Entity>, Refusal> {
+    let found = entities::<With<C>>(scene);
+    if found.len() > 1 {
+        let names: Vec<String> = found.iter().map(|&entity| called(scene, entity)).collect();
+        let accepted = format!("at most one entity may carry a {kind}");
+        return Err(Refusal::new("the scene", field, format!("given by {}", names.join(" and ")), accepted));
+    }
+    Ok(found.first().copied())
 }

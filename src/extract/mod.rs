@@ -26,12 +26,12 @@ pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 
 use crate::plan::{Evidence, Table};
-use crate::scene::{Matte, Refusal, UsesMaterial};
+use crate::scene::{Matte, Refusal, UsesMaterial, View};
 use bevy_ecs::prelude::*;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
-/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, background.
+/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
     CameraAxes::extract(scene)?;
@@ -42,6 +42,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     PlaneTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     BackgroundTable::extract(scene)?;
+    check::at_most_one::<View>(scene, "view", "View")?;
     Ok(())
 }
 

@@ -1,36 +1,33 @@
-use super::check::{finite_point, triple};
-use crate::scene::{ChildOf, LookAt, Placement, Refusal};
+use super::check::{finite_point, number, triple};
+use crate::scene::{ChildOf, LookAt, Placement, Refusal, called};
 use bevy_ecs::prelude::*;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// How far a quaternion's length may be from 1 before it is taken for a mistake rather than for rounding.
 const UNIT_TOLERANCE: f64 = 1e-6;
-/// Sine of the least angle between up and the view.
-const LEAST_SINE: f64 = 1e-8;
+/// Sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
+const LEAST_SINE: f64 = 1e-6;
+const ONE_OF_THE_TWO: &str = "a LookAt already says where it stands and looks: give one of the two";
 
 /// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
 ///
 /// `who` is how a refusal calls the entity, such as `sphere "ball"`.
 pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
     let mut world_from_entity = parent_from_entity(scene, who, entity)?;
-    let (mut child, mut steps) = (entity, 0);
+    let (mut child, mut seen) = (entity, vec![entity]);
     while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
-        steps += 1;
-        if steps > scene.entities().len() || parent == entity {
-            return Err(Refusal::new(
-                who,
-                "parent",
-                "its own descendant",
-                "parents must lead to an entity without one",
-            ));
+        if seen.contains(&parent) {
+            let value = format!("part of a circle through {}", called(scene, parent));
+            return Err(Refusal::new(who, "parent", value, "parents must lead to an entity without one"));
         }
-        let parent_name = format!("{who}'s parent {}", crate::scene::called(scene, parent));
+        seen.push(parent);
+        let parent_name = format!("{who}'s parent {}", called(scene, parent));
         world_from_entity = parent_from_entity(scene, &parent_name, parent)? * world_from_entity;
         child = parent;
     }
     let determinant = world_from_entity.matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() || !world_from_entity.translation.is_finite() {
-        let value = format!("a map of determinant {determinant}");
+        let value = format!("a map of determinant {}", number(determinant));
         return Err(Refusal::new(who, "placement", value, "it must be finite and invertible"));
     }
     Ok(world_from_entity)
@@ -52,18 +49,24 @@ fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffin
     let quaternion = placement.orientation;
     let off_unit = (quaternion.length_squared() - 1.0).abs();
     if !off_unit.is_finite() || off_unit > UNIT_TOLERANCE {
-        let value = format!("({}, {}, {}, {})", quaternion.x, quaternion.y, quaternion.z, quaternion.w);
-        return Err(Refusal::new(who, "orientation", value, "it must be a finite quaternion of length 1"));
+        let accepted = "it must be a finite quaternion of length 1";
+        return Err(Refusal::new(who, "orientation", quadruple(quaternion), accepted));
     }
     let (axes, origin) = match look_at {
         None => (DMat3::from_quat(quaternion.normalize()), position),
-        Some(_) if position != DVec3::ZERO || quaternion != glam::DQuat::IDENTITY => {
-            let accepted = "a LookAt already says where it stands and looks: give one of the two";
-            return Err(Refusal::new(who, "position", format!("set to {}", triple(position)), accepted));
+        Some(_) if position != DVec3::ZERO => {
+            return Err(Refusal::new(who, "position", format!("set to {}", triple(position)), ONE_OF_THE_TWO));
+        }
+        Some(_) if quaternion != DQuat::IDENTITY => {
+            return Err(Refusal::new(who, "orientation", format!("set to {}", quadruple(quaternion)), ONE_OF_THE_TWO));
         }
         Some(look) => (look_at_axes(who, look)?, look.eye),
     };
     Ok(DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin })
+}
+
+fn quadruple(q: DQuat) -> String {
+    format!("({}, {}, {}, {})", number(q.x), number(q.y), number(q.z), number(q.w))
 }
 
 // ANCHOR: look_at_axes
@@ -87,8 +90,10 @@ pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, Refusal> {
 }
 // ANCHOR_END: look_at_axes
 
+// ANCHOR: direction
 /// The unit vector along `v`, or none where it has no direction; scaled first, so that no square overflows.
 fn direction(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     if v.is_finite() && largest > 0.0 { (v / largest).try_normalize() } else { None }
 }
+// ANCHOR_END: direction

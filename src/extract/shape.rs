@@ -1,7 +1,7 @@
 use super::check::kind_and_name;
 use super::matte::matte_entities;
 use crate::plan::{Table, entities};
-use crate::scene::{Matte, Plane, Refusal, Sphere, UsesMaterial, called};
+use crate::scene::{Disabled, Matte, Plane, Refusal, Sphere, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 
 /// The kinds of shape, in the order of their tables.
@@ -78,10 +78,10 @@ fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Entity, Refusa
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     match (own, used) {
         (Some(own), None) => Ok(own),
-        (None, Some(used)) if scene.get::<Matte>(used).is_some() => Ok(used),
+        (None, Some(used)) if scene.get::<Matte>(used).is_some() && scene.get::<Disabled>(used).is_none() => Ok(used),
         (None, Some(used)) => {
             let value = format!("used from {}", called(scene, used));
-            Err(Refusal::new(who, "material", value, "that entity must carry a Matte"))
+            Err(Refusal::new(who, "material", value, "that entity must carry a Matte and not be disabled"))
         }
         (None, None) => Err(Refusal::new(who, "material", "missing", "a shape must carry a Matte or a UsesMaterial")),
         (Some(_), Some(used)) => {

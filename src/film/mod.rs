@@ -16,4 +16,4 @@ pub use develop::{Curve, byte_from_linear, linear_from_srgb, srgb_from_linear};
 pub use exr::write_exr;
 pub use film_tile::{Film, FilmTile, Rejected};
 pub use png::{png_bytes, write_png};
-pub use whole_file::write_whole;
+pub use whole_file::{check_place, write_whole};

@@ -13,19 +13,32 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io:
     write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
 }
 
+/// Whether a file could be written here: what [`write_whole`] would be refused for, before there is anything to write.
+///
+/// Missing folders are made.
+/// Errors: as [`write_whole`].
+pub fn check_place(path: &Path) -> Result {
+    place_beside(path).map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
+}
+
 fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
-    if path.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    fs::create_dir_all(folder)?;
-    let temporary = temporary_in(folder)?;
+    let temporary = place_beside(path)?;
     let mut buffered = BufWriter::new(temporary.as_file());
     write(&mut buffered)?;
     buffered.flush()?;
     drop(buffered);
     temporary.persist(path).map_err(|refused| refused.error)?;
     Ok(())
+}
+
+/// A temporary file in the folder that the file is to stand in.
+fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
+    if path.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    temporary_in(folder)
 }
 
 /// A temporary file that will get the permissions a person's own files get, less what their umask takes away.

@@ -1,5 +1,6 @@
-use crate::extract::shape_entities;
-use crate::plan::{Column, Evidence, Stage, TileSystems, column, counted};
+use super::plane::plane_evidence;
+use super::sphere::sphere_evidence;
+use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 
@@ -82,6 +83,5 @@ pub fn start_stage() -> Stage {
 
 /// Evidence that the scene holds a shape of any kind.
 pub fn shape_evidence(scene: &World) -> Evidence {
-    let count = shape_entities(scene).len();
-    Evidence { needed: count > 0, reason: counted(count, "shape"), count }
+    sphere_evidence(scene).or(plane_evidence(scene))
 }

@@ -13,7 +13,7 @@ mod surface;
 mod wide;
 
 pub use classify::{MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
-pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, start_hits, start_stage};
+pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
 pub use sphere::{Verdict, intersect_spheres, nearness, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict};
 pub use surface::{Surface, Surfaces, offset_bound, offset_origin, sum_of_parts};

@@ -9,4 +9,4 @@ mod view;
 
 pub use stats::{RenderStats, StageStats};
 pub use trace::{Recorded, Trace, trace};
-pub use view::{ViewTable, view_stage};
+pub use view::{ViewTable, paths, view_stage};

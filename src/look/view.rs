@@ -57,8 +57,8 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
     painted
 }
 
-/// The path of each row of a column, in order.
-fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
+/// The path of each row of a column, in order: the row's number, unless a lane says otherwise.
+pub fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
     let lanes = (column.lanes)(tile);
     match lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values) {
         Some(LaneValues::U32(paths)) => paths.iter().map(|&path| path as usize).collect(),

@@ -53,6 +53,12 @@ impl ExactVector {
         Self { x: &self.x * factor, y: &self.y * factor, z: &self.z * factor }
     }
 
+    /// The length times itself, rounded to f64 once.
+    #[must_use]
+    pub fn squared_length(&self) -> f64 {
+        self.dot(self).to_f64()
+    }
+
     /// The length, with a relative error below 2^-319.
     #[must_use]
     pub fn length(&self) -> Dyadic {

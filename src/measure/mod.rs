@@ -3,17 +3,12 @@
 //! Reads: the very inputs a kernel sees (f32 rays, f64 tables). Writes: verdicts and errors as f64.
 //! Nothing here runs in a render.
 
+pub mod cost;
 pub mod exact;
 pub mod exact_angle;
 pub mod exact_vector;
+pub mod extremes;
 pub mod oracle_camera;
 pub mod oracle_plane;
 pub mod oracle_sphere;
 pub mod ray_aim;
-
-#[cfg(test)]
-mod offset_trial;
-#[cfg(test)]
-mod plane_trial;
-#[cfg(test)]
-mod sphere_trial;

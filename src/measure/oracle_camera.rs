@@ -8,22 +8,8 @@
 use super::exact::Dyadic;
 use super::exact_angle::tan_of_degrees;
 use super::exact_vector::ExactVector;
+use crate::scene::FovAxis;
 use glam::{DMat3, DVec2, DVec3, Vec3};
-
-/// Which extent of the image the camera's full angle spans.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FovAxis {
-    /// From the lower to the upper edge.
-    Vertical,
-    /// From the left to the right edge.
-    Horizontal,
-    /// The shorter of the two.
-    Smaller,
-    /// The longer of the two.
-    Larger,
-    /// From corner to opposite corner.
-    Diagonal,
-}
 
 /// A point with exact coordinates, in raster, NDC or screen space as its maker says.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -163,16 +149,13 @@ impl ExactCamera {
         if !measured.is_finite() || measured == Vec3::ZERO {
             return f64::INFINITY;
         }
-        let (measured, exact) = (ExactVector::of(measured), self.world(raster));
-        let length = measured.length();
-        let sine = measured.cross(&exact).length().divided_by(&length);
-        libm::atan2(sine.to_f64(), measured.dot(&exact).divided_by(&length).to_f64())
+        let (measured, exact) = (ExactVector::of(measured), self.world_unnormalised(raster));
+        libm::atan2(measured.cross(&exact).squared_length().sqrt(), measured.dot(&exact).to_f64())
     }
 
     /// The distance from the exact camera point over the pixel pitch.
     fn in_pixels(&self, camera: &ExactVector, raster: &ExactPoint) -> f64 {
-        let distance = camera.minus(&self.camera(raster)).length();
-        distance.divided_by(&self.pixel_pitch()).to_f64()
+        camera.minus(&self.camera(raster)).squared_length().sqrt() / self.pixel_pitch().to_f64()
     }
 }
 

@@ -42,6 +42,23 @@ pub fn start_off_surface(position: Vec3, normal: Vec3) -> ShadowStart {
 }
 // ANCHOR_END: naive_shadow_origin
 
+/// How far a shadow ray looks: without end.
+///
+/// The wall behind a lamp then keeps its light away from everything before the wall.
+#[must_use]
+pub fn reach_without_end(_distance: f64) -> f32 {
+    f32::INFINITY
+}
+
+/// How far a shadow ray looks: to the light, at this distance.
+///
+/// The distance and the direction are rounded, so a lamp that hangs close before a wall is half the time found to be
+/// behind it.
+#[must_use]
+pub fn reach_to_light(distance: f64) -> f32 {
+    distance as f32
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

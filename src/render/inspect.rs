@@ -22,9 +22,14 @@ pub struct Inspection {
 
 /// Runs the kept stages over the whole frame in one world and keeps that world.
 pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspection> {
+    inspect_stages(scene, offer, tile_side, &[])
+}
+
+/// The same; hooks follow each stage, and see what it wrote before a later one writes over it.
+pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[Hook]) -> Result<Inspection> {
     let image = ImageShape::extract(scene)?;
     let film = Film::new(image.width, image.height, tile_side);
-    inspect_film(scene, offer, image, film, &[])
+    inspect_film(scene, offer, image, film, hooks)
 }
 
 /// Runs the kept stages over the one tile that holds a pixel; hooks follow each stage.

@@ -15,7 +15,7 @@ mod workers;
 pub use bounce::follow_bounces;
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
-pub use inspect::{Inspection, inspect, inspect_tile};
+pub use inspect::{Inspection, inspect, inspect_stages, inspect_tile};
 pub use memory::peak_memory;
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use workers::{Rendered, render};

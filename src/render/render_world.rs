@@ -14,6 +14,10 @@ use std::sync::Arc;
 /// Makes a system to be run right after each stage: for clocks and recorders, never for the picture.
 pub type Hook = Arc<dyn Fn(usize, &Stage, &Plan) -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
 
+/// The hooks of a stage take turns, the clock first, so that it does not time the others.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct HookTurn(usize, usize);
+
 /// Checks a scene, plans it, and reads its tables.
 ///
 /// Errors: what the scene is refused for, or why there is no plan.
@@ -45,7 +49,7 @@ impl RenderWorld {
         let mut hooks = hooks.to_vec();
         if plan.statistics {
             world.insert_resource(StageClock::new(plan));
-            hooks.push(clock_hook());
+            hooks.insert(0, clock_hook());
         }
         let mut schedule = schedule_of(plan, &hooks);
         if let Some(legs) = execution.bounces {
@@ -99,9 +103,9 @@ fn schedule_of(plan: &Plan, hooks: &[Hook]) -> Schedule {
             system = system.ambiguous_with(stage.set);
         }
         schedule.add_systems(system);
-        for hook in hooks {
-            let hook = hook(slot, stage, plan);
-            schedule.add_systems(hook.after(Slot(slot)).before(Slot(slot + 1)));
+        for (turn, hook) in hooks.iter().enumerate() {
+            let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
+            schedule.add_systems(hook.after(Slot(slot)).before(Slot(slot + 1)).before(HookTurn(slot, turn + 1)));
         }
         if !hooks.is_empty() {
             schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));

@@ -2,7 +2,7 @@ use super::clock::{Lap, StageClock};
 use super::inspect::run_in_one_world;
 use super::render_world::{RenderWorld, prepare};
 use super::{Execution, Watch, Worlds};
-use crate::film::{Film, FilmTile};
+use crate::film::{Curve, Film, FilmTile};
 use crate::plan::{ExtractedTable, Plan, Table};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -24,6 +24,13 @@ pub struct Rendered {
     pub time: Duration,
     /// Bytes that the tables take.
     pub table_bytes: usize,
+}
+
+impl Rendered {
+    /// How the film becomes a picture: light by the sRGB curve, a view's numbers as they are.
+    pub fn curve(&self) -> Curve {
+        if self.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
+    }
 }
 
 /// Renders a scene by the stages on offer that it needs.

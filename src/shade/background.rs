@@ -31,7 +31,7 @@ pub fn background_stage() -> Stage {
         .writes::<Radiance>()
         .table::<BackgroundTable>()
         .when(|scene| {
-            Evidence::among::<With<Background>>(scene, "background that is not black", |entity| {
+            Evidence::among::<With<Background>>(scene, "coloured background", |entity| {
                 entity.get::<Background>().is_some_and(|background| background.colour != Rgb::BLACK)
             })
         })

@@ -1,6 +1,6 @@
 use super::Radiance;
-use crate::extract::{MatteTable, matte_evidence, shape_entities};
-use crate::intersect::{MatteRows, Surfaces};
+use crate::extract::{MatteTable, matte_evidence};
+use crate::intersect::{MatteRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -29,10 +29,11 @@ pub fn flat_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MatteTable>()
         .when(|scene| {
-            let lights = Evidence::of::<PointLight>(scene, "point light");
-            if shape_entities(scene).is_empty() {
-                return Evidence { needed: false, reason: "0 shapes".into(), count: 0 };
+            let shapes = shape_evidence(scene);
+            if !shapes.needed {
+                return shapes;
             }
+            let lights = Evidence::of::<PointLight>(scene, "point light");
             Evidence { needed: !lights.needed, ..lights }.and(matte_evidence(scene))
         })
 }

@@ -74,7 +74,7 @@ pub fn plane_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among::<With<PointLight>>(scene, "light that casts shadows", |entity| {
+    Evidence::among::<With<PointLight>>(scene, "shadow-casting light", |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
     })
     .and(matte_evidence(scene))

@@ -1,0 +1,79 @@
+use super::arguments::CostOfChapter;
+use super::find;
+use super::interrupt::Waiting;
+use crate::Result;
+use crate::chapter::{Asked, Chapter};
+use crate::film::write_whole;
+use crate::measure::cost::{PROBES, RENDERS, made_from, measure};
+use crate::scene::Resolution;
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// The image that every chapter is measured with.
+const SIZE: Resolution = Resolution { width: 960, height: 540 };
+/// Tiles of one such image.
+const TILES: u64 = 30 * 17;
+
+/// What a chapter's stages cost, or those of all chapters; kept beside the chapter if asked for.
+pub fn print_cost(chapters: &[Chapter], asked: &CostOfChapter, out: &mut dyn Write) -> Result {
+    let chosen = match asked.chapter.as_str() {
+        "all" => chapters.iter().collect(),
+        one => vec![find::chapter(chapters, one)?],
+    };
+    for chapter in chosen {
+        let report = report(chapter)?;
+        out.write_all(report.as_bytes())?;
+        if asked.write {
+            let short = Path::new("chapters").join(chapter.name).join("costs.txt");
+            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(&short);
+            write_whole(&file, |file| file.write_all(report.as_bytes()))?;
+            writeln!(out, "wrote {}", short.display())?;
+        }
+    }
+    Ok(())
+}
+
+fn report(chapter: &Chapter) -> Result<String> {
+    let made_from = made_from(chapter.name)?;
+    let asked = Asked { resolution: Some(SIZE), view: None, statistics: true };
+    let waiting = Waiting::new(TILES * RENDERS as u64, false);
+    let cost = measure(&chapter.world(&asked), &chapter.stages(), &waiting);
+    waiting.done();
+    let mut report = format!(
+        "cost of {}: {} x {} pixels on one thread, {} renders after one to warm up\n\
+         errors: the worst of {} pixels, against exact arithmetic; u = 2^-24\n{}",
+        chapter.name,
+        SIZE.width,
+        SIZE.height,
+        RENDERS - 1,
+        PROBES[0] * PROBES[1],
+        cost?
+    );
+    let _ = writeln!(report, "machine: {}", machine());
+    if cfg!(debug_assertions) {
+        let _ = writeln!(report, "built without --release: these times say nothing about the kit");
+    }
+    let _ = writeln!(report, "made from {made_from}");
+    Ok(report)
+}
+
+/// The machine as far as it says: processor, threads, compiler, load.
+fn machine() -> String {
+    let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+    let cpus = read("/proc/cpuinfo");
+    let model = cpus.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split_once(": "));
+    let model = model.map_or("unknown processor", |(_, model)| model);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let load = read("/proc/loadavg");
+    let load = load.split_whitespace().next().unwrap_or("unknown");
+    format!("{model}, {threads} threads; {}; load {load}", compiler())
+}
+
+/// The compiler that is at hand now, which under cargo is the one that built this.
+fn compiler() -> String {
+    let asked = Command::new("rustc").arg("--version").output().ok().filter(|answer| answer.status.success());
+    let answer = asked.map(|answer| String::from_utf8_lossy(&answer.stdout).trim().to_string());
+    answer.unwrap_or_else(|| format!("rustc {} or later", env!("CARGO_PKG_RUST_VERSION")))
+}

@@ -1,0 +1,267 @@
+//! How far the columns of a frame are off, at a grid of its pixels.
+
+use crate::Result;
+use crate::extract::{CameraAxes, PlaneTable, ShapeKind, ShapeTable, SphereTable, camera_entity};
+use crate::film::film_stage;
+use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
+use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
+use crate::measure::exact_vector::ExactVector;
+use crate::measure::oracle_camera::{ExactCamera, ExactPoint};
+use crate::measure::oracle_plane::{Plane, plane_hit};
+use crate::measure::oracle_sphere::{Sphere, sphere_hit};
+use crate::plan::{Stage, Table};
+use crate::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
+use crate::render::{Inspection, inspect};
+use crate::scene::{OrthographicCamera, PerspectiveCamera};
+use crate::shade;
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3, Vec3};
+
+/// Pixels that are probed: across and down.
+pub const PROBES: [u32; 2] = [24, 14];
+/// The side of a tile.
+const SIDE: u32 = 32;
+
+/// The errors of the stages that have an exact value to be compared with, by name, in words.
+///
+/// Errors: what a render would be refused for.
+pub fn stage_errors(scene: &World, offer: &[Stage]) -> Result<Vec<(&'static str, String)>> {
+    let frame = inspect(scene, offer, SIDE)?;
+    let exact = Exact::of(scene, &frame)?;
+    let mut worst = Worst::default();
+    for (tile, row, pixel) in probes(&frame) {
+        probe(&frame.world.entity(tile), row, pixel, &exact, &mut worst);
+    }
+    let mut errors = worst.in_words();
+    let nothing_rounds = [
+        intersect::start_stage(),
+        intersect::classify_stage(),
+        shade::start_stage(),
+        shade::start_shadow_stage(),
+        film_stage(),
+    ];
+    errors.extend(nothing_rounds.map(|stage| (stage.name, "exact".to_string())));
+    Ok(errors)
+}
+
+/// The probed pixels: their tile, their row in it, their place in the image.
+fn probes(frame: &Inspection) -> Vec<(Entity, usize, [u32; 2])> {
+    let size = [frame.image.width, frame.image.height];
+    let along = |axis: usize, step: u32| (2 * step + 1) * size[axis] / (2 * PROBES[axis]);
+    let grid = (0..PROBES[1]).flat_map(|down| (0..PROBES[0]).map(move |across| [across, down]));
+    let across = size[0].div_ceil(SIDE);
+    grid.filter_map(|[right, down]| {
+        let [x, y] = [along(0, right), along(1, down)];
+        let tile = frame.tiles[(y / SIDE * across + x / SIDE) as usize];
+        Some((tile, frame.world.get::<Tile>(tile)?.row_of(x, y)?, [x, y]))
+    })
+    .collect()
+}
+
+/// What the frame is compared with.
+struct Exact {
+    camera: ExactCamera,
+    /// Half the height of an orthographic camera's rectangle.
+    half_height: Option<f64>,
+    shapes: Vec<ExactShape>,
+}
+
+enum ExactShape {
+    Sphere(Sphere),
+    Plane(Plane),
+}
+
+impl Exact {
+    fn of(scene: &World, frame: &Inspection) -> Result<Self> {
+        let camera = camera_entity(scene)?;
+        let (width, height) = (frame.image.width, frame.image.height);
+        let axes = CameraAxes::extract(scene)?.world_from_camera;
+        let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
+        let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
+        let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
+        let planes = PlaneTable::extract(scene)?;
+        let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
+            (ShapeKind::Sphere, row) => {
+                ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
+            }
+            (ShapeKind::Plane, row) => {
+                ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
+            }
+        };
+        let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
+        Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
+    }
+}
+
+/// The worst errors found: of points and rays in pixels, of hits in u of t, of surfaces in u of their numbers.
+#[derive(Default)]
+struct Worst {
+    points: [Option<f64>; 4],
+    world: Option<[f64; 2]>,
+    hits: [OfKind; 2],
+    surfaces: [Option<f64>; 2],
+}
+
+/// The worst error of one kind of shape's hits.
+#[derive(Clone, Copy, Default)]
+struct OfKind {
+    probes: u32,
+    misjudged: u32,
+    worst: f64,
+}
+
+/// Takes note of an error.
+fn note(worst: &mut Option<f64>, error: f64) {
+    *worst = Some(worst.map_or(error, |worst| worst.max(error)));
+}
+
+fn probe(tile: &EntityRef<'_>, row: usize, pixel: [u32; 2], exact: &Exact, worst: &mut Worst) {
+    let camera = &exact.camera;
+    let raster = camera.raster(pixel, DVec2::splat(0.5));
+    let size = DVec2::new(f64::from(camera.width), f64::from(camera.height));
+    let rounded = |point: &ExactPoint| DVec2::new(point.x.to_f64(), point.y.to_f64());
+    if let Some(points) = tile.get::<RasterPoints>() {
+        note(&mut worst.points[0], (DVec2::new(points.x[row], points.y[row]) - rounded(&raster)).length());
+    }
+    if let Some(points) = tile.get::<NdcPoints>() {
+        let off = DVec2::new(points.x[row], points.y[row]) - rounded(&camera.ndc(&raster));
+        note(&mut worst.points[1], (off * size).length());
+    }
+    if let Some(points) = tile.get::<ScreenPoints>() {
+        let off = DVec2::new(points.x[row], points.y[row]) - rounded(&camera.screen(&raster));
+        note(&mut worst.points[2], off.length() * size.y / 2.0);
+    }
+    match exact.half_height {
+        None => probe_perspective(tile, row, &raster, camera, worst),
+        Some(half_height) => probe_orthographic(tile, row, &raster, camera, half_height, worst),
+    }
+    if let (Some(world), Some(hits)) = (tile.get::<WorldRays>(), tile.get::<Hits>()) {
+        probe_hit(world, hits, row, exact, worst);
+        if let Some(surfaces) = tile.get::<Surfaces>() {
+            probe_surface(hits.shape[row], surfaces, row, exact, worst);
+        }
+    }
+}
+
+fn probe_perspective(tile: &EntityRef<'_>, row: usize, raster: &ExactPoint, exact: &ExactCamera, worst: &mut Worst) {
+    if let Some(rays) = tile.get::<CameraRays>() {
+        let direction = DVec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+        note(&mut worst.points[3], exact.camera_error_in_pixels(direction / -direction.z, raster));
+    }
+    if let Some(rays) = tile.get::<WorldRays>() {
+        let direction = Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+        let errors = [exact.world_error_in_pixels(direction, raster), exact.world_error_in_radians(direction, raster)];
+        let [pixels, radians] = worst.world.unwrap_or_default();
+        worst.world = Some([pixels.max(errors[0]), radians.max(errors[1])]);
+    }
+}
+
+/// Origins count in pixels, directions in radians.
+fn probe_orthographic(
+    tile: &EntityRef<'_>,
+    row: usize,
+    raster: &ExactPoint,
+    exact: &ExactCamera,
+    half_height: f64,
+    worst: &mut Worst,
+) {
+    let screen = exact.screen(raster);
+    let half = Dyadic::of(half_height);
+    let origin = ExactVector { x: &screen.x * &half, y: &screen.y * &half, z: Dyadic::of(0) };
+    let pixels = |off: ExactVector| off.squared_length().sqrt() * f64::from(exact.height) / (2.0 * half_height);
+    if let Some(rays) = tile.get::<CameraRays>() {
+        let measured = ExactVector::of([rays.ox[row], rays.oy[row], rays.oz[row]]);
+        note(&mut worst.points[3], pixels(measured.minus(&origin)));
+    }
+    if let Some(rays) = tile.get::<WorldRays>() {
+        let axes = [0, 1, 2].map(|axis| ExactVector::of(exact.rotation.row(axis)).dot(&origin));
+        let [x, y, z] = axes;
+        let measured = ExactVector::of([rays.ox[row], rays.oy[row], rays.oz[row]]);
+        let direction = ExactVector::of([rays.dx[row], rays.dy[row], rays.dz[row]]);
+        let across = direction.cross(&ExactVector::of(-exact.rotation.z_axis)).squared_length().sqrt();
+        let [most_pixels, most_radians] = worst.world.unwrap_or_default();
+        let off = pixels(measured.minus(&ExactVector { x, y, z }));
+        worst.world = Some([most_pixels.max(off), most_radians.max(across)]);
+    }
+}
+
+/// The nearest of all shapes, exactly; the first of equals.
+fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option<(usize, Dyadic)> {
+    let mut nearest: Option<(usize, Dyadic)> = None;
+    for (number, shape) in shapes.iter().enumerate() {
+        let t = match shape {
+            ExactShape::Sphere(sphere) => sphere_hit(origin, direction, *sphere),
+            ExactShape::Plane(plane) => plane_hit(origin, direction, *plane),
+        };
+        if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
+            nearest = Some((number, t));
+        }
+    }
+    nearest
+}
+
+/// 0 for a sphere, 1 for a plane.
+fn kind(shape: &ExactShape) -> usize {
+    usize::from(matches!(shape, ExactShape::Plane(_)))
+}
+
+fn probe_hit(rays: &WorldRays, hits: &Hits, row: usize, exact: &Exact, worst: &mut Worst) {
+    let origin = Vec3::new(rays.ox[row], rays.oy[row], rays.oz[row]);
+    let direction = Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
+    let nearest = exact_nearest(origin, direction, &exact.shapes);
+    let found = Some(hits.shape[row] as usize).filter(|_| hits.shape[row] != NO_SHAPE);
+    let Some(shape) = found.or(nearest.as_ref().map(|(shape, _)| *shape)) else { return };
+    let of_kind = &mut worst.hits[kind(&exact.shapes[shape])];
+    of_kind.probes += 1;
+    match nearest {
+        Some((shape, t)) if found == Some(shape) => {
+            let t = t.to_f64();
+            of_kind.worst = of_kind.worst.max((hits.t[row] - t).abs() / t / U);
+        }
+        _ => of_kind.misjudged += 1,
+    }
+}
+
+fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, worst: &mut Worst) {
+    let Some(shape) = exact.shapes.get(shape as usize) else { return };
+    let position = surfaces.get(row).position;
+    let point = ExactVector::of(position);
+    let off = match shape {
+        ExactShape::Sphere(Sphere { centre, radius }) => {
+            let distance = point.minus(&ExactVector::of(*centre)).length();
+            (&distance - &Dyadic::of(*radius)).to_f64().abs() / (U * (centre.length() + radius))
+        }
+        ExactShape::Plane(Plane { normal, offset }) => {
+            let above = &ExactVector::of(*normal).dot(&point) - &Dyadic::of(*offset);
+            above.to_f64().abs() / (U * position.as_dvec3().length())
+        }
+    };
+    note(&mut worst.surfaces[kind(shape)], off);
+}
+
+impl Worst {
+    fn in_words(&self) -> Vec<(&'static str, String)> {
+        let in_pixels = |error: f64| if error == 0.0 { "exact".into() } else { format!("{error:.1e} px") };
+        let rays = [rays::perspective_stage().name, rays::orthographic_stage().name];
+        let points = [rays::raster_stage().name, rays::ndc_stage().name, rays::screen_stage().name];
+        let mut words = Vec::new();
+        for (stage, error) in
+            points.into_iter().zip(self.points).chain(rays.into_iter().map(|name| (name, self.points[3])))
+        {
+            words.extend(error.map(|error| (stage, in_pixels(error))));
+        }
+        let world = self.world.map(|[pixels, radians]| format!("{pixels:.1e} px, {radians:.1e} rad"));
+        words.extend(world.map(|world| (rays::world_stage().name, world)));
+        let hit_stages = [intersect::sphere_stage().name, intersect::plane_stage().name];
+        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
+            let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
+            words.extend((probes > 0).then_some((stage, error)));
+        }
+        let [sphere, plane] = self.surfaces;
+        let of_sphere = sphere.map(|worst| format!("{worst:.2} u of |c| + r off it"));
+        let of_plane = plane.map(|worst| format!("{worst:.2} u of |p| off it"));
+        words.extend(of_sphere.map(|error| (intersect::sphere_surface_stage().name, error)));
+        words.extend(of_plane.map(|error| (intersect::plane_surface_stage().name, error)));
+        words
+    }
+}

@@ -1,0 +1,71 @@
+//! Which sources a measurement was made from.
+
+use crate::{Error, Result};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The folders whose code decides what a stage costs.
+const FOLDERS: [&str; 7] = ["plan", "extract", "rays", "intersect", "shade", "film", "render"];
+
+/// A fingerprint (FNV-1a, 64 bits) of the sources that decide what a chapter's stages cost: those of the stages and of
+/// the loop that runs them, and the chapter's own. The ends of lines do not count.
+///
+/// Errors: the sources are not there to be read.
+pub fn made_from(chapter: &str) -> Result<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in FOLDERS {
+        let folder = root.join("src").join(folder);
+        list(&folder, &mut files).map_err(|_| missing(&folder))?;
+    }
+    files.push(root.join("chapters").join(chapter).join("main.rs"));
+    let mut hash = OFFSET_BASIS;
+    for file in files {
+        let text = fs::read_to_string(&file).map_err(|_| missing(&file))?;
+        let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+        hash = fnv(hash, name.as_bytes());
+        hash = fnv(hash, text.replace("\r\n", "\n").as_bytes());
+    }
+    Ok(format!("{hash:016x}"))
+}
+
+/// The files of a folder and of those in it, in the order of their names.
+fn list(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    let mut entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    entries.sort();
+    for entry in entries {
+        if entry.is_dir() {
+            list(&entry, files)?;
+        } else if entry.extension().is_some_and(|ending| ending == "rs") {
+            files.push(entry);
+        }
+    }
+    Ok(())
+}
+
+fn missing(path: &Path) -> Error {
+    Error::Usage(format!("the sources that this was built from are not here ({} cannot be read)", path.display()))
+}
+
+const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+fn fnv(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_the_known_one() {
+        assert_eq!(fnv(OFFSET_BASIS, b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn chapters_differ() {
+        let [cover, pinhole] = ["cover", "05_pinhole"].map(|stem| made_from(stem).expect("sources"));
+        assert_ne!(cover, pinhole);
+        assert!(made_from("no such chapter").is_err());
+    }
+}

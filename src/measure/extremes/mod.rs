@@ -1,0 +1,90 @@
+//! Extremes: the kit's own methods where numbers are hardest, beside the naive ones and the exact truth.
+//!
+//! Reads: aimed rays and cameras, each a function of (seed, index), so that every failure can be had again.
+//! Writes: [`Case`]s. Every case runs the kit's own functions and stages; nothing is copied here.
+//! Zero failures in N rays bound the rate at 3/N (with 95 % confidence), so every case says its N.
+
+mod bench;
+mod camera;
+mod camera_chain;
+mod camera_table;
+mod case;
+mod frame;
+mod lamp;
+mod plane;
+mod print;
+mod shadow;
+mod shadow_stages;
+mod sphere;
+
+pub use case::{Case, Method, Outcome, Score, Tally, Trial};
+
+use crate::render::Watch;
+use rayon::prelude::*;
+use std::fmt;
+use std::str::FromStr;
+
+/// What a case is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Rays against spheres.
+    Sphere,
+    /// Rays against planes.
+    Plane,
+    /// Shadow rays: where they start, how far they look.
+    Shadow,
+    /// Cameras: raster → NDC → screen → camera → world.
+    Camera,
+}
+
+impl Group {
+    /// All groups in order.
+    pub const ALL: [Self; 4] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera];
+
+    /// Its cases.
+    fn trials(self) -> Vec<Trial> {
+        match self {
+            Self::Sphere => sphere::trials(),
+            Self::Plane => plane::trials(),
+            Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
+            Self::Camera => [camera::trials(), camera_table::trials()].into_iter().flatten().collect(),
+        }
+    }
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Sphere => "sphere",
+            Self::Plane => "plane",
+            Self::Shadow => "shadow",
+            Self::Camera => "camera",
+        })
+    }
+}
+
+impl FromStr for Group {
+    type Err = String;
+    fn from_str(word: &str) -> Result<Self, String> {
+        let known = |group: &Self| group.to_string() == word;
+        Self::ALL.into_iter().find(known).ok_or_else(|| "it must be sphere, plane, shadow or camera".into())
+    }
+}
+
+/// Tries every case of a group with so many rays, the same on any number of threads; fewer if the one who watches
+/// stops it.
+pub fn try_group(group: Group, rays: u64, watch: &dyn Watch) -> Vec<Case> {
+    group.trials().par_iter().map(|trial| trial.run(rays, watch)).collect()
+}
+
+/// The naive methods that no case shows to break: there, the cases prove nothing.
+pub fn unbroken(cases: &[Case]) -> Vec<&'static str> {
+    let naive = |passes: bool| {
+        let outcomes = cases.iter().flat_map(|case| &case.outcomes);
+        outcomes.filter(move |outcome| !outcome.method.of_kit && outcome.passes() == passes)
+    };
+    let breaks = |name: &str| naive(false).any(|outcome| outcome.method.name == name);
+    let mut unbroken: Vec<_> = naive(true).map(|outcome| outcome.method.name).filter(|name| !breaks(name)).collect();
+    unbroken.dedup();
+    unbroken
+}

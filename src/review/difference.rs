@@ -1,0 +1,165 @@
+use super::BLOCK_SIDE;
+use std::fmt;
+use std::ops::RangeInclusive;
+
+/// The first of what two texts of [`digests`](super::digests) differ in, in the order of the stages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The stage, in words.
+    pub stage: String,
+    /// The column that it writes.
+    pub column: String,
+    /// Where in the picture, or in the order of the stages.
+    pub place: Place,
+}
+
+/// Where two runs part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A stage wrote other numbers.
+    Block {
+        /// The first block of pixels with other numbers, from the left and from the top, from 0.
+        block: [u32; 2],
+        /// The pixels of that block, from the left and from the top.
+        pixels: [RangeInclusive<u32>; 2],
+        /// How many blocks have other numbers.
+        differing: usize,
+        /// How many blocks there are.
+        blocks: usize,
+    },
+    /// A stage no longer runs at this place.
+    Gone,
+    /// A stage runs at this place that did not.
+    New,
+}
+
+/// A table of the text: its stage and column, and the words of its lines.
+struct Table<'a> {
+    stage: &'a str,
+    column: &'a str,
+    lines: Vec<Vec<&'a str>>,
+}
+
+/// The first stage whose numbers differ between two texts of [`digests`](super::digests), and where.
+pub fn first_difference(old: &str, new: &str) -> Option<Difference> {
+    let (size, [old, new]) = (image_size(new), [old, new].map(tables));
+    let same_stage = |one: &Table<'_>, other: &Table<'_>| one.stage == other.stage && one.column == other.column;
+    for position in 0..old.len().max(new.len()) {
+        let (table, place) = match (old.get(position), new.get(position)) {
+            (Some(old), Some(new)) if same_stage(old, new) => match first_block(old, new, size) {
+                Some(place) => (new, place),
+                None => continue,
+            },
+            (Some(gone), now) if now.is_none() || !new.iter().any(|new| same_stage(gone, new)) => (gone, Place::Gone),
+            (_, Some(new)) => (new, Place::New),
+            _ => continue,
+        };
+        return Some(Difference { stage: table.stage.into(), column: table.column.into(), place });
+    }
+    None
+}
+
+fn tables(text: &str) -> Vec<Table<'_>> {
+    let mut tables: Vec<Table<'_>> = Vec::new();
+    for line in text.lines() {
+        let head = line.strip_prefix('"').and_then(|line| line.split_once("\" writes "));
+        if let Some((stage, column)) = head {
+            tables.push(Table { stage, column, lines: Vec::new() });
+        } else if let (Some(table), false) = (tables.last_mut(), line.trim().is_empty()) {
+            table.lines.push(line.split_whitespace().collect());
+        }
+    }
+    tables
+}
+
+/// The size that the text starts with; blocks at the right and at the bottom end there.
+fn image_size(text: &str) -> [u32; 2] {
+    let mut numbers = text.split(|sign: char| !sign.is_ascii_digit()).filter_map(|word| word.parse().ok());
+    [numbers.next().unwrap_or(u32::MAX), numbers.next().unwrap_or(u32::MAX)]
+}
+
+fn first_block(old: &Table<'_>, new: &Table<'_>, size: [u32; 2]) -> Option<Place> {
+    let across = [old, new].iter().flat_map(|table| &table.lines).map(Vec::len).max()?;
+    let down = old.lines.len().max(new.lines.len());
+    fn word<'a>(table: &Table<'a>, x: usize, y: usize) -> Option<&'a str> {
+        table.lines.get(y)?.get(x).copied()
+    }
+    let blocks = (0..down).flat_map(|y| (0..across).map(move |x| [x, y]));
+    let differing: Vec<[usize; 2]> = blocks.filter(|&[x, y]| word(old, x, y) != word(new, x, y)).collect();
+    let block = differing.first()?.map(|along| along as u32);
+    let pixels = [0, 1].map(|axis| {
+        let first = block[axis] * BLOCK_SIDE;
+        first..=(first + BLOCK_SIDE - 1).min(size[axis].saturating_sub(1).max(first))
+    });
+    Some(Place::Block { block, pixels, differing: differing.len(), blocks: across * down })
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stage, column, place } = self;
+        match place {
+            Place::Block { pixels: [x, y], differing, blocks, .. } => write!(
+                f,
+                "the first stage whose numbers differ is \"{stage}\" (column {column}), \
+                 first in the block of pixels {}..{}, {}..{} ({differing} of {blocks} blocks differ)",
+                x.start(),
+                x.end(),
+                y.start(),
+                y.end()
+            ),
+            Place::Gone => {
+                write!(f, "the stages themselves differ: \"{stage}\" (column {column}) ran here, and does not now")
+            }
+            Place::New => {
+                write!(f, "the stages themselves differ: \"{stage}\" (column {column}) runs here now, and did not")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OLD: &str = "20 × 10 pixels, a digest for each 8 × 8\n\n\
+        \"Place points\" writes raster\naaaa aaaa aaaa\naaaa aaaa aaaa\n\n\
+        \"List rows\" writes sphere rows\n-------- bbbb cccc\n-------- -------- --------\n\n\
+        \"Add light\" writes radiance\neeee eeee eeee\neeee eeee eeee\n";
+
+    #[test]
+    fn the_same_text_has_no_difference() {
+        assert_eq!(first_difference(OLD, OLD), None);
+        assert_eq!(first_difference(OLD, &OLD.replace('\n', "\r\n")), None);
+    }
+
+    #[test]
+    fn the_first_stage_in_order_is_named_and_the_first_block_in_it() {
+        let new = OLD.replace("bbbb cccc", "bbbb cccd").replace("eeee", "ffff");
+        let difference = first_difference(OLD, &new).map(|difference| difference.to_string());
+        let expected = "the first stage whose numbers differ is \"List rows\" (column sphere rows), \
+            first in the block of pixels 16..19, 0..7 (1 of 6 blocks differ)";
+        assert_eq!(difference.as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn a_block_that_gains_or_loses_its_rows_differs() {
+        let new = OLD.replace("\n-------- -------- --------\n", "\n-------- 1234 --------\n");
+        for difference in [first_difference(OLD, &new), first_difference(&new, OLD)] {
+            let place = difference.map(|difference| difference.place);
+            let pixels = [8..=15, 8..=9];
+            assert_eq!(place, Some(Place::Block { block: [1, 1], pixels, differing: 1, blocks: 6 }));
+        }
+    }
+
+    #[test]
+    fn a_stage_that_comes_or_goes_is_named() {
+        let without =
+            OLD.replace("\"List rows\" writes sphere rows\n-------- bbbb cccc\n-------- -------- --------\n", "");
+        let named = |difference: Option<Difference>| difference.map(|difference| (difference.stage, difference.place));
+        assert_eq!(named(first_difference(OLD, &without)), Some(("List rows".into(), Place::Gone)));
+        assert_eq!(named(first_difference(&without, OLD)), Some(("List rows".into(), Place::New)));
+        let shorter = OLD.split("\n\"Add").next().unwrap_or_default();
+        assert_eq!(named(first_difference(OLD, shorter)), Some(("Add light".into(), Place::Gone)));
+        assert_eq!(named(first_difference("", OLD)), Some(("Place points".into(), Place::New)));
+    }
+}

@@ -1,0 +1,52 @@
+//! Every chapter against its snapshots: what it computes, stage by stage, is what it computed when they were kept.
+//!
+//! One chapter: `cargo test --test chapters 05`.
+//! To keep what the chapters compute now: `INSTA_UPDATE=always cargo test --test chapters`, then look at `git diff`.
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
+#[path = "chapters/files.rs"]
+mod files;
+#[path = "chapters/message.rs"]
+mod message;
+#[path = "chapters/png_pixels.rs"]
+mod png_pixels;
+#[path = "chapters/snapshots.rs"]
+mod snapshots;
+
+/// A test for each chapter, named `chapter_` and its stem.
+macro_rules! test_chapters {
+    ($($test:ident: $module:ident,)+) => {
+        $(#[test]
+        fn $test() -> Result<(), message::Mismatch> {
+            snapshots::check(&chapters::$module::chapter())
+        })+
+
+        /// The tests' names, in order.
+        const TESTED: &[&str] = &[$(stringify!($test)),+];
+    };
+}
+
+test_chapters! {
+    chapter_cover: cover,
+    chapter_01_image: image,
+    chapter_02_ray: ray,
+    chapter_03_hit: hit,
+    chapter_04_orthographic: orthographic,
+    chapter_05_pinhole: pinhole_camera,
+}
+
+#[test]
+fn every_chapter_has_its_test() {
+    let expected: Vec<String> = chapters::all().iter().map(|chapter| format!("chapter_{}", chapter.name)).collect();
+    assert!(
+        expected == TESTED,
+        "chapters/mod.rs and the list in tests/chapters.rs do not agree: the tests must be {expected:?}, in this order"
+    );
+}
+
+#[test]
+fn every_snapshot_file_is_there_and_none_is_unused() -> Result<(), message::Mismatch> {
+    let names: Vec<&str> = chapters::all().iter().map(|chapter| chapter.name).collect();
+    files::check(&names)
+}

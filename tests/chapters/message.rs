@@ -1,0 +1,165 @@
+//! What a reader is told whose chapter no longer computes what its snapshots hold.
+
+use crate::snapshots::{FILES, SIZE, Snapshots, folder};
+use pinhole::review::{ChangedRow, PictureDifference, Place, changed_rows, compare_pictures, first_difference};
+use std::fmt::{self, Write};
+
+/// A test's failure: a message for a person.
+pub struct Mismatch(pub String);
+
+/// The message as it is, so that a test that returns it prints it.
+impl fmt::Debug for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// What differs first and where, then by how much, then what to do about it.
+pub fn mismatch(chapter: &str, before: &Snapshots, now: &Snapshots, refused: &[&str]) -> Mismatch {
+    let missing: Vec<&str> = FILES.into_iter().filter(|file| !folder(chapter).join(file).is_file()).collect();
+    let picture = compare_pictures(&before.picture, &now.picture).ok();
+    let mut text = format!("{chapter}: {}\n", headline(before, now, &missing, refused));
+    if let Some(picture) = &picture {
+        let _ = writeln!(text, "{picture}");
+    }
+    if missing.is_empty() {
+        text.push_str(&probes(&before.probes, &now.probes));
+        text.push_str(&changed_lines("plan", &before.plan, &now.plan));
+    }
+    text.push_str(&what_to_do(chapter, pixel(before, now, picture.as_ref())));
+    Mismatch(text)
+}
+
+fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&str]) -> String {
+    if missing.len() == FILES.len() {
+        return "no snapshot of it is kept yet".into();
+    }
+    if !missing.is_empty() {
+        return format!("of its snapshots {} is missing", missing.join(", "));
+    }
+    if let Some(difference) = first_difference(&before.digests, &now.digests) {
+        return difference.to_string();
+    }
+    if refused.contains(&"image") {
+        return "all columns of all stages are the same, and the picture differs: look at what makes pixels of the \
+            film (src/film/develop.rs, src/film/png.rs)"
+            .into();
+    }
+    format!("all numbers and pixels are the same; what differs is the wording of {}", refused.join(" and "))
+}
+
+/// The probes before and now: every column that changed of the first probe, the first column of the others.
+fn probes(before: &str, now: &str) -> String {
+    let rows = changed_rows(before, now);
+    let Some(first) = rows.first() else { return "\nprobes: none of the nine changed\n".into() };
+    let mut text = String::from("\nprobes, where they changed\n");
+    let (mut last, mut left_out) = ("", 0);
+    for ChangedRow { probe, before, now } in &rows {
+        if *probe == last && *probe != first.probe {
+            left_out += 1;
+            continue;
+        }
+        if *probe != last {
+            let _ = writeln!(text, "  {probe}");
+        }
+        last = probe;
+        write_lines(&mut text, "before", before);
+        write_lines(&mut text, "now", now);
+    }
+    if left_out > 0 {
+        let _ = writeln!(text, "  and {left_out} more columns at these probes");
+    }
+    text
+}
+
+/// Lines of a text that the other one does not have.
+fn changed_lines(what: &str, before: &str, now: &str) -> String {
+    let missing_from = |other: &str, text: &str| -> Vec<String> {
+        text.lines().filter(|line| !other.lines().any(|other| other == *line)).map(String::from).collect()
+    };
+    let (gone, new) = (missing_from(now, before), missing_from(before, now));
+    if gone.is_empty() && new.is_empty() {
+        return String::new();
+    }
+    let mut text = format!("\n{what}, where it changed\n");
+    write_lines(&mut text, "before", &gone.iter().map(String::as_str).collect::<Vec<_>>());
+    write_lines(&mut text, "now", &new.iter().map(String::as_str).collect::<Vec<_>>());
+    text
+}
+
+fn write_lines(text: &mut String, when: &str, lines: &[&str]) {
+    for line in lines {
+        let _ = writeln!(text, "    {when:<6} {line}");
+    }
+}
+
+/// The pixel to look at: where the picture differs most, or the first of the block that differs first.
+fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference>) -> [u32; 2] {
+    let block = first_difference(&before.digests, &now.digests).map(|difference| difference.place);
+    match (picture, block) {
+        (Some(picture), _) if picture.largest > 0 => picture.worst,
+        (_, Some(Place::Block { pixels: [x, y], .. })) => [*x.start(), *y.start()],
+        _ => [SIZE.width / 2, SIZE.height / 2],
+    }
+}
+
+fn what_to_do(chapter: &str, [x, y]: [u32; 2]) -> String {
+    let (width, height) = (SIZE.width, SIZE.height);
+    let snapshots = format!("chapters/{chapter}/snapshots");
+    let kept = |file: &str| folder(chapter).join(file).is_file();
+    let pictures = if kept("image.snap.png") && kept("image.snap.new.png") {
+        format!("\n             {snapshots}/image.snap.png is before, image.snap.new.png beside it is now")
+    } else {
+        String::new()
+    };
+    format!(
+        "\n\
+        to look      cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}{pictures}\n\
+        to keep      INSTA_UPDATE=always cargo test --test chapters chapter_{chapter}\n             \
+                     or, with cargo-insta: cargo insta accept\n\
+        to go back   undo your edit: `git diff` shows it, \
+                     and if it is in the chapter, `git checkout chapters/{chapter}/main.rs` undoes it\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snapshots(digests: &str, plan: &str) -> Snapshots {
+        Snapshots { digests: digests.into(), plan: plan.into(), ..Snapshots::default() }
+    }
+
+    const DIGESTS: &str = "8 × 8 pixels\n\n\"Add light\" writes radiance\naaaa\n";
+
+    #[test]
+    fn the_first_line_says_what_differs_first() {
+        let (before, now) = (snapshots(DIGESTS, "a plan"), snapshots(&DIGESTS.replace("aaaa", "bbbb"), "another plan"));
+        let line = headline(&before, &now, &[], &["digests", "plan", "image"]);
+        assert!(line.starts_with("the first stage whose numbers differ is \"Add light\" (column radiance)"), "{line}");
+        let line = headline(&before, &before, &[], &["image"]);
+        assert!(line.starts_with("all columns of all stages are the same, and the picture differs"), "{line}");
+        let line = headline(&before, &snapshots(DIGESTS, "another plan"), &[], &["plan"]);
+        assert_eq!(line, "all numbers and pixels are the same; what differs is the wording of plan");
+        assert_eq!(headline(&now, &now, &FILES, &["image"]), "no snapshot of it is kept yet");
+        assert_eq!(headline(&now, &now, &["plan.snap"], &["plan"]), "of its snapshots plan.snap is missing");
+    }
+
+    #[test]
+    fn only_lines_that_changed_are_told() {
+        let text = changed_lines("plan", "one\ntwo\nthree\n", "one\n2\nthree\n");
+        assert_eq!(text, "\nplan, where it changed\n    before two\n    now    2\n");
+        assert_eq!(changed_lines("plan", "one\n", "one\n"), "");
+    }
+
+    #[test]
+    fn every_column_of_the_first_probe_and_the_first_of_the_others() {
+        let probe = |x: u32| format!("\nplace {x}\nraster {x}\nndc {x}\n");
+        let before = format!("size\n{}{}{}", probe(1), probe(2), probe(3));
+        let now = before.replace(" 1\nndc 1", " 7\nndc 7").replace(" 2\nndc 2", " 8\nndc 8");
+        let text = probes(&before, &now);
+        assert!(text.contains("now    ndc 7") && text.contains("now    raster 8"), "{text}");
+        assert!(!text.contains("ndc 8") && !text.contains("place 3"), "{text}");
+        assert!(text.ends_with("  and 1 more columns at these probes\n"), "{text}");
+    }
+}

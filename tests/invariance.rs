@@ -1,0 +1,299 @@
+//! The same bits everywhere: nothing about how a picture is made can change it, and neither can units or place.
+
+mod scenes;
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
+use glam::DVec3;
+use pinhole::film::FilmTile;
+use pinhole::plan::Stage;
+use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
+use pinhole::scene::{PointLight, Statistics};
+use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, ties, turned};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// The pictures that must not change: both cameras, turned parents, exact ties, no light.
+fn pictures() -> Vec<(&'static str, World)> {
+    let mut unlit = turned(Setup::default());
+    for lamp in ["lamp", "cellar lamp", "fill"] {
+        let lamp = named(&mut unlit, lamp);
+        unlit.entity_mut(lamp).remove::<PointLight>();
+    }
+    vec![
+        ("perspective", turned(Setup::default())),
+        ("orthographic", turned(Setup { eye: Eye::Orthographic, ..Setup::default() })),
+        ("ties", ties()),
+        ("unlit", unlit),
+    ]
+}
+
+fn with_statistics(mut scene: World) -> World {
+    let camera = named(&mut scene, "camera");
+    scene.entity_mut(camera).insert(Statistics);
+    scene
+}
+
+/// An execution that shuffles what the schedule leaves open and takes every ambiguity for an error.
+fn shuffled(seed: u64, execution: Execution) -> Execution {
+    let settings = move || ScheduleBuildSettings {
+        ambiguity_detection: LogLevel::Error,
+        hierarchy_detection: LogLevel::Error,
+        shuffle_seed: Some(seed),
+        ..ScheduleBuildSettings::default()
+    };
+    let arrange = move |schedule: &mut Schedule| {
+        schedule.set_build_settings(settings());
+    };
+    Execution { arrange: Some(Arc::new(arrange)), ..execution }
+}
+
+#[test]
+fn pictures_show_something() {
+    for (name, scene) in pictures() {
+        let film = film(&scene);
+        let least = match name {
+            "ties" => 2,
+            "unlit" => 5,
+            _ => 500,
+        };
+        assert!(film.colours() >= least, "{name} has only {} colours", film.colours());
+        assert_eq!(film.rejected, 0, "{name}");
+    }
+}
+
+#[test]
+fn ties_go_to_the_lowest_number() {
+    let film = film(&ties());
+    let red = film.pixels.iter().filter(|pixel| pixel[0] == 1.0_f64.to_bits()).count();
+    assert_eq!(red, scenes::TIED_PIXELS / 2, "balls before the pane win, balls after it lose");
+    eprintln!("ties: {} pixels at which a ball and the pane tie, {red} won by a ball", scenes::TIED_PIXELS);
+}
+
+#[test]
+fn threads_tiles_and_worlds() {
+    let mut tried = 0;
+    for (name, scene) in pictures() {
+        let expected = film(&scene);
+        for tile_side in [8, 32, 64] {
+            for threads in [1, 2, 4] {
+                let execution = Execution { threads: Some(threads), tile_side, ..Execution::default() };
+                let film = film_by(&scene, &offer(), &execution).expect("renders");
+                film.assert_is(&expected, &format!("{name}, {threads} threads, tiles of {tile_side}"));
+                tried += 1;
+            }
+            let execution = Execution { tile_side, ..one_world() };
+            let film = film_by(&scene, &offer(), &execution).expect("renders");
+            film.assert_is(&expected, &format!("{name}, one world, tiles of {tile_side}"));
+            inspected(&scene, tile_side).assert_is(&expected, &format!("{name}, inspected, tiles of {tile_side}"));
+            tried += 2;
+        }
+    }
+    eprintln!("threads, tiles and worlds: {tried} renders of {} pictures, all equal", pictures().len());
+}
+
+fn inspected(scene: &World, tile_side: u32) -> FilmBits {
+    let inspection = inspect(scene, &offer(), tile_side).expect("inspects");
+    let tiles = inspection.tiles.iter().map(|&tile| inspection.world.get::<FilmTile>(tile).expect("a film"));
+    FilmBits::of_tiles(inspection.image.width, inspection.image.height, tiles)
+}
+
+/// The names of the systems in the order in which a shuffled schedule runs them.
+fn order_of(scene: &World, offer: &[Stage], execution: &Execution) -> Vec<String> {
+    let (plan, tables) = prepare(scene, offer).expect("prepares");
+    let mut frame = RenderWorld::new(&plan, &tables, 1, execution, &[]);
+    let built = frame.schedule.initialize(&mut frame.world);
+    if let Err(error) = built {
+        panic!("{}", error.to_string(frame.schedule.graph(), &frame.world));
+    }
+    let systems = frame.schedule.systems().expect("initialised");
+    systems.map(|(_, system)| system.name().to_string()).collect()
+}
+
+#[test]
+fn every_order_that_the_schedule_allows() {
+    const SEEDS: u64 = 64;
+    for (name, scene) in pictures() {
+        let expected = film(&scene);
+        let timed = with_statistics(scene);
+        let mut orders = BTreeSet::new();
+        for seed in 0..SEEDS {
+            for bounces in [None, Some(1)] {
+                let in_one = shuffled(seed, Execution { bounces, ..one_world() });
+                let film = film_by(&timed, &offer(), &in_one).expect("renders");
+                film.assert_is(&expected, &format!("{name} with statistics, shuffled by {seed}, bounces {bounces:?}"));
+            }
+        }
+        let mut scene = timed;
+        let camera = named(&mut scene, "camera");
+        scene.entity_mut(camera).remove::<Statistics>();
+        for seed in 0..SEEDS {
+            for worlds in [Worlds::One, Worlds::PerWorker] {
+                let execution = shuffled(seed, Execution { worlds, threads: Some(2), ..Execution::default() });
+                // A shuffle alone reaches only half of the orders; the stages on offer change places too.
+                let offer = permuted(offer(), seed);
+                let film = film_by(&scene, &offer, &execution).expect("renders");
+                film.assert_is(&expected, &format!("{name}, shuffled by {seed}, {worlds:?}"));
+                orders.insert(order_of(&scene, &offer, &execution));
+            }
+        }
+        // Two kinds of shape and two columns to start, so each order-free set that runs has two orders.
+        let least = if matches!(name, "perspective" | "orthographic") { 16 } else { 8 };
+        assert_eq!(orders.len(), least, "{name}: not every order that is allowed was seen in {SEEDS} seeds");
+        eprintln!("orders of {name}: {SEEDS} seeds × 4 renders, {} different orders, all equal", orders.len());
+    }
+}
+
+/// Recorders and clocks follow each stage one after the other, never in an order that chance decides.
+#[test]
+fn hooks_are_ordered() {
+    let scene = with_statistics(turned(Setup::default()));
+    let (plan, tables) = prepare(&scene, &offer()).expect("prepares");
+    let hook: Hook = Arc::new(|_, _, _| (|_: &mut World| {}).into_configs());
+    let execution = shuffled(7, Execution { bounces: Some(1), ..one_world() });
+    let mut frame = RenderWorld::new(&plan, &tables, 1, &execution, &[hook.clone(), hook]);
+    if let Err(error) = frame.schedule.initialize(&mut frame.world) {
+        panic!("{}", error.to_string(frame.schedule.graph(), &frame.world));
+    }
+    assert_eq!(frame.schedule.systems_len(), plan.stages.len() * 4 + 1, "a stage, a clock and two hooks; the bounce");
+}
+
+#[test]
+fn the_order_in_which_stages_are_offered() {
+    const SHUFFLES: u64 = 32;
+    for (name, scene) in pictures() {
+        let expected = film(&scene);
+        let timed = with_statistics(scene);
+        for seed in 0..SHUFFLES {
+            let offer = permuted(offer(), seed);
+            let film = film_by(&timed, &offer, &one_world()).expect("renders");
+            film.assert_is(&expected, &format!("{name}, offered in order {seed}"));
+        }
+    }
+    eprintln!("offers: {SHUFFLES} orders of {} stages, all equal", offer().len());
+}
+
+/// A permutation that depends on nothing but the seed (splitmix64 as the key to sort by).
+fn permuted(stages: Vec<Stage>, seed: u64) -> Vec<Stage> {
+    let key = |position: u64| {
+        let mut z = (seed << 32 | position).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB)
+    };
+    let mut keyed: Vec<(u64, Stage)> = (0..).zip(stages).map(|(position, stage)| (key(position), stage)).collect();
+    keyed.sort_by_key(|(key, _)| *key);
+    keyed.into_iter().map(|(_, stage)| stage).collect()
+}
+
+#[test]
+fn an_empty_bounce_and_statistics() {
+    let mut tried = 0;
+    for (name, scene) in pictures() {
+        let expected = film(&scene);
+        let timed = with_statistics(scene);
+        for bounces in [None, Some(0), Some(1), Some(8)] {
+            for worlds in [Worlds::One, Worlds::PerWorker] {
+                let execution = Execution { bounces, worlds, threads: Some(2), ..Execution::default() };
+                let film = film_by(&timed, &offer(), &execution).expect("renders");
+                film.assert_is(&expected, &format!("{name}, bounces {bounces:?}, {worlds:?}, with statistics"));
+                tried += 1;
+            }
+        }
+        let mut plain = timed;
+        let camera = named(&mut plain, "camera");
+        plain.entity_mut(camera).remove::<Statistics>();
+        for legs in [0, 1, 8] {
+            let execution = Execution { bounces: Some(legs), ..one_world() };
+            let film = film_by(&plain, &offer(), &execution).expect("renders");
+            film.assert_is(&expected, &format!("{name}, {legs} empty bounces"));
+            tried += 1;
+        }
+    }
+    eprintln!("bounces and statistics: {tried} renders, all equal");
+}
+
+#[test]
+fn scale_by_powers_of_two() {
+    const LARGEST: i32 = 20;
+    for eye in EYES {
+        for scene in [full, turned] {
+            let setup = Setup { eye, size: [48, 33], ..Setup::default() };
+            let expected = film(&scene(setup));
+            for k in -LARGEST..=LARGEST {
+                let scale = if k < 0 { 1.0 / f64::from(1 << -k) } else { f64::from(1 << k) };
+                let film = film(&scene(Setup { scale, ..setup }));
+                film.assert_is(&expected, &format!("{eye:?}, scaled by 2^{k}"));
+            }
+        }
+    }
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 2 scenes, all equal");
+}
+
+#[test]
+fn moved_by_two_to_the_twentieth() {
+    let (far, fine) = (f64::from(1 << 20), 1.0 / f64::from(1_u32 << 31) / 2.0);
+    let mut tried = 0;
+    for eye in EYES {
+        // Off the coarse grid of the scene itself by one step of the finest one that must hold.
+        let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
+        let expected = film(&full(setup));
+        for axes in 1..8_u32 {
+            for sign in [far, -far] {
+                let by = DVec3::from([0, 1, 2].map(|axis| if axes >> axis & 1 == 1 { sign } else { 0.0 }));
+                let film = film(&full(Setup { shift: setup.shift + by, ..setup }));
+                film.assert_is(&expected, &format!("{eye:?}, moved by {by}"));
+                tried += 1;
+            }
+        }
+    }
+    eprintln!("moved: {tried} scenes by ±2^20 along one, two and three axes, all equal");
+}
+
+#[test]
+fn odd_sizes() {
+    let sizes = [[1, 1], [1, 7], [7, 1], [33, 65], [97, 31], [64, 64], [65, 1]];
+    for eye in EYES {
+        for size in sizes {
+            let scene = turned(Setup { eye, size, ..Setup::default() });
+            let expected = film(&scene);
+            assert_eq!(expected.pixels.len(), (size[0] * size[1]) as usize);
+            assert!(expected.pixels.iter().all(|pixel| pixel[3] == 1), "every pixel of {size:?} has one sample");
+            for tile_side in [8, 32, 64] {
+                let execution = Execution { threads: Some(2), tile_side, ..Execution::default() };
+                let film = film_by(&scene, &offer(), &execution).expect("renders");
+                film.assert_is(&expected, &format!("{eye:?}, {size:?} in tiles of {tile_side}"));
+            }
+        }
+    }
+    eprintln!("sizes: {sizes:?}, 2 cameras, 3 tile sides, all equal");
+}
+
+/// The digests kept here hold for every profile and every machine; CI runs this test under several.
+#[test]
+fn digests() {
+    let mut lines = Vec::new();
+    for (name, scene) in pictures() {
+        lines.push(format!("{name:<14}{:016x}", film(&scene).digest()));
+    }
+    let mut columns = 0;
+    for eye in EYES {
+        let inspection = inspect(&turned(Setup { eye, ..Setup::default() }), &offer(), 32).expect("inspects");
+        for column in &inspection.plan.columns {
+            let mut bits = Vec::new();
+            for &tile in &inspection.tiles {
+                for lane in (column.lanes)(&inspection.world.entity(tile)) {
+                    bits.extend((0..(column.rows)(&inspection.world.entity(tile))).map(|row| lane.values.bits(row)));
+                }
+            }
+            let rows = bits.len();
+            lines.push(format!("{eye:?} {:<12}{rows:>7} numbers {:016x}", column.name, digest(bits.into_iter())));
+            columns += 1;
+        }
+    }
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path("snapshots");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!("digests", lines.join("\n")));
+    eprintln!("digests: {} films and every bit of {columns} columns", lines.len() - columns);
+}

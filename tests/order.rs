@@ -1,0 +1,302 @@
+//! The house is in order: each folder of `src/` names only those before it, and no file does what the house forbids.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The folders and files of `src/` in the order of the data; each may name itself and those before it.
+///
+/// `error` is what everyone answers, so it is named by its types from everywhere; it names the first two.
+const ORDER: [&str; 15] = [
+    "scene",
+    "plan",
+    "extract",
+    "rays",
+    "intersect",
+    "shade",
+    "film",
+    "render",
+    "look",
+    "chapter",
+    "figure",
+    "review",
+    "naive",
+    "measure",
+    "command",
+];
+
+/// What every folder may name at the crate's root.
+const ROOT: [&str; 2] = ["Error", "Result"];
+
+/// What stands at the root and belongs to a folder further down.
+const REEXPORTED: [(&str, &str); 3] = [("Chapter", "chapter"), ("Asked", "chapter"), ("run", "command")];
+
+/// The longest file.
+const LONGEST: usize = 350;
+
+struct Source {
+    path: PathBuf,
+    /// The folder, or the file's stem where it lies in `src/` itself.
+    folder: String,
+    text: String,
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    let mut folders = vec![root.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a readable folder") {
+            let path = entry.expect("a readable entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let inside = path.strip_prefix(&root).expect("inside src");
+                let first = inside.components().next().expect("a name").as_os_str();
+                let folder = Path::new(first).file_stem().expect("a stem").to_string_lossy().into_owned();
+                let text = fs::read_to_string(&path).expect("a readable file");
+                found.push(Source { path: inside.to_path_buf(), folder, text });
+            }
+        }
+    }
+    found.sort_by(|a, b| a.path.cmp(&b.path));
+    found
+}
+
+/// The first words after every `crate::`, with those in braces one by one.
+fn named_in(text: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for (at, _) in text.match_indices("crate::") {
+        let before = text[..at].chars().next_back();
+        if before.is_some_and(|before| before.is_alphanumeric() || before == '_') {
+            continue;
+        }
+        let rest = &text[at + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            Some(group) => names.extend(first_words(group)),
+            None => names.push(word(rest)),
+        }
+    }
+    names
+}
+
+/// The first word of each entry of a group of imports, up to the brace that closes it.
+fn first_words(group: &str) -> Vec<String> {
+    let (mut depth, mut start) = (0, 0);
+    let mut words = Vec::new();
+    for (at, letter) in group.char_indices() {
+        match letter {
+            '{' => depth += 1,
+            '}' if depth == 0 => {
+                words.push(word(&group[start..at]));
+                break;
+            }
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                words.push(word(&group[start..at]));
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+fn word(text: &str) -> String {
+    text.trim_start().chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
+}
+
+fn place(folder: &str) -> Option<usize> {
+    ORDER.iter().position(|own| *own == folder)
+}
+
+/// A file without its unit tests, which may be judged by what comes later, such as the oracles of `measure`.
+fn before_tests(text: &str) -> &str {
+    text.split("mod tests {").next().unwrap_or(text)
+}
+
+/// What a file may not name, and why.
+fn misplaced(source: &Source) -> Vec<String> {
+    let own = match source.folder.as_str() {
+        "lib" | "main" => return Vec::new(),
+        "error" => place("extract"),
+        folder => place(folder),
+    };
+    let Some(own) = own else { return vec![format!("{} has no place in the order", source.path.display())] };
+    let mut wrong = Vec::new();
+    for name in named_in(before_tests(&source.text)) {
+        if ROOT.contains(&name.as_str()) {
+            continue;
+        }
+        let folder = REEXPORTED.iter().find(|(word, _)| *word == name).map_or(name.as_str(), |(_, folder)| folder);
+        match place(folder) {
+            Some(other) if other <= own => {}
+            Some(_) => wrong.push(format!("{} names {folder}, which comes later", source.path.display())),
+            None => wrong.push(format!("{} names crate::{name}, which has no place", source.path.display())),
+        }
+    }
+    wrong
+}
+
+#[test]
+fn each_folder_names_only_those_before_it() {
+    let sources = sources();
+    let wrong: Vec<String> = sources.iter().flat_map(misplaced).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let paths: usize = sources.iter().map(|source| named_in(&source.text).len()).sum();
+    assert!(paths > 100, "only {paths} paths were found");
+    eprintln!("order: {} files, {paths} paths from the crate's root", sources.len());
+}
+
+/// `super` must not be a way round: it stays within the folder.
+#[test]
+fn no_folder_is_left_by_super() {
+    for source in sources() {
+        let nested = source.path.components().count() - 1;
+        let is_mod = source.path.ends_with("mod.rs");
+        let code = before_tests(&source.text);
+        let reach = if is_mod { nested.saturating_sub(1) } else { nested };
+        let steps = "super::".repeat(reach + 1);
+        assert!(!code.contains(&steps), "{} leaves its folder by {steps}", source.path.display());
+    }
+}
+
+#[test]
+fn the_parser_sees_every_way_to_name_a_folder() {
+    let text = "use crate::scene::{A, B};\nuse crate::{Error, plan::{C, D}, film};\nlet x = <crate::look::T as U>::f();\
+                \n$crate::rays::Column; mycrate::shade::x";
+    assert_eq!(named_in(text), ["scene", "Error", "plan", "film", "look", "rays"]);
+    let bad = |folder: &str, text: &str| {
+        let source = Source { path: "x.rs".into(), folder: folder.into(), text: text.into() };
+        misplaced(&source).len()
+    };
+    assert_eq!(bad("rays", "use crate::{Error, film::Film};"), 1);
+    assert_eq!(bad("film", "use crate::{Error, rays::Tile};"), 0);
+    assert_eq!(bad("look", "use crate::Chapter;"), 1);
+    assert_eq!(bad("rays", "mod tests { use crate::film::Film; }"), 0);
+    assert_eq!(bad("utils", ""), 1);
+}
+
+#[test]
+fn the_library_lists_its_modules_in_that_order() {
+    let sources = sources();
+    let lib = sources.iter().find(|source| source.folder == "lib").expect("src/lib.rs");
+    let listed: Vec<&str> = lib
+        .text
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')))
+        .collect();
+    let places: Vec<usize> =
+        listed.iter().map(|name| place(name).unwrap_or_else(|| panic!("{name} has no place"))).collect();
+    assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "lib.rs lists {listed:?}, the order is {ORDER:?}");
+    assert!(listed.len() >= 10, "only {listed:?}");
+    for source in &sources {
+        let known = matches!(source.folder.as_str(), "lib" | "main" | "error" | "chapter");
+        assert!(known || listed.contains(&source.folder.as_str()), "{} is not listed", source.folder);
+    }
+    let told: Vec<&str> = lib.text.lines().filter_map(|line| line.split("[`").nth(1)?.split("`]").next()).collect();
+    assert_eq!(told, listed, "the list that lib.rs tells in words");
+    eprintln!("lib.rs: {listed:?}");
+}
+
+/// The code of a file without its comments: what is said there is not done.
+fn code(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn nothing_that_differs_between_machines() {
+    // Those of the standard library are the platform's; libm's are the same everywhere. mul_add rounds once where a
+    // machine has it and twice where not; algebraic functions may be put in any order.
+    let methods = [
+        "sin",
+        "cos",
+        "tan",
+        "sin_cos",
+        "asin",
+        "acos",
+        "atan",
+        "atan2",
+        "sinh",
+        "cosh",
+        "tanh",
+        "asinh",
+        "acosh",
+        "atanh",
+        "powf",
+        "powi",
+        "exp",
+        "exp2",
+        "exp_m1",
+        "ln",
+        "ln_1p",
+        "log",
+        "log2",
+        "log10",
+        "hypot",
+        "cbrt",
+        "mul_add",
+        "algebraic_add",
+        "algebraic_mul",
+        "slerp",
+        "from_axis_angle",
+        "from_rotation_x",
+        "from_rotation_y",
+        "from_rotation_z",
+        "from_euler",
+        "to_axis_angle",
+        "angle_between",
+    ];
+    // The oracles of `measure` take powi of 2 for their bounds, where no picture depends on it.
+    let exempt = |source: &Source, method: &str| source.folder == "measure" && method == "powi";
+    // These differ between glam's builds with and without SIMD.
+    let types = ["Vec3A", "Vec4", "Quat", "Mat3A", "Mat4", "Mat2", "Affine3A"];
+    let (mut wrong, mut files) = (Vec::new(), 0);
+    for source in sources() {
+        let code = code(&source.text);
+        files += 1;
+        for method in methods {
+            for call in [format!(".{method}("), format!("::{method}(")] {
+                for (at, _) in code.match_indices(&call) {
+                    if !code[..at].ends_with("libm") && !exempt(&source, method) {
+                        wrong.push(format!("{} calls {call}", source.path.display()));
+                    }
+                }
+            }
+        }
+        for name in types {
+            let whole = |at: usize| {
+                let edge = |letter: Option<char>| !letter.is_some_and(|l| l.is_alphanumeric() || l == '_');
+                edge(code[..at].chars().next_back()) && edge(code[at + name.len()..].chars().next())
+            };
+            if code.match_indices(name).any(|(at, _)| whole(at)) {
+                wrong.push(format!("{} uses glam's {name}", source.path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    eprintln!("machines: {files} files without {} functions and {} types", methods.len(), types.len());
+}
+
+#[test]
+fn no_drawer_for_everything_and_nothing_unfinished() {
+    let mut longest = (0, PathBuf::new());
+    for source in sources() {
+        let shown = source.path.display();
+        for part in source.path.iter().filter_map(|part| Path::new(part).file_stem()) {
+            let part = part.to_string_lossy();
+            let drawer = ["utils", "util", "common", "helpers", "helper", "core", "misc"].contains(&part.as_ref());
+            assert!(!drawer, "{shown} is a drawer for everything");
+        }
+        for word in ["todo!", "unimplemented!", "FIXME", "TODO", "XXX"] {
+            assert!(!source.text.contains(word), "{shown} holds {word}");
+        }
+        for module in ["utils", "common", "helpers", "core"] {
+            assert!(!code(&source.text).contains(&format!("mod {module}")), "{shown} has a module {module}");
+        }
+        let lines = source.text.lines().count();
+        assert!(lines <= LONGEST, "{shown} has {lines} lines, more than {LONGEST}");
+        longest = longest.max((lines, source.path.clone()));
+    }
+    eprintln!("lengths: the longest is {} with {} lines", longest.1.display(), longest.0);
+}

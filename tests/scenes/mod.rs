@@ -1,0 +1,311 @@
+//! Scenes that several tests share, and the film as bits, so that equal means equal.
+#![allow(dead_code, reason = "each test takes what it needs")]
+
+use bevy_ecs::prelude::*;
+use glam::{DQuat, DVec3};
+use pinhole::film::{Film, FilmTile, film_stage};
+use pinhole::look::view_stage;
+use pinhole::plan::Stage;
+use pinhole::render::{Execution, Worlds, render};
+use pinhole::scene::*;
+use pinhole::{intersect, rays, shade};
+
+/// Which camera a scene gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Eye {
+    Perspective,
+    Orthographic,
+}
+
+/// Both.
+pub const EYES: [Eye; 2] = [Eye::Perspective, Eye::Orthographic];
+
+/// What a test changes about a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Setup {
+    pub eye: Eye,
+    pub size: [u32; 2],
+    /// Every length is multiplied by it, and every light's intensity by its square.
+    pub scale: f64,
+    /// Every root is moved by it.
+    pub shift: DVec3,
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self { eye: Eye::Perspective, size: [97, 31], scale: 1.0, shift: DVec3::ZERO }
+    }
+}
+
+impl Setup {
+    fn point(&self, x: f64, y: f64, z: f64) -> DVec3 {
+        on_grid(DVec3::new(x, y, z)) * self.scale + self.shift
+    }
+
+    fn camera(&self, world: &mut World, look: LookAt) {
+        let [width, height] = self.size;
+        let mut camera = world.spawn((Name::new("camera"), look, Resolution { width, height }));
+        match self.eye {
+            Eye::Perspective => camera.insert(PerspectiveCamera { fov: Degrees(50.0), ..Default::default() }),
+            Eye::Orthographic => camera.insert(OrthographicCamera { view_height: 4.0 * self.scale }),
+        };
+    }
+
+    fn light(&self, intensity: f64, casts_shadows: bool) -> PointLight {
+        PointLight { intensity: Rgb::grey(intensity * self.scale * self.scale), casts_shadows }
+    }
+}
+
+/// The nearest point whose coordinates are multiples of 2⁻³²: far finer than f32 can hold at 2²⁰.
+fn on_grid(point: DVec3) -> DVec3 {
+    let steps = 4_294_967_296.0;
+    (point * steps).round() / steps
+}
+
+/// Every stage that a chapter can offer.
+pub fn offer() -> Vec<Stage> {
+    let mut offer = rays::stages();
+    offer.extend(intersect::stages());
+    offer.extend(shade::stages());
+    offer.push(view_stage(&offer));
+    offer.push(film_stage());
+    offer
+}
+
+/// A scene that needs every stage of its camera but the view: balls and planes, lights with and without shadows, one
+/// of them under the ground, a shared material, a child, a mirrored thing, a background.
+///
+/// All coordinates lie on a 2⁻³² grid, and nothing but the view is turned, so that it may be moved by 2²⁰ exactly.
+pub fn full(setup: Setup) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: setup.point(0.23, 1.03, 4.9), target: setup.point(0.01, 1.27, 0.02), up: DVec3::Y };
+    setup.camera(&mut world, look);
+    add_things(&mut world, &setup);
+    world
+}
+
+/// The same with turned parents, whose coordinates are not on a grid any more.
+pub fn turned(setup: Setup) -> World {
+    let mut world = full(setup);
+    let orientation = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+    let group = Placement { position: setup.point(0.3, 1.1, -2.2), orientation, scale: DVec3::new(-1.5, 1.5, 1.5) };
+    let group = world.spawn((Name::new("turned group"), group)).id();
+    for (x, radius) in [(-0.7, 0.31), (0.9, 0.57)] {
+        let position = DVec3::new(x, 0.4, 0.2) * setup.scale;
+        let ball = (Sphere { radius: radius * setup.scale }, Placement { position, ..Placement::default() });
+        world.spawn((Name::new("turned ball"), ball, Matte { colour: Rgb::new(0.7, 0.2, 0.9) }, ChildOf(group)));
+    }
+    world
+}
+
+fn add_things(world: &mut World, setup: &Setup) {
+    let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
+    let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
+    let gold = world.spawn((Name::new("gold"), Matte { colour: Rgb::new(0.9, 0.7, 0.2) })).id();
+    world.spawn((Name::new("left ball"), sphere(0.75), at(-1.27, 0.75, 0.53), UsesMaterial(gold)));
+    world.spawn((Name::new("ground"), Plane::default(), at(0.0, 0.017, 0.0), Matte { colour: Rgb::grey(0.6) }));
+    world.spawn((
+        Name::new("middle ball"),
+        sphere(0.5),
+        at(0.29, 0.5, 1.09),
+        Matte { colour: Rgb::new(0.2, 0.5, 0.9) },
+    ));
+    // The same ball again in another colour: every ray that meets one meets the other at the very same distance.
+    world.spawn((Name::new("double"), sphere(0.5), at(0.29, 0.5, 1.09), Matte { colour: Rgb::new(0.9, 0.1, 0.1) }));
+    let mirrored = Placement { scale: DVec3::new(-2.0, 2.0, 2.0), ..at(1.53, 0.27, -0.51) };
+    let group = world.spawn((Name::new("group"), mirrored)).id();
+    let child = Placement { position: DVec3::new(0.0, 0.25, 0.0) * setup.scale, ..Placement::default() };
+    world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
+    let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
+    world.spawn((Name::new("wall"), wall, at(-3.03, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
+    world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
+    world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
+}
+
+/// How many pixels of [`ties`] see a ball and the pane at the very same distance.
+pub const TIED_PIXELS: usize = 8;
+
+/// Eight balls whose tops touch a pane from behind, each top at the very centre of a pixel, half of them made before the
+/// pane and half after: at those pixels a sphere and a plane are met at the same distance, and the lower number wins.
+pub fn ties() -> World {
+    let mut world = World::new();
+    let size = [32, 32];
+    world.spawn((
+        Name::new("camera"),
+        OrthographicCamera { view_height: 4.0 },
+        Placement::at(0.0, 0.0, 5.0),
+        Resolution { width: size[0], height: size[1] },
+    ));
+    let ball = |world: &mut World, number: u32| {
+        let x = f64::from(number % 4) - 1.5 + 1.0 / 16.0;
+        let y = f64::from(number / 4) - 0.5 + 1.0 / 16.0;
+        let matte = Matte { colour: Rgb::new(1.0, 0.0, 0.0) };
+        world.spawn((Name::new("ball"), Sphere { radius: 0.25 }, Placement::at(x, y, -0.25), matte));
+    };
+    (0..4).for_each(|number| ball(&mut world, number));
+    let pane = Plane { normal: DVec3::Z };
+    world.spawn((Name::new("pane"), pane, Placement::default(), Matte { colour: Rgb::new(0.0, 1.0, 0.0) }));
+    (4..8).for_each(|number| ball(&mut world, number));
+    world
+}
+
+/// What a scene may have beside its camera; each decides about some stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Toggle {
+    Light,
+    SecondLight,
+    Plane,
+    Sphere,
+    Shadow,
+    Orthographic,
+    Background,
+    View,
+    Statistics,
+}
+
+/// All of them.
+pub const TOGGLES: [Toggle; 9] = [
+    Toggle::Light,
+    Toggle::SecondLight,
+    Toggle::Plane,
+    Toggle::Sphere,
+    Toggle::Shadow,
+    Toggle::Orthographic,
+    Toggle::Background,
+    Toggle::View,
+    Toggle::Statistics,
+];
+
+/// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
+pub const VIEWED: &str = "surface";
+
+/// A camera and what is on.
+pub fn toggled(on: &[Toggle]) -> World {
+    let has = |toggle| on.contains(&toggle);
+    let mut world = World::new();
+    let eye = if has(Toggle::Orthographic) { Eye::Orthographic } else { Eye::Perspective };
+    let setup = Setup { eye, size: [24, 16], ..Setup::default() };
+    let look = LookAt { eye: DVec3::new(0.5, 1.5, 4.0), target: DVec3::new(0.0, 0.5, 0.0), up: DVec3::Y };
+    setup.camera(&mut world, look);
+    let light = |intensity| setup.light(intensity, has(Toggle::Shadow));
+    if has(Toggle::Light) {
+        world.spawn((Name::new("lamp"), light(40.0), Placement::at(2.0, 3.0, 2.0)));
+    }
+    if has(Toggle::SecondLight) {
+        world.spawn((Name::new("second lamp"), light(25.0), Placement::at(-2.0, 2.0, 3.0)));
+    }
+    if has(Toggle::Plane) {
+        world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.5, 0.6, 0.4) }));
+    }
+    if has(Toggle::Sphere) {
+        let ball = (Sphere { radius: 0.75 }, Placement::at(0.0, 0.75, 0.0));
+        world.spawn((Name::new("ball"), ball, Matte { colour: Rgb::new(0.8, 0.3, 0.2) }));
+    }
+    if has(Toggle::Background) {
+        world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
+    }
+    let camera = named(&mut world, "camera");
+    if has(Toggle::View) {
+        world.entity_mut(camera).insert(View { column: VIEWED.into() });
+    }
+    if has(Toggle::Statistics) {
+        world.entity_mut(camera).insert(Statistics);
+    }
+    world
+}
+
+/// All combinations of toggles, the empty one first.
+pub fn combinations() -> Vec<Vec<Toggle>> {
+    let chosen = |bits: usize| (0..TOGGLES.len()).filter(|bit| bits >> bit & 1 == 1).map(|bit| TOGGLES[bit]).collect();
+    (0..1 << TOGGLES.len()).map(chosen).collect()
+}
+
+/// None, each alone, all pairs.
+pub fn singles_and_pairs() -> Vec<Vec<Toggle>> {
+    combinations().into_iter().filter(|on| on.len() <= 2).collect()
+}
+
+/// The first entity of a name.
+pub fn named(world: &mut World, name: &str) -> Entity {
+    let mut names = world.query::<(Entity, &Name)>();
+    let found = names.iter(world).find(|(_, own)| own.as_str() == name);
+    found.map(|(entity, _)| entity).expect("the scene has an entity of this name")
+}
+
+/// A film pixel by pixel: the bits of three sums and the count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilmBits {
+    pub width: u32,
+    pub pixels: Vec<[u64; 4]>,
+    pub rejected: u64,
+}
+
+impl FilmBits {
+    pub fn of(film: &Film) -> Self {
+        Self::of_tiles(film.width, film.height, film.tiles.iter())
+    }
+
+    pub fn of_tiles<'f>(width: u32, height: u32, tiles: impl Iterator<Item = &'f FilmTile>) -> Self {
+        let mut pixels = vec![[u64::MAX; 4]; width as usize * height as usize];
+        let mut rejected = 0;
+        for tile in tiles {
+            rejected += tile.rejected;
+            for row in 0..tile.count.len() {
+                let [x, y] = tile.tile.pixel_of(row);
+                let sums = [tile.r[row], tile.g[row], tile.b[row]].map(f64::to_bits);
+                let pixel = &mut pixels[(y * width + x) as usize];
+                assert_eq!(*pixel, [u64::MAX; 4], "two tiles hold the pixel {x},{y}");
+                *pixel = [sums[0], sums[1], sums[2], u64::from(tile.count[row])];
+            }
+        }
+        Self { width, pixels, rejected }
+    }
+
+    /// A digest of all bits, in the order of the pixels.
+    pub fn digest(&self) -> u64 {
+        digest(self.pixels.iter().flatten().copied())
+    }
+
+    /// How many different pixels it has: a picture of one colour proves little.
+    pub fn colours(&self) -> usize {
+        self.pixels.iter().collect::<std::collections::BTreeSet<_>>().len()
+    }
+
+    /// Fails with the first pixel that differs.
+    pub fn assert_is(&self, expected: &Self, what: &str) {
+        assert_eq!(self.pixels.len(), expected.pixels.len(), "{what}: the number of pixels");
+        let differ = |pixel: &usize| self.pixels[*pixel] != expected.pixels[*pixel];
+        let wrong: Vec<usize> = (0..self.pixels.len()).filter(differ).collect();
+        if let Some(&first) = wrong.first() {
+            let (x, y) = (first as u32 % self.width, first as u32 / self.width);
+            let shown = |bits: [u64; 4]| ([bits[0], bits[1], bits[2]].map(f64::from_bits), bits[3]);
+            let (expected, found) = (shown(expected.pixels[first]), shown(self.pixels[first]));
+            let (wrong, all) = (wrong.len(), self.pixels.len());
+            panic!("{what}: {wrong} of {all} pixels differ, first {x},{y}: {expected:?} became {found:?}");
+        }
+        assert_eq!(self.rejected, expected.rejected, "{what}: rejected samples");
+    }
+}
+
+/// FNV-1a over the bytes of some words.
+pub fn digest(words: impl Iterator<Item = u64>) -> u64 {
+    let bytes = words.flat_map(u64::to_le_bytes);
+    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+}
+
+/// Renders by these stages, or says why not.
+pub fn film_by(scene: &World, offer: &[Stage], execution: &Execution) -> pinhole::Result<FilmBits> {
+    render(scene, offer, execution, &()).map(|rendered| FilmBits::of(&rendered.film))
+}
+
+/// Renders in one world on one thread, the quickest for a small picture.
+pub fn film(scene: &World) -> FilmBits {
+    film_by(scene, &offer(), &one_world()).expect("the scene renders")
+}
+
+/// One world, no pool of workers.
+pub fn one_world() -> Execution {
+    Execution { worlds: Worlds::One, ..Execution::default() }
+}
