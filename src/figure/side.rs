@@ -75,8 +75,8 @@ fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     // A camera's rays that spread by themselves need it less.
     let apart = if matches!(scenery.subject.lens, Lens::Perspective(_)) { apart.sqrt() } else { apart };
     // Where it makes little difference, the way of the rays is the way one reads.
-    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.25 } else { 1.0 };
-    let clear = reads * upright * seen * seen * seen * apart;
+    let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.35 } else { 1.0 };
+    let clear = reads * upright * libm::pow(seen, 6.0) * apart;
     clear * image.sqrt() * image.sqrt().sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
 }
 
