@@ -15,7 +15,7 @@
 //! 9. [`look`]: trace, view, statistics.
 //! 10. [`review`]: what a picture was made of, as text to compare with.
 //! 11. [`naive`]: the methods that break, for the book and the extremes.
-//! 12. [`measure`]: exact arithmetic, oracles, extremes.
+//! 12. [`measure`]: exact arithmetic, oracles, extremes, costs.
 //! 13. [`command`]: the command line.
 
 pub mod scene;
