@@ -177,6 +177,14 @@ const SHAPES: &[Case] = &[
     ("radius −1", &["\"ball\"", "radius", "is -1,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = -1.0)),
     ("radius 1e300", &["\"ball\"", "radius", "is 1e300,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e300)),
     ("radius too small", &["\"ball\"", "radius", "is 1e-40,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e-40)),
+    ("radius −1, scaled", &["\"ball\"", "radius", "is -1,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = -1.0);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::splat(2.0));
+    }),
+    ("radius out of reach by its scale", &["\"ball\"", "radius", "is 1e17 scaled by 1000,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = 1e17);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::splat(1e3));
+    }),
     ("an uneven sphere", &["\"ball\"", "scale", "(1, 2, 1)"], |w| {
         edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, 2.0, 1.0));
     }),

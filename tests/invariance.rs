@@ -9,7 +9,7 @@ use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
-use scenes::{EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, ties, turned};
+use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, ties, turned};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -275,17 +275,25 @@ fn digests() {
     for (name, scene) in pictures() {
         lines.push(format!("{name:<14}{:016x}", film(&scene).digest()));
     }
-    let words = pinhole::plan::view_names(&offer());
-    for word in &words {
-        let mut scene = turned(Setup::default());
-        let camera = named(&mut scene, "camera");
-        scene.entity_mut(camera).insert(pinhole::scene::View { column: word.to_string() });
-        lines.push(format!("view {word:<14}{:016x}", film(&scene).digest()));
+    let mut columns = 0;
+    for eye in EYES {
+        let inspection = inspect(&turned(Setup { eye, ..Setup::default() }), &offer(), 32).expect("inspects");
+        for column in &inspection.plan.columns {
+            let mut bits = Vec::new();
+            for &tile in &inspection.tiles {
+                for lane in (column.lanes)(&inspection.world.entity(tile)) {
+                    bits.extend((0..(column.rows)(&inspection.world.entity(tile))).map(|row| lane.values.bits(row)));
+                }
+            }
+            let rows = bits.len();
+            lines.push(format!("{eye:?} {:<12}{rows:>7} numbers {:016x}", column.name, digest(bits.into_iter())));
+            columns += 1;
+        }
     }
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path("snapshots");
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.bind(|| insta::assert_snapshot!("digests", lines.join("\n")));
-    eprintln!("digests: {} films", lines.len());
+    eprintln!("digests: {} films and every bit of {columns} columns", lines.len() - columns);
 }

@@ -90,8 +90,10 @@ pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, Refusal> {
 }
 // ANCHOR_END: look_at_axes
 
+// ANCHOR: direction
 /// The unit vector along `v`, or none where it has no direction; scaled first, so that no square overflows.
 fn direction(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     if v.is_finite() && largest > 0.0 { (v / largest).try_normalize() } else { None }
 }
+// ANCHOR_END: direction

@@ -1,4 +1,4 @@
-use super::check::{finite_point, kind_and_name, positive_length, triple};
+use super::check::{finite_point, kind_and_name, number, positive_length, triple};
 use super::{eye, shape_entities, world_from_entity};
 use crate::plan::Table;
 use crate::scene::{Refusal, Sphere};
@@ -46,7 +46,11 @@ impl Table for SphereTable {
             table.x.push(centre.x);
             table.y.push(centre.y);
             table.z.push(centre.z);
-            table.radius.push(positive_length(&who, "radius", sphere.radius * scale)?);
+            let scaled = |refusal: Refusal| {
+                let value = format!("{} scaled by {}", number(sphere.radius), number(scale));
+                Refusal { value, ..refusal }
+            };
+            table.radius.push(positive_length(&who, "radius", sphere.radius * scale).map_err(scaled)?);
             table.shape.push(shape as u32);
         }
         Ok(table)

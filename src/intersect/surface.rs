@@ -38,12 +38,14 @@ pub struct Surface {
 }
 
 impl Surface {
+    // ANCHOR: facing
     /// The surface at an f64 point, its normal turned to the side that a ray of this direction came from.
     #[inline(always)]
     pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, bound: f32, matte: u32) -> Self {
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
         Self { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
     }
+    // ANCHOR_END: facing
 }
 
 /// |x| + |y| + |z|.

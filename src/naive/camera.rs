@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+// ANCHOR: naive_viewport_f32
 /// The world direction through a pixel's centre, not normalised: a viewport of points in the world,
 /// in f32.
 ///
@@ -20,6 +21,7 @@ pub fn viewport_f32(eye: Vec3, rotation: Mat3, vertical_degrees: f32, size: [u32
     let first_pixel = upper_left + (step_right + step_down) / 2.0;
     first_pixel + pixel[0] as f32 * step_right + pixel[1] as f32 * step_down - eye
 }
+// ANCHOR_END: naive_viewport_f32
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+// ANCHOR: naive_hit_plane_f32
 /// The t where the ray meets the plane normal · x = offset, in f32, with two constants of the
 /// textbooks: a ray is called parallel when |normal · direction| is at most 1e-6, and a hit too
 /// near when t is at most 1e-3.
@@ -18,6 +19,7 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, normal: Vec3, offset: f32) -> Opti
     let t = (offset - normal.dot(origin)) / approach;
     (t > 1e-3).then_some(t)
 }
+// ANCHOR_END: naive_hit_plane_f32
 
 #[cfg(test)]
 mod tests {

@@ -60,6 +60,7 @@ pub fn reflected_radiance(colour: [f64; 3], intensity: [f64; 3], cosine: f64, di
 }
 // ANCHOR_END: reflected_radiance
 
+// ANCHOR: aim
 /// A ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
 struct Aimed {
@@ -78,6 +79,7 @@ fn aim(surface: &Surface, light: DVec3) -> Aimed {
     let direction = (to_light * (1.0 / distance)).as_vec3();
     Aimed { origin, direction, distance, cosine: surface.normal.as_dvec3().dot(direction.as_dvec3()) }
 }
+// ANCHOR_END: aim
 
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
 #[inline(always)]
@@ -137,6 +139,7 @@ fn aim_rows(
     at
 }
 
+// ANCHOR: add_light
 /// Adds what each light ray brings to its path, unless something stands in between.
 pub fn add_light(mut tiles: Query<(&LightRays, Option<&ShadowHits>, &mut Radiance)>) {
     for (rays, hits, mut radiance) in &mut tiles {
@@ -151,6 +154,7 @@ pub fn add_light(mut tiles: Query<(&LightRays, Option<&ShadowHits>, &mut Radianc
         }
     }
 }
+// ANCHOR_END: add_light
 
 /// The stage that aims.
 pub fn aim_stage() -> Stage {

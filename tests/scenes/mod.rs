@@ -39,7 +39,7 @@ impl Default for Setup {
 
 impl Setup {
     fn point(&self, x: f64, y: f64, z: f64) -> DVec3 {
-        DVec3::new(x, y, z) * self.scale + self.shift
+        on_grid(DVec3::new(x, y, z)) * self.scale + self.shift
     }
 
     fn camera(&self, world: &mut World, look: LookAt) {
@@ -54,6 +54,12 @@ impl Setup {
     fn light(&self, intensity: f64, casts_shadows: bool) -> PointLight {
         PointLight { intensity: Rgb::grey(intensity * self.scale * self.scale), casts_shadows }
     }
+}
+
+/// The nearest point whose coordinates are multiples of 2⁻³²: far finer than f32 can hold at 2²⁰.
+fn on_grid(point: DVec3) -> DVec3 {
+    let steps = 4_294_967_296.0;
+    (point * steps).round() / steps
 }
 
 /// Every stage that a chapter can offer.
@@ -72,7 +78,7 @@ pub fn offer() -> Vec<Stage> {
 /// All coordinates lie on a 2⁻³² grid, and nothing but the view is turned, so that it may be moved by 2²⁰ exactly.
 pub fn full(setup: Setup) -> World {
     let mut world = World::new();
-    let look = LookAt { eye: setup.point(0.25, 1.0, 5.0), target: setup.point(0.0, 1.25, 0.0), up: DVec3::Y };
+    let look = LookAt { eye: setup.point(0.23, 1.03, 4.9), target: setup.point(0.01, 1.27, 0.02), up: DVec3::Y };
     setup.camera(&mut world, look);
     add_things(&mut world, &setup);
     world
@@ -96,20 +102,25 @@ fn add_things(world: &mut World, setup: &Setup) {
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
     let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
     let gold = world.spawn((Name::new("gold"), Matte { colour: Rgb::new(0.9, 0.7, 0.2) })).id();
-    world.spawn((Name::new("left ball"), sphere(0.75), at(-1.25, 0.75, 0.5), UsesMaterial(gold)));
-    world.spawn((Name::new("ground"), Plane::default(), at(0.0, 0.0, 0.0), Matte { colour: Rgb::grey(0.6) }));
-    world.spawn((Name::new("middle ball"), sphere(0.5), at(0.25, 0.5, 1.0), Matte { colour: Rgb::new(0.2, 0.5, 0.9) }));
+    world.spawn((Name::new("left ball"), sphere(0.75), at(-1.27, 0.75, 0.53), UsesMaterial(gold)));
+    world.spawn((Name::new("ground"), Plane::default(), at(0.0, 0.017, 0.0), Matte { colour: Rgb::grey(0.6) }));
+    world.spawn((
+        Name::new("middle ball"),
+        sphere(0.5),
+        at(0.29, 0.5, 1.09),
+        Matte { colour: Rgb::new(0.2, 0.5, 0.9) },
+    ));
     // The same ball again in another colour: every ray that meets one meets the other at the very same distance.
-    world.spawn((Name::new("double"), sphere(0.5), at(0.25, 0.5, 1.0), Matte { colour: Rgb::new(0.9, 0.1, 0.1) }));
-    let mirrored = Placement { scale: DVec3::new(-2.0, 2.0, 2.0), ..at(1.5, 0.25, -0.5) };
+    world.spawn((Name::new("double"), sphere(0.5), at(0.29, 0.5, 1.09), Matte { colour: Rgb::new(0.9, 0.1, 0.1) }));
+    let mirrored = Placement { scale: DVec3::new(-2.0, 2.0, 2.0), ..at(1.53, 0.27, -0.51) };
     let group = world.spawn((Name::new("group"), mirrored)).id();
     let child = Placement { position: DVec3::new(0.0, 0.25, 0.0) * setup.scale, ..Placement::default() };
     world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
     let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
-    world.spawn((Name::new("wall"), wall, at(-3.0, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
-    world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.5, 4.0, 3.0)));
-    world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.0, -1.0, 2.5)));
-    world.spawn((Name::new("fill"), setup.light(15.0, false), at(-3.0, 2.0, 2.0)));
+    world.spawn((Name::new("wall"), wall, at(-3.03, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
+    world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
+    world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
 }
 
@@ -252,10 +263,9 @@ impl FilmBits {
         Self { width, pixels, rejected }
     }
 
-    /// FNV-1a over all bits, in the order of the pixels.
+    /// A digest of all bits, in the order of the pixels.
     pub fn digest(&self) -> u64 {
-        let bytes = self.pixels.iter().flatten().flat_map(|word| word.to_le_bytes());
-        bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+        digest(self.pixels.iter().flatten().copied())
     }
 
     /// How many different pixels it has: a picture of one colour proves little.
@@ -277,6 +287,12 @@ impl FilmBits {
         }
         assert_eq!(self.rejected, expected.rejected, "{what}: rejected samples");
     }
+}
+
+/// FNV-1a over the bytes of some words.
+pub fn digest(words: impl Iterator<Item = u64>) -> u64 {
+    let bytes = words.flat_map(u64::to_le_bytes);
+    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }
 
 /// Renders by these stages, or says why not.
