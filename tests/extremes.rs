@@ -9,6 +9,8 @@ fn holds(group: Group, rays: u64) {
         eprint!("{case}");
         assert!(case.held(), "the kit does not hold in:\n{case}");
         assert!(case.rays > 0, "nothing was tried in {}", case.name);
+        let too_long = case.to_string().lines().find(|line| line.chars().count() > 100).map(String::from);
+        assert_eq!(too_long, None, "a line is longer than a page is wide");
     }
     assert_eq!(unbroken(&cases), Vec::<&str>::new(), "these prove nothing, for no case breaks them");
     let tried: u64 = cases.iter().map(|case| case.rays).sum();

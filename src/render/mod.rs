@@ -2,7 +2,7 @@
 //!
 //! Reads: a scene, the stages on offer, how to execute.
 //! Writes: the [`Film`](crate::film::Film), what ran and how long it took.
-//! `rayon` appears here and nowhere else; no stage knows of threads.
+//! `rayon` appears here, and in `measure`, which renders nothing; no stage knows of threads.
 
 mod bounce;
 mod clock;
