@@ -2,6 +2,11 @@
 
 mod scenes;
 
+#[path = "plan/forced.rs"]
+mod forced;
+#[path = "plan/views.rs"]
+mod views;
+
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::ComponentAccessKind;
@@ -290,113 +295,6 @@ fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {
     plan.rows.iter().find(|row| row.stage == stage).expect("on offer")
 }
 
-/// The offer with one stage's say replaced.
-fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
-    let always: fn(&World) -> Evidence = |_| Evidence::always("forced on");
-    let never: fn(&World) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
-    let mut offer = offer.to_vec();
-    for stage in offer.iter_mut().filter(|stage| names.contains(&stage.name)) {
-        stage.when = if needed { always } else { never };
-    }
-    offer
-}
-
-#[test]
-fn forcing_an_exact_stage_on_changes_nothing() {
-    let offer = offer();
-    let (mut ran, mut unread, mut without_producer, mut together) = (0, 0, 0, 0);
-    let mut tried: BTreeSet<&str> = BTreeSet::new();
-    let mut scenes: Vec<(String, World)> = combinations()
-        .into_iter()
-        .filter(|on| on.len() <= 3 && !pictureless(on))
-        .map(|on| (format!("{on:?}"), toggled(&on)))
-        .collect();
-    for eye in EYES {
-        scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
-    }
-    for (name, scene) in &scenes {
-        let expected = film(scene);
-        let plan = plan_of(scene);
-        let exact = |stage: &&Stage| stage.kind == StageKind::Exact && !row(&plan, stage.name).kept;
-        let dropped: Vec<&str> = offer.iter().filter(exact).map(|stage| stage.name).collect();
-        for &stage in &dropped {
-            let offer = forced(&offer, &[stage], true);
-            match film_by(scene, &offer, &one_world()) {
-                Ok(film) => {
-                    film.assert_is(&expected, &format!("{name}: \"{stage}\" forced on"));
-                    if row(&pinhole::plan::plan(scene, &offer).expect("plans"), stage).kept {
-                        ran += 1;
-                        tried.insert(stage);
-                    } else {
-                        unread += 1;
-                    }
-                }
-                Err(Error::Plan(PlanError::NoProducer { .. })) => without_producer += 1,
-                Err(error) => panic!("{name}: \"{stage}\" forced on: {error}"),
-            }
-        }
-        // All at once, so that each also finds the columns that it reads.
-        // Light is added even where there is none, so that what only it reads is read.
-        let all = [dropped.as_slice(), &["Add the light that arrives"]].concat();
-        let offer = forced(&offer, &all, true);
-        match film_by(scene, &offer, &one_world()) {
-            Ok(film) => {
-                film.assert_is(&expected, &format!("{name}: all of {dropped:?} forced on"));
-                let plan = pinhole::plan::plan(scene, &offer).expect("plans");
-                let kept: Vec<&str> = dropped.iter().copied().filter(|stage| row(&plan, stage).kept).collect();
-                together += kept.len();
-                tried.extend(kept);
-            }
-            Err(error) => panic!("{name}: all of {dropped:?} forced on: {error}"),
-        }
-    }
-    let exact: BTreeSet<&str> =
-        offer.iter().filter(|stage| stage.kind == StageKind::Exact).map(|stage| stage.name).collect();
-    let untried: Vec<&&str> = exact.difference(&tried).collect();
-    eprintln!(
-        "forced on: {} scenes; alone: {ran} ran, {unread} read by nothing, {without_producer} without a producer; \
-         together {together} ran; never dropped: {untried:?}",
-        scenes.len()
-    );
-    assert_eq!(untried, [&"Add to the film", &"Place raster points", &"Start in the dark"], "tried too little");
-}
-
-#[test]
-fn forcing_a_needed_stage_off_shows() {
-    let offer = offer();
-    let size = [24, 16];
-    let witnesses: Vec<(&str, World)> = vec![
-        ("everything", full(Setup { size, ..Setup::default() })),
-        ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
-        ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
-        ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
-    ];
-    for stage in &offer {
-        let mut powers = Vec::new();
-        for (name, scene) in &witnesses {
-            if !row(&plan_of(scene), stage.name).kept {
-                continue;
-            }
-            match film_by(scene, &forced(&offer, &[stage.name], false), &one_world()) {
-                Ok(film) if film != self::film(scene) => powers.push(format!("changes \"{name}\"")),
-                Ok(_) => {}
-                Err(Error::Plan(PlanError::NoProducer { stage: reader, column, why })) => {
-                    assert!(stage.writes.iter().any(|own| own.name == column), "\"{}\" writes {column}", stage.name);
-                    assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
-                    powers.push(format!("\"{reader}\" misses `{column}` in \"{name}\""));
-                }
-                Err(Error::Plan(PlanError::NoSuchView { asked, why })) => {
-                    assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
-                    powers.push(format!("the view misses `{asked}` in \"{name}\""));
-                }
-                Err(error) => panic!("\"{}\" forced off: {error}", stage.name),
-            }
-        }
-        assert!(!powers.is_empty(), "\"{}\" forced off shows nowhere", stage.name);
-        eprintln!("forced off: \"{}\": {}", stage.name, powers[0]);
-    }
-}
-
 #[test]
 fn reasons_name_the_first_three() {
     let mut scene = toggled(&[Toggle::Shadow, Toggle::Background]);
@@ -441,68 +339,4 @@ fn reasons_name_the_first_three() {
 
 fn three(noun: &str) -> String {
     format!("\"{noun} 1\", \"{noun} 2\", \"{noun} 3\", …")
-}
-
-#[test]
-fn a_view_of_an_unknown_word_names_what_is_on_offer() {
-    let words = ["", "surfaces", "Surface", "pixel", "nonsense"];
-    for word in words {
-        let mut scene = toggled(&[Toggle::Sphere]);
-        let camera = named(&mut scene, "camera");
-        scene.entity_mut(camera).insert(View { column: word.into() });
-        let error = plan(&scene, &offer()).expect_err("no such column");
-        let PlanError::NoSuchView { asked, why } = &error else { panic!("{error}") };
-        assert_eq!(asked, word);
-        for name in view_names(&offer()) {
-            assert!(why.contains(name), "`{word}`: {why} must name `{name}`");
-        }
-        assert_eq!(error.to_string(), format!("the view asks for the column `{word}`, but {why}"));
-    }
-    eprintln!("views: {} unknown words, each answered with {:?}", words.len(), view_names(&offer()));
-}
-
-/// A view runs fewer stages than the picture does, but those that run write the very same numbers.
-#[test]
-fn a_view_paints_the_columns_of_the_whole_picture() {
-    let mut compared = 0;
-    for eye in EYES {
-        let setup = Setup { eye, size: [40, 33], ..Setup::default() };
-        let whole = inspect(&full(setup), &offer(), 32).expect("inspects");
-        for column in &whole.plan.columns {
-            if column.name == "pixel" || column.name == "radiance" {
-                continue;
-            }
-            let mut scene = full(setup);
-            let camera = named(&mut scene, "camera");
-            scene.entity_mut(camera).insert(View { column: column.name.into() });
-            let viewed = film(&scene);
-            let tiles: Vec<FilmTile> =
-                whole.tiles.iter().map(|&tile| painted(&whole.world.entity(tile), column, whole.image)).collect();
-            let expected = FilmBits::of_tiles(whole.image.width, whole.image.height, tiles.iter());
-            viewed.assert_is(&expected, &format!("{eye:?}, view of {}", column.name));
-            // An orthographic camera's rays all have one direction.
-            let uniform = eye == Eye::Orthographic && matches!(column.name, "camera" | "world");
-            assert_eq!(viewed.colours() == 1, uniform, "{eye:?}: the view of {} shows nothing", column.name);
-            compared += 1;
-        }
-    }
-    assert_eq!(compared, 2 * (view_names(&offer()).len() - 1), "every column but radiance, which is the picture");
-    eprintln!("views: {compared} views, each equal to its column of the whole picture");
-}
-
-/// What a view of a column must show: a pixel's first row, black without one.
-fn painted(tile: &EntityRef<'_>, column: &ColumnKind, image: ImageShape) -> FilmTile {
-    let mut film = FilmTile::new(*tile.get::<Tile>().expect("a tile"));
-    let rows = (column.rows)(tile);
-    let lanes = (column.lanes)(tile);
-    let paths = lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values);
-    for path in 0..film.count.len() {
-        let first = match paths {
-            Some(LaneValues::U32(paths)) => paths.iter().position(|&own| own as usize == path),
-            _ => (path < rows).then_some(path),
-        };
-        let paint = |row| (column.paint)(tile, row, [image.width, image.height]);
-        film.add(path, first.map_or([0.0; 3], paint));
-    }
-    film
 }

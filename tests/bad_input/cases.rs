@@ -1,0 +1,280 @@
+//! The scenes that are refused, and the fields that no number is accepted in.
+
+use crate::scenes::{Eye, named};
+use bevy_ecs::prelude::*;
+use glam::{DQuat, DVec3};
+use pinhole::scene::*;
+
+/// A scene with one of each kind, all well.
+pub fn good(eye: Eye) -> World {
+    let mut world = World::new();
+    let resolution = Resolution { width: 16, height: 9 };
+    let mut camera = world.spawn((Name::new("main"), resolution, Placement::at(0.0, 1.0, 5.0)));
+    match eye {
+        Eye::Perspective => camera.insert(PerspectiveCamera::default()),
+        Eye::Orthographic => camera.insert(OrthographicCamera::default()),
+    };
+    world.spawn((Name::new("ball"), Sphere::default(), Matte::default(), Placement::at(0.0, 1.0, 0.0)));
+    world.spawn((Name::new("floor"), Plane::default(), Matte::default()));
+    world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(2.0, 4.0, 2.0)));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::grey(0.5) }));
+    world
+}
+
+pub fn look_at(world: &mut World, look: LookAt) {
+    let camera = named(world, "main");
+    world.entity_mut(camera).insert((Placement::default(), look));
+}
+
+pub fn edit<C: Component<Mutability = bevy_ecs::component::Mutable>>(
+    world: &mut World,
+    name: &str,
+    change: impl FnOnce(&mut C),
+) {
+    let entity = named(world, name);
+    change(&mut world.get_mut::<C>(entity).expect("the entity has the component"));
+}
+
+pub fn put(world: &mut World, name: &str, bundle: impl Bundle) {
+    let entity = named(world, name);
+    world.entity_mut(entity).insert(bundle);
+}
+
+pub fn child_of(world: &mut World, child: &str, parent: Entity) {
+    put(world, child, ChildOf(parent));
+}
+
+/// What is wrong, in words; the words that the refusal must hold; how to make it so.
+pub type Case = (&'static str, &'static [&'static str], fn(&mut World));
+
+pub const CAMERAS: &[Case] = &[
+    ("no camera", &["camera", "missing", "PerspectiveCamera"], |w| {
+        let camera = named(w, "main");
+        w.despawn(camera);
+    }),
+    ("the only camera disabled", &["camera", "missing"], |w| put(w, "main", Disabled)),
+    ("two cameras", &["camera", "\"main\"", "\"second\""], |w| {
+        w.spawn((Name::new("second"), PerspectiveCamera::default()));
+    }),
+    ("two cameras, one unnamed", &["camera", "\"main\"", "(unnamed, entity "], |w| {
+        w.spawn(OrthographicCamera::default());
+    }),
+    ("both kinds on one", &["camera", "PerspectiveCamera and an OrthographicCamera", "\"main\""], |w| {
+        put(w, "main", OrthographicCamera::default())
+    }),
+    ("fov 0", &["\"main\"", "fov", "0°"], |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(0.0))),
+    ("fov 180", &["\"main\"", "fov", "180°"], |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(180.0))),
+    ("fov −5", &["\"main\"", "fov", "-5°"], |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(-5.0))),
+    ("fov 1e300", &["\"main\"", "fov", "1e300°"], |w| {
+        edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(1e300));
+    }),
+    ("fov 1e-4 over 1024 px", &["\"main\"", "fov", "0.0001°", "1024", "rad"], |w| {
+        put(w, "main", Resolution { width: 1024, height: 1024 });
+        edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(1e-4));
+    }),
+    ("resolution 0 × 5", &["\"main\"", "resolution", "0 × 5"], |w| {
+        put(w, "main", Resolution { width: 0, height: 5 });
+    }),
+    ("resolution 5 × 0", &["\"main\"", "resolution", "5 × 0"], |w| {
+        put(w, "main", Resolution { width: 5, height: 0 });
+    }),
+    ("resolution 70000 × 1", &["\"main\"", "resolution", "70000 × 1"], |w| {
+        put(w, "main", Resolution { width: 70_000, height: 1 });
+    }),
+    ("resolution 65536 × 65536", &["\"main\"", "resolution", "65536 × 65536"], |w| {
+        put(w, "main", Resolution { width: 65_536, height: 65_536 });
+    }),
+    ("eye at target", &["\"main\"", "target", "(1, 2, 3)"], |w| {
+        look_at(w, LookAt { eye: DVec3::new(1.0, 2.0, 3.0), target: DVec3::new(1.0, 2.0, 3.0), up: DVec3::Y });
+    }),
+    ("up along the view", &["\"main\"", "up", "(0, 1, 0)"], |w| {
+        look_at(w, LookAt { eye: DVec3::new(0.0, 5.0, 0.0), target: DVec3::ZERO, up: DVec3::Y });
+    }),
+    ("up against the view", &["\"main\"", "up", "(0, 0, -3)"], |w| {
+        look_at(w, LookAt { eye: DVec3::ZERO, target: DVec3::Z, up: DVec3::new(0.0, 0.0, -3.0) });
+    }),
+    ("up of length 0", &["\"main\"", "up", "(0, 0, 0)"], |w| {
+        look_at(w, LookAt { up: DVec3::ZERO, ..LookAt::default() })
+    }),
+    ("LookAt and a set position", &["\"main\"", "position", "(1, 0, 0)", "LookAt"], |w| {
+        put(w, "main", (LookAt::default(), Placement::at(1.0, 0.0, 0.0)));
+    }),
+    ("LookAt and a set orientation", &["\"main\"", "orientation", "(0, 1, 0, 0)", "LookAt"], |w| {
+        let orientation = DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0);
+        put(w, "main", (LookAt::default(), Placement { orientation, ..Placement::default() }));
+    }),
+    ("a scaled camera", &["\"main\"", "scale", "(2, 2, 2)"], |w| {
+        edit::<Placement>(w, "main", |p| p.scale = DVec3::splat(2.0));
+    }),
+    ("a mirrored camera", &["\"main\"", "scale", "mirrored"], |w| {
+        edit::<Placement>(w, "main", |p| p.scale = DVec3::new(-1.0, 1.0, 1.0));
+    }),
+    ("a camera scaled by its parent", &["\"main\"", "scale", "(1, 3, 1)"], |w| {
+        let scale = DVec3::new(1.0, 3.0, 1.0);
+        let parent = w.spawn(Placement { scale, ..Placement::default() }).id();
+        child_of(w, "main", parent);
+    }),
+    ("a camera mirrored by its parent", &["\"main\"", "scale", "mirrored"], |w| {
+        let parent = w.spawn(Placement { scale: DVec3::splat(-1.0), ..Placement::default() }).id();
+        child_of(w, "main", parent);
+    }),
+    ("two views", &["view", "\"main\"", "\"floor\""], |w| {
+        put(w, "main", View { column: "hit".into() });
+        put(w, "floor", View { column: "ndc".into() });
+    }),
+];
+
+pub const SHAPES: &[Case] = &[
+    ("orientation not unit", &["\"ball\"", "orientation", "(0, 0, 0, 2)", "length 1"], |w| {
+        edit::<Placement>(w, "ball", |p| p.orientation = DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0));
+    }),
+    ("scale 0", &["\"floor\"", "scale", "(1, 0, 1)"], |w| {
+        edit::<Placement>(w, "floor", |p| p.scale = DVec3::new(1.0, 0.0, 1.0));
+    }),
+    ("scale so small that it vanishes", &["\"floor\"", "placement"], |w| {
+        edit::<Placement>(w, "floor", |p| p.scale = DVec3::splat(1e-200));
+    }),
+    ("position out of reach", &["\"ball\"", "position", "1e300"], |w| {
+        edit::<Placement>(w, "ball", |p| p.position = DVec3::splat(1e300));
+    }),
+    ("a parent that is its own child", &["\"ball\"", "parent", "circle through \"ball\""], |w| {
+        let (ball, floor) = (named(w, "ball"), named(w, "floor"));
+        child_of(w, "ball", floor);
+        child_of(w, "floor", ball);
+    }),
+    ("ancestors in a circle", &["\"ball\"", "parent", "circle through \"group\""], |w| {
+        let group = w.spawn((Name::new("group"), Placement::default())).id();
+        let second = w.spawn((Placement::default(), ChildOf(group))).id();
+        w.entity_mut(group).insert(ChildOf(second));
+        child_of(w, "ball", group);
+    }),
+    ("a parent with scale 0", &["\"ball\"", "parent", "\"group\"", "scale", "(1, 0, 1)"], |w| {
+        let scale = DVec3::new(1.0, 0.0, 1.0);
+        let group = w.spawn((Name::new("group"), Placement { scale, ..Placement::default() })).id();
+        child_of(w, "ball", group);
+    }),
+    ("scales that vanish together", &["\"floor\"", "placement"], |w| {
+        let mut parent = w.spawn(Placement::default()).id();
+        for _ in 0..8 {
+            let place = Placement { scale: DVec3::splat(1e-17), ..Placement::default() };
+            parent = w.spawn((place, ChildOf(parent))).id();
+        }
+        child_of(w, "floor", parent);
+    }),
+    ("radius 0", &["\"ball\"", "radius", "is 0,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = 0.0)),
+    ("radius −1", &["\"ball\"", "radius", "is -1,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = -1.0)),
+    ("radius 1e300", &["\"ball\"", "radius", "is 1e300,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e300)),
+    ("radius too small", &["\"ball\"", "radius", "is 1e-40,"], |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e-40)),
+    ("radius −1, scaled", &["\"ball\"", "radius", "is -1,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = -1.0);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::splat(2.0));
+    }),
+    ("radius out of reach by its scale", &["\"ball\"", "radius", "is 1e17 scaled by 1000,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = 1e17);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::splat(1e3));
+    }),
+    ("an uneven sphere", &["\"ball\"", "scale", "(1, 2, 1)"], |w| {
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, 2.0, 1.0));
+    }),
+    ("normal 0", &["\"floor\"", "normal", "(0, 0, 0)"], |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::ZERO)),
+    ("two shapes on one entity", &["\"ball\"", "Sphere and Plane"], |w| put(w, "ball", Plane::default())),
+    ("an unnamed sphere", &["(unnamed, entity ", "radius", "-2"], |w| {
+        w.spawn((Sphere { radius: -2.0 }, Matte::default()));
+    }),
+];
+
+pub const MATTER: &[Case] = &[
+    ("no material", &["\"ball\"", "material", "missing", "Matte"], |w| {
+        let ball = named(w, "ball");
+        w.entity_mut(ball).remove::<Matte>();
+    }),
+    ("two materials", &["\"ball\"", "material", "twice", "\"floor\""], |w| {
+        let floor = named(w, "floor");
+        put(w, "ball", UsesMaterial(floor));
+    }),
+    ("a material that is none", &["\"ball\"", "material", "\"lamp\"", "Matte"], |w| {
+        let (ball, lamp) = (named(w, "ball"), named(w, "lamp"));
+        w.entity_mut(ball).remove::<Matte>().insert(UsesMaterial(lamp));
+    }),
+    ("a material that is disabled", &["\"ball\"", "material", "\"gold\"", "disabled"], |w| {
+        let gold = w.spawn((Name::new("gold"), Matte::default(), Disabled)).id();
+        let ball = named(w, "ball");
+        w.entity_mut(ball).remove::<Matte>().insert(UsesMaterial(gold));
+    }),
+    ("colour 1.5", &["\"ball\"", "colour", "(1.5, 0, 0)"], |w| {
+        edit::<Matte>(w, "ball", |m| m.colour = Rgb::new(1.5, 0.0, 0.0));
+    }),
+    ("colour −0.1", &["\"ball\"", "colour", "(0, -0.1, 0)"], |w| {
+        edit::<Matte>(w, "ball", |m| m.colour = Rgb::new(0.0, -0.1, 0.0));
+    }),
+    ("intensity −1", &["\"lamp\"", "intensity", "(0, 0, -1)"], |w| {
+        edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::new(0.0, 0.0, -1.0));
+    }),
+    ("intensity 1e300", &["\"lamp\"", "intensity", "1e300"], |w| {
+        edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::grey(1e300));
+    }),
+    ("background −1", &["\"sky\"", "colour", "(-1, 0, 0)"], |w| {
+        edit::<Background>(w, "sky", |b| b.colour = Rgb::new(-1.0, 0.0, 0.0));
+    }),
+    ("two backgrounds", &["background", "\"sky\"", "(unnamed, entity "], |w| {
+        w.spawn(Background::default());
+    }),
+    ("a spare colour of 2", &["\"spare\"", "colour", "(2, 2, 2)"], |w| {
+        w.spawn((Name::new("spare"), Matte { colour: Rgb::grey(2.0) }));
+    }),
+];
+
+pub const ORTHOGRAPHIC: &[Case] = &[
+    ("view_height 0", &["\"main\"", "view_height", "is 0,"], |w| {
+        edit::<OrthographicCamera>(w, "main", |c| c.view_height = 0.0);
+    }),
+    ("view_height −1", &["\"main\"", "view_height", "is -1,"], |w| {
+        edit::<OrthographicCamera>(w, "main", |c| c.view_height = -1.0);
+    }),
+];
+
+/// A field of a component, the entity, how to set it.
+pub type Field = (&'static str, &'static str, fn(&mut World, f64));
+
+/// Every number that an author writes.
+pub const FIELDS: &[Field] = &[
+    ("fov", "main", |w, v| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(v))),
+    ("eye", "main", |w, v| look_at(w, LookAt { eye: DVec3::new(v, 0.0, 1.0), ..LookAt::default() })),
+    ("eye", "main", |w, v| look_at(w, LookAt { eye: DVec3::new(0.0, v, 1.0), ..LookAt::default() })),
+    ("eye", "main", |w, v| look_at(w, LookAt { eye: DVec3::new(0.0, 1.0, v), ..LookAt::default() })),
+    ("target", "main", |w, v| look_at(w, LookAt { target: DVec3::new(v, 0.0, 1.0), ..LookAt::default() })),
+    ("target", "main", |w, v| look_at(w, LookAt { target: DVec3::new(0.0, v, 1.0), ..LookAt::default() })),
+    ("target", "main", |w, v| look_at(w, LookAt { target: DVec3::new(0.0, 1.0, v), ..LookAt::default() })),
+    ("up", "main", |w, v| look_at(w, LookAt { up: DVec3::new(v, 1.0, 0.0), ..LookAt::default() })),
+    ("up", "main", |w, v| look_at(w, LookAt { up: DVec3::new(0.0, v, 0.0), ..LookAt::default() })),
+    ("up", "main", |w, v| look_at(w, LookAt { up: DVec3::new(0.0, 1.0, v), ..LookAt::default() })),
+    ("position", "main", |w, v| edit::<Placement>(w, "main", |p| p.position.x = v)),
+    ("orientation", "main", |w, v| edit::<Placement>(w, "main", |p| p.orientation.x = v)),
+    ("orientation", "main", |w, v| edit::<Placement>(w, "main", |p| p.orientation.y = v)),
+    ("orientation", "main", |w, v| edit::<Placement>(w, "main", |p| p.orientation.z = v)),
+    ("orientation", "main", |w, v| edit::<Placement>(w, "main", |p| p.orientation.w = v)),
+    ("scale", "main", |w, v| edit::<Placement>(w, "main", |p| p.scale.x = v)),
+    ("position", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.position.x = v)),
+    ("position", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.position.y = v)),
+    ("position", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.position.z = v)),
+    ("scale", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.scale.x = v)),
+    ("scale", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.scale.y = v)),
+    ("scale", "ball", |w, v| edit::<Placement>(w, "ball", |p| p.scale.z = v)),
+    ("radius", "ball", |w, v| edit::<Sphere>(w, "ball", |s| s.radius = v)),
+    ("colour", "ball", |w, v| edit::<Matte>(w, "ball", |m| m.colour.r = v)),
+    ("colour", "ball", |w, v| edit::<Matte>(w, "ball", |m| m.colour.g = v)),
+    ("colour", "ball", |w, v| edit::<Matte>(w, "ball", |m| m.colour.b = v)),
+    ("position", "floor", |w, v| edit::<Placement>(w, "floor", |p| p.position.y = v)),
+    ("orientation", "floor", |w, v| edit::<Placement>(w, "floor", |p| p.orientation.w = v)),
+    ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.x = v)),
+    ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.y = v)),
+    ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.z = v)),
+    ("position", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.position.z = v)),
+    ("orientation", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.orientation.w = v)),
+    ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.r = v)),
+    ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.g = v)),
+    ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.b = v)),
+    ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.r = v)),
+    ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.g = v)),
+    ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.b = v)),
+];

@@ -1,0 +1,91 @@
+//! The film: what may not join it, what it sums, and what it leaves on disk.
+
+mod scenes;
+
+use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+use pinhole::film::{Curve, Film, FilmTile, Rejected, byte_from_linear, png_bytes, write_exr, write_png};
+use pinhole::rays::Tile;
+use scenes::{Setup, full, offer};
+use std::fs;
+
+#[test]
+fn samples_that_are_no_light_are_counted_and_kept_out() {
+    let tile = Tile { x: 32, y: 64, width: 4, height: 3 };
+    let mut film = FilmTile::new(tile);
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -f32::MIN_POSITIVE];
+    let mut expected = Vec::new();
+    for row in 0..tile.rows() {
+        film.add(row, [0.25, 0.5, 1.0]);
+        for (turn, value) in bad.into_iter().enumerate() {
+            let mut radiance = [0.125; 3];
+            radiance[(row + turn) % 3] = value;
+            expected.push(Rejected { pixel: tile.pixel_of(row), sample: 1, radiance });
+            film.add(row, radiance);
+        }
+        film.add(row, [0.75, 0.5, 0.0]);
+        film.add(row, [-0.0, f32::MAX, 1e-45]);
+    }
+    let rows = tile.rows();
+    assert_eq!(film.rejected, (bad.len() * rows) as u64);
+    assert!(!film.first_rejected.is_empty());
+    for (found, expected) in film.first_rejected.iter().zip(&expected) {
+        assert_eq!((found.pixel, found.sample), (expected.pixel, expected.sample));
+        assert_eq!(found.radiance.map(f32::to_bits), expected.radiance.map(f32::to_bits), "as it came");
+    }
+    for row in 0..rows {
+        assert_eq!(film.count[row], 3);
+        let sums = [1.0, 1.0 + f64::from(f32::MAX), 1.0 + f64::from(1e-45_f32)];
+        assert_eq!([film.r[row], film.g[row], film.b[row]], sums, "only what is light is summed");
+    }
+    let film = Film { width: 4, height: 3, tile_side: 4, tiles: vec![film] };
+    assert_eq!(film.rejected().0, (bad.len() * rows) as u64);
+    assert_eq!(film.rejected().1[0].pixel, [32, 64], "by the pixel of the image, not of the tile");
+    eprintln!("rejected: {} samples of {} kinds in {rows} pixels", bad.len() * rows, bad.len());
+}
+
+#[test]
+fn many_ones_have_the_mean_one() {
+    const SAMPLES: u32 = 1 << 26;
+    let mut film = FilmTile::new(Tile { x: 0, y: 0, width: 1, height: 1 });
+    for _ in 0..SAMPLES {
+        film.add(0, [1.0; 3]);
+    }
+    assert_eq!((film.r[0], film.count[0], film.mean(0)), (f64::from(SAMPLES), SAMPLES, [1.0; 3]));
+    eprintln!("sums: 2^26 × 1.0 has the mean 1.0; in f32 the sum would stop at 2^24");
+}
+
+#[test]
+fn files_read_back_as_the_film() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for size in [[97, 31], [1, 1], [33, 65]] {
+        let scene = full(Setup { size, ..Setup::default() });
+        let film = pinhole::render::render(&scene, &offer(), &scenes::one_world(), &()).expect("renders").film;
+        let [width, height] = size;
+        for curve in [Curve::Srgb, Curve::Straight] {
+            let path = folder.path().join("picture.png");
+            write_png(&film, curve, &path).expect("written");
+            assert_eq!(fs::read(&path).expect("read"), png_bytes(&film, curve).expect("encoded"));
+            let image = image::open(&path).expect("a PNG");
+            assert_eq!(image.color(), image::ColorType::Rgb8);
+            let image = image.into_rgb8();
+            assert_eq!(image.dimensions(), (width, height));
+            for (x, y, pixel) in image.enumerate_pixels() {
+                assert_eq!(pixel.0, film.mean(x, y).map(|part| byte_from_linear(part, curve)), "{x},{y}");
+            }
+        }
+        let path = folder.path().join("picture.exr");
+        write_exr(&film, &path).expect("written");
+        let layer = read_first_flat_layer_from_file(&path).expect("an EXR").layer_data;
+        assert_eq!((layer.size.x(), layer.size.y()), (width as usize, height as usize));
+        let names: Vec<String> = layer.channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
+        assert_eq!(names, ["B", "G", "R"], "as the format orders them");
+        for (channel, part) in layer.channel_data.list.iter().zip([2, 1, 0]) {
+            let FlatSamples::F32(values) = &channel.sample_data else { panic!("{} is not f32", channel.name) };
+            for (at, value) in values.iter().enumerate() {
+                let (x, y) = (at as u32 % width, at as u32 / width);
+                assert_eq!(value.to_bits(), film.mean(x, y)[part].to_bits(), "{} of {x},{y}", channel.name);
+            }
+        }
+    }
+    eprintln!("files: 3 sizes, PNG by two curves and EXR, every pixel equal to the film");
+}

@@ -1,0 +1,110 @@
+//! Stages forced on that a scene does not need, and off that it does.
+
+use super::*;
+
+/// The offer with one stage's say replaced.
+fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
+    let always: fn(&World) -> Evidence = |_| Evidence::always("forced on");
+    let never: fn(&World) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
+    let mut offer = offer.to_vec();
+    for stage in offer.iter_mut().filter(|stage| names.contains(&stage.name)) {
+        stage.when = if needed { always } else { never };
+    }
+    offer
+}
+
+#[test]
+fn forcing_an_exact_stage_on_changes_nothing() {
+    let offer = offer();
+    let (mut ran, mut unread, mut without_producer, mut together) = (0, 0, 0, 0);
+    let mut tried: BTreeSet<&str> = BTreeSet::new();
+    let mut scenes: Vec<(String, World)> = combinations()
+        .into_iter()
+        .filter(|on| on.len() <= 3 && !pictureless(on))
+        .map(|on| (format!("{on:?}"), toggled(&on)))
+        .collect();
+    for eye in EYES {
+        scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
+    }
+    for (name, scene) in &scenes {
+        let expected = film(scene);
+        let plan = plan_of(scene);
+        let exact = |stage: &&Stage| stage.kind == StageKind::Exact && !row(&plan, stage.name).kept;
+        let dropped: Vec<&str> = offer.iter().filter(exact).map(|stage| stage.name).collect();
+        for &stage in &dropped {
+            let offer = forced(&offer, &[stage], true);
+            match film_by(scene, &offer, &one_world()) {
+                Ok(film) => {
+                    film.assert_is(&expected, &format!("{name}: \"{stage}\" forced on"));
+                    if row(&pinhole::plan::plan(scene, &offer).expect("plans"), stage).kept {
+                        ran += 1;
+                        tried.insert(stage);
+                    } else {
+                        unread += 1;
+                    }
+                }
+                Err(Error::Plan(PlanError::NoProducer { .. })) => without_producer += 1,
+                Err(error) => panic!("{name}: \"{stage}\" forced on: {error}"),
+            }
+        }
+        // All at once, so that each also finds the columns that it reads.
+        // Light is added even where there is none, so that what only it reads is read.
+        let all = [dropped.as_slice(), &["Add the light that arrives"]].concat();
+        let offer = forced(&offer, &all, true);
+        match film_by(scene, &offer, &one_world()) {
+            Ok(film) => {
+                film.assert_is(&expected, &format!("{name}: all of {dropped:?} forced on"));
+                let plan = pinhole::plan::plan(scene, &offer).expect("plans");
+                let kept: Vec<&str> = dropped.iter().copied().filter(|stage| row(&plan, stage).kept).collect();
+                together += kept.len();
+                tried.extend(kept);
+            }
+            Err(error) => panic!("{name}: all of {dropped:?} forced on: {error}"),
+        }
+    }
+    let exact: BTreeSet<&str> =
+        offer.iter().filter(|stage| stage.kind == StageKind::Exact).map(|stage| stage.name).collect();
+    let untried: Vec<&&str> = exact.difference(&tried).collect();
+    eprintln!(
+        "forced on: {} scenes; alone: {ran} ran, {unread} read by nothing, {without_producer} without a producer; \
+         together {together} ran; never dropped: {untried:?}",
+        scenes.len()
+    );
+    assert_eq!(untried, [&"Add to the film", &"Place raster points", &"Start in the dark"], "tried too little");
+}
+
+#[test]
+fn forcing_a_needed_stage_off_shows() {
+    let offer = offer();
+    let size = [24, 16];
+    let witnesses: Vec<(&str, World)> = vec![
+        ("everything", full(Setup { size, ..Setup::default() })),
+        ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
+        ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
+        ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
+    ];
+    for stage in &offer {
+        let mut powers = Vec::new();
+        for (name, scene) in &witnesses {
+            if !row(&plan_of(scene), stage.name).kept {
+                continue;
+            }
+            match film_by(scene, &forced(&offer, &[stage.name], false), &one_world()) {
+                Ok(film) if film != self::film(scene) => powers.push(format!("changes \"{name}\"")),
+                Ok(_) => {}
+                Err(Error::Plan(PlanError::NoProducer { stage: reader, column, why })) => {
+                    assert!(stage.writes.iter().any(|own| own.name == column), "\"{}\" writes {column}", stage.name);
+                    assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
+                    powers.push(format!("\"{reader}\" misses `{column}` in \"{name}\""));
+                }
+                Err(Error::Plan(PlanError::NoSuchView { asked, why })) => {
+                    assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
+                    powers.push(format!("the view misses `{asked}` in \"{name}\""));
+                }
+                Err(error) => panic!("\"{}\" forced off: {error}", stage.name),
+            }
+        }
+        assert!(!powers.is_empty(), "\"{}\" forced off shows nowhere", stage.name);
+        eprintln!("forced off: \"{}\": {}", stage.name, powers[0]);
+    }
+}

@@ -1,0 +1,67 @@
+//! What a view paints, and what it answers to a word it does not know.
+
+use super::*;
+
+#[test]
+fn a_view_of_an_unknown_word_names_what_is_on_offer() {
+    let words = ["", "surfaces", "Surface", "pixel", "nonsense"];
+    for word in words {
+        let mut scene = toggled(&[Toggle::Sphere]);
+        let camera = named(&mut scene, "camera");
+        scene.entity_mut(camera).insert(View { column: word.into() });
+        let error = plan(&scene, &offer()).expect_err("no such column");
+        let PlanError::NoSuchView { asked, why } = &error else { panic!("{error}") };
+        assert_eq!(asked, word);
+        for name in view_names(&offer()) {
+            assert!(why.contains(name), "`{word}`: {why} must name `{name}`");
+        }
+        assert_eq!(error.to_string(), format!("the view asks for the column `{word}`, but {why}"));
+    }
+    eprintln!("views: {} unknown words, each answered with {:?}", words.len(), view_names(&offer()));
+}
+
+/// A view runs fewer stages than the picture does, but those that run write the very same numbers.
+#[test]
+fn a_view_paints_the_columns_of_the_whole_picture() {
+    let mut compared = 0;
+    for eye in EYES {
+        let setup = Setup { eye, size: [40, 33], ..Setup::default() };
+        let whole = inspect(&full(setup), &offer(), 32).expect("inspects");
+        for column in &whole.plan.columns {
+            if column.name == "pixel" || column.name == "radiance" {
+                continue;
+            }
+            let mut scene = full(setup);
+            let camera = named(&mut scene, "camera");
+            scene.entity_mut(camera).insert(View { column: column.name.into() });
+            let viewed = film(&scene);
+            let tiles: Vec<FilmTile> =
+                whole.tiles.iter().map(|&tile| painted(&whole.world.entity(tile), column, whole.image)).collect();
+            let expected = FilmBits::of_tiles(whole.image.width, whole.image.height, tiles.iter());
+            viewed.assert_is(&expected, &format!("{eye:?}, view of {}", column.name));
+            // An orthographic camera's rays all have one direction.
+            let uniform = eye == Eye::Orthographic && matches!(column.name, "camera" | "world");
+            assert_eq!(viewed.colours() == 1, uniform, "{eye:?}: the view of {} shows nothing", column.name);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 2 * (view_names(&offer()).len() - 1), "every column but radiance, which is the picture");
+    eprintln!("views: {compared} views, each equal to its column of the whole picture");
+}
+
+/// What a view of a column must show: a pixel's first row, black without one.
+fn painted(tile: &EntityRef<'_>, column: &ColumnKind, image: ImageShape) -> FilmTile {
+    let mut film = FilmTile::new(*tile.get::<Tile>().expect("a tile"));
+    let rows = (column.rows)(tile);
+    let lanes = (column.lanes)(tile);
+    let paths = lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values);
+    for path in 0..film.count.len() {
+        let first = match paths {
+            Some(LaneValues::U32(paths)) => paths.iter().position(|&own| own as usize == path),
+            _ => (path < rows).then_some(path),
+        };
+        let paint = |row| (column.paint)(tile, row, [image.width, image.height]);
+        film.add(path, first.map_or([0.0; 3], paint));
+    }
+    film
+}
