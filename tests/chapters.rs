@@ -34,6 +34,13 @@ test_chapters! {
     chapter_03_hit: hit,
     chapter_04_orthographic: orthographic,
     chapter_05_pinhole: pinhole_camera,
+    chapter_06_ndc: ndc,
+    chapter_07_screen: screen,
+    chapter_08_field_of_view: field_of_view,
+    chapter_09_camera_to_world: camera_to_world,
+    chapter_10_light_and_shadow: light_and_shadow,
+    chapter_11_conventions: conventions,
+    chapter_12_how_it_is_built: how_it_is_built,
 }
 
 #[test]
