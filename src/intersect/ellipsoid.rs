@@ -159,7 +159,10 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
     let steps = across.length();
     let behind = ((g.dot(g) - 1.0).abs() + 2.0 * error) / steps;
     let bound = offset_bound(point, origin, 0.0) + behind as f32;
-    Surface::facing(direction, point, across / steps, bound, matte)
+    // The side is told where g and q are known best: along a limb of the unit space.
+    let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
+    let normal = if away { -across / steps } else { across / steps };
+    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
 }
 // ANCHOR_END: ellipsoid_surface
 
