@@ -9,7 +9,7 @@ use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
-use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, ties, turned};
+use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, stretched, ties, turned};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -23,6 +23,7 @@ fn pictures() -> Vec<(&'static str, World)> {
     vec![
         ("perspective", turned(Setup::default())),
         ("orthographic", turned(Setup { eye: Eye::Orthographic, ..Setup::default() })),
+        ("stretched", stretched(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -138,7 +139,7 @@ fn every_order_that_the_schedule_allows() {
             }
         }
         // Two kinds of shape and two columns to start, so each order-free set that runs has two orders.
-        let least = if matches!(name, "perspective" | "orthographic") { 16 } else { 8 };
+        let least = if matches!(name, "perspective" | "orthographic" | "stretched") { 16 } else { 8 };
         assert_eq!(orders.len(), least, "{name}: not every order that is allowed was seen in {SEEDS} seeds");
         eprintln!("orders of {name}: {SEEDS} seeds × 4 renders, {} different orders, all equal", orders.len());
     }
