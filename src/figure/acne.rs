@@ -1,16 +1,15 @@
 use super::Figure;
 use super::label::Label;
+use super::occluders::Occluders;
 use super::pen::WIDTH;
 use super::picture::Picture;
 use super::sketch::Frame;
 use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::{Asked, Chapter};
-use crate::extract::{PlaneTable, SphereTable};
 use crate::film::FilmTile;
-use crate::intersect::{NO_SHAPE, Surfaces, plane_t, sphere_t};
+use crate::intersect::{NO_SHAPE, Surfaces};
 use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, start_off_surface};
-use crate::plan::Table;
 use crate::render::inspect;
 use crate::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
 use crate::shade::{LightRays, ShadowHits};
@@ -68,8 +67,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// What the stages wrote up to the shadow rays, and the shapes that may stand in the way.
 struct Shadows {
-    spheres: SphereTable,
-    planes: PlaneTable,
+    occluders: Occluders,
     surfaces: Surfaces,
     rays: LightRays,
     hits: ShadowHits,
@@ -94,8 +92,7 @@ impl Shadows {
         let met = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
         let unlit = |row: usize| if met(row) { [0.0; 3] } else { film.mean(row) };
         let unlit = (0..film.count.len()).map(unlit).collect();
-        let (spheres, planes) = (SphereTable::extract(&scene)?, PlaneTable::extract(&scene)?);
-        Ok(Self { spheres, planes, surfaces, rays, hits, unlit })
+        Ok(Self { occluders: Occluders::of(&scene)?, surfaces, rays, hits, unlit })
     }
 
     /// The picture with another start of each shadow ray, and how many of them are judged otherwise than by the kit.
@@ -114,15 +111,10 @@ impl Shadows {
         (Picture { width: SIZE[0], height: SIZE[1], pixels }, wrong)
     }
 
-    /// Whether anything is met beyond `t_min` and within reach, by the kit's own intersection.
+    /// Whether anything is met beyond `t_min` and within reach.
     fn blocked(&self, start: ShadowStart, direction: DVec3, reach: f64) -> bool {
         let t_min = f64::from(start.t_min);
-        let origin = start.origin.as_dvec3() + t_min * direction;
-        let spheres = (0..self.spheres.radius.len())
-            .map(|row| sphere_t(origin, direction, self.spheres.centre(row), self.spheres.radius[row]));
-        let planes = self.planes.normal.iter().zip(&self.planes.offset);
-        let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
-        spheres.chain(planes).any(|t| t < reach - t_min)
+        self.occluders.block(start.origin.as_dvec3() + t_min * direction, direction, reach - t_min)
     }
 }
 

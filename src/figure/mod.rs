@@ -10,6 +10,9 @@ mod acne;
 mod grid;
 mod hit;
 mod label;
+mod look_at;
+mod normals;
+mod occluders;
 mod offset;
 mod orthographic;
 mod patch;
@@ -59,7 +62,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 7] {
+pub fn figures() -> [Figure; 9] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -76,6 +79,18 @@ pub fn figures() -> [Figure; 7] {
             chapter: "05_pinhole",
             about: "a pinhole camera: rays from the eye through pixel centres",
             draw: pinhole::draw,
+        },
+        Figure {
+            name: "09_camera_to_world",
+            chapter: "09_camera_to_world",
+            about: "the camera's axes, made of eye, target and up",
+            draw: look_at::draw,
+        },
+        Figure {
+            name: "09_normals",
+            chapter: "09_camera_to_world",
+            about: "spheres scaled unevenly, lit by wrong normals and by right ones",
+            draw: normals::draw,
         },
         Figure {
             name: "10_light_and_shadow",
