@@ -75,8 +75,9 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
     positive_length(&who, "shortest half axis", shortest)?;
     let ratio = longest / shortest;
     if !(ratio <= LARGEST_RATIO) {
-        let lengths = DVec3::from([0, 1, 2].map(|axis| pose.world_from_entity.matrix3.col(axis).length()));
-        let value = format!("{}, {ratio:.1e} times as long one way as another", triple(lengths));
+        let own = scene.get::<Placement>(entity).copied().unwrap_or_default().scale;
+        let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
+        let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));
         let accepted = format!("a sphere may be at most {LARGEST_RATIO:e} times as long one way as another");
         return Err(Refusal::new(who, "scale", value, accepted));
     }
@@ -107,4 +108,66 @@ pub(super) fn even_scale(world_from_entity: DMat3) -> Option<f64> {
     let uneven = (lengths - lengths.x).abs().max_element();
     let even = uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x;
     even.then_some(lengths.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{ShapeKind, ShapeTable, SphereTable};
+    use crate::scene::{Matte, PerspectiveCamera};
+    use glam::DQuat;
+
+    fn scene(scales: &[DVec3]) -> (World, Vec<Entity>) {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 9.0)));
+        let orientation = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+        let spawn = |&scale: &DVec3| {
+            let placement = Placement { scale, orientation, position: DVec3::new(1.0, 2.0, 3.0) };
+            world.spawn((Sphere { radius: 2.0 }, Matte::default(), placement)).id()
+        };
+        let spheres = scales.iter().map(spawn).collect();
+        (world, spheres)
+    }
+
+    #[test]
+    fn a_sphere_is_in_one_table_or_the_other() {
+        let uneven = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
+        let even = [DVec3::ONE, DVec3::new(1.0, 1.0, 1.0 + 1e-12), DVec3::new(-2.0, 2.0, 2.0), DVec3::splat(-1e-9)];
+        let (world, spheres) = scene(&[&uneven[..], &even].concat());
+        let (shapes, ellipsoids) = (ShapeTable::extract(&world), EllipsoidTable::extract(&world));
+        let (shapes, ellipsoids) = (shapes.expect("shapes"), ellipsoids.expect("ellipsoids"));
+        let spheres_left = SphereTable::extract(&world).expect("spheres");
+        assert_eq!(ellipsoids.shape, [0, 1, 2]);
+        assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
+        for (number, &sphere) in spheres.iter().enumerate() {
+            let kind = if unevenly_scaled(&world, sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            assert_eq!(shapes.kind[number], kind, "sphere {number}");
+        }
+    }
+
+    #[test]
+    fn the_map_takes_poles_to_the_unit_sphere() {
+        let scale = DVec3::new(-1e-3, 3.0, 1e3);
+        let (world, spheres) = scene(&[scale]);
+        let table = EllipsoidTable::extract(&world).expect("ellipsoids");
+        let pose = pose(&world, "", spheres[0]).expect("a pose");
+        let Ellipsoid { centre, unit_from_world, reach, .. } = table.ellipsoid[0];
+        assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let pole = pose.world_from_entity.matrix3 * (axis * 2.0);
+            assert!((unit_from_world * pole - axis).length() < 1e-7, "{axis}: {}", unit_from_world * pole);
+            assert!(pole.length() <= reach);
+        }
+        assert!(reach < 2e3 * 1.0001);
+    }
+
+    #[test]
+    fn what_is_longer_one_way_than_ten_million_times_another_is_refused() {
+        let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
+        assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
+        for ratio in [2e7, 1e-8] {
+            let refusal = table(ratio).expect_err("refused").to_string();
+            assert!(refusal.contains("scale is (1, 1, ") && refusal.contains("1e7 times"), "{refusal}");
+        }
+    }
 }

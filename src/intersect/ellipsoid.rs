@@ -159,7 +159,10 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
     let steps = across.length();
     let behind = ((g.dot(g) - 1.0).abs() + 2.0 * error) / steps;
     let bound = offset_bound(point, origin, 0.0) + behind as f32;
-    Surface::facing(direction, point, across / steps, bound, matte)
+    // The side is told where g and q are known best: along a limb of the unit space.
+    let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
+    let normal = if away { -across / steps } else { across / steps };
+    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
 }
 // ANCHOR_END: ellipsoid_surface
 
@@ -208,4 +211,55 @@ pub fn ellipsoid_surface_stage() -> Stage {
 pub fn ellipsoid_evidence(scene: &World) -> Evidence {
     let uneven = |sphere| unevenly_scaled(scene, sphere);
     Evidence::of_kind::<With<Sphere>>(scene, "unevenly scaled sphere", uneven)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat3, Vec3};
+
+    /// Half axes 1, 2, 4 along x, y, z, ten units ahead.
+    fn egg() -> Ellipsoid {
+        let unit_from_world = DMat3::from_diagonal(DVec3::new(1.0, 0.5, 0.25));
+        Ellipsoid::new(DVec3::new(0.0, 0.0, -10.0), unit_from_world, 4.0)
+    }
+
+    #[test]
+    fn poles_are_met_where_the_half_axes_end() {
+        let t = |origin, direction| ellipsoid_t(origin, direction, &egg());
+        assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z), 6.0);
+        assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z * 2.0), 3.0);
+        assert_eq!(t(DVec3::new(0.0, 5.0, -10.0), DVec3::NEG_Y), 3.0);
+        assert_eq!(t(DVec3::new(0.0, 0.0, -10.0), DVec3::X), 1.0);
+        assert_eq!(t(DVec3::X, DVec3::NEG_Z), 10.0);
+        assert_eq!(t(DVec3::X * (1.0 + f64::EPSILON), DVec3::NEG_Z), f64::INFINITY);
+        assert_eq!(t(DVec3::ZERO, DVec3::Z), f64::INFINITY);
+    }
+
+    #[test]
+    fn normals_are_outward_also_where_the_map_mirrors() {
+        let origin = DVec3::new(0.3, 0.7, 0.0);
+        let at = |ellipsoid: &Ellipsoid| {
+            let t = ellipsoid_t(origin, DVec3::NEG_Z, ellipsoid);
+            ellipsoid_surface(origin, DVec3::NEG_Z, t, ellipsoid, 7)
+        };
+        let (plain, mirror) = (egg(), DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)));
+        let mirrored = Ellipsoid { unit_from_world: mirror * plain.unit_from_world, ..plain };
+        assert_eq!(at(&plain), at(&mirrored));
+        let surface = at(&plain);
+        let from_centre = surface.position.as_dvec3() - plain.centre;
+        let gradient = from_centre / DVec3::new(1.0, 4.0, 16.0);
+        assert!(gradient.normalize().as_vec3().distance(surface.normal) < 1e-7 && surface.matte == 7);
+        assert!((surface.normal.length() - 1.0).abs() < 1e-6 && surface.bound > 0.0 && surface.bound < 1e-4);
+        assert!(surface.normal.dot(Vec3::Z) > 0.0);
+    }
+
+    #[test]
+    fn where_f64_is_in_doubt_the_wide_point_lies_on_the_surface() {
+        let long = Ellipsoid::new(DVec3::new(0.0, 3e9, -4e9), DMat3::from_diagonal(DVec3::new(1.0, 1e-4, 1.0)), 1e4);
+        let direction = DVec3::new(0.0, 0.6, -0.8);
+        let t = ellipsoid_t(DVec3::ZERO, direction, &long);
+        let (_, g) = wide_ellipsoid_point(DVec3::ZERO, direction, t, &long);
+        assert!((g.length() - 1.0).abs() < 1e-15, "{g}");
+    }
 }
