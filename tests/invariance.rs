@@ -9,7 +9,9 @@ use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
-use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, stretched, ties, turned};
+use scenes::{
+    EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, stretched, ties, turned,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod ellipsoid;
+pub mod euler;
 pub mod plane;
 pub mod shadow;
 pub mod sphere;

@@ -54,6 +54,7 @@ pub fn start_shadow_stage() -> Stage {
         .when(shadow_evidence)
 }
 
+// ANCHOR: sphere_shadow_stage
 /// The stage that intersects shadow rays with spheres.
 pub fn sphere_shadow_stage() -> Stage {
     Stage::new("Look for spheres in the way", TileSystems::Occlude, intersect_spheres::<LightRays, ShadowHits>)
@@ -63,6 +64,7 @@ pub fn sphere_shadow_stage() -> Stage {
         .table::<SphereTable>()
         .when(|scene| sphere_evidence(scene).and(shadow_evidence(scene)))
 }
+// ANCHOR_END: sphere_shadow_stage
 
 /// The stage that intersects shadow rays with ellipsoids.
 pub fn ellipsoid_shadow_stage() -> Stage {
