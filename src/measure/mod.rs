@@ -4,10 +4,13 @@
 //! Nothing here runs in a render.
 
 pub mod cost;
+pub mod enclosure;
 pub mod exact;
 pub mod exact_angle;
 pub mod exact_vector;
 pub mod extremes;
+pub mod judge_camera;
+pub mod number;
 pub mod oracle_camera;
 pub mod oracle_plane;
 pub mod oracle_sphere;

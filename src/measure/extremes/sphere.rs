@@ -4,7 +4,7 @@ use super::bench::{Bench, sphere_table};
 use super::frame;
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Hits, sphere_stage, sphere_t, start_stage};
-use crate::measure::oracle_sphere::{Sphere, sphere_hit};
+use crate::measure::oracle_sphere::{self, Sphere};
 use crate::measure::ray_aim::{self, AimedRay};
 use crate::naive::sphere::{hit_f32, hit_f64_plain, hit_haines_f32};
 use std::ops::Range;
@@ -64,7 +64,7 @@ fn judge(aim: fn(u64) -> (AimedRay, Sphere), range: Range<u64>) -> Tally {
 
 /// The exact distance, rounded to f64 once.
 pub(super) fn exact(ray: AimedRay, sphere: Sphere) -> Option<f64> {
-    sphere_hit(ray.origin, ray.direction, sphere).map(|t| t.to_f64())
+    oracle_sphere::sphere_t(ray.origin, ray.direction, sphere)
 }
 
 /// The distance by the kit's function of one ray and one sphere.
