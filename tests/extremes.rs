@@ -42,6 +42,11 @@ fn cameras_hold() {
 }
 
 #[test]
+fn films_hold() {
+    holds(Group::Film, 1024);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

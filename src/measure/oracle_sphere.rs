@@ -5,7 +5,7 @@
 //! error below 2^-300.
 
 use super::enclosure::Enclosure;
-use super::exact::Dyadic;
+use super::exact::{Dyadic, UNIT_ROUNDOFF_F32};
 use super::exact_vector::Vector;
 use super::number::Number;
 use glam::{DVec3, Vec3};
@@ -133,6 +133,20 @@ fn height<N: Number>(point: DVec3, sphere: Sphere) -> N {
     let from_centre = Vector::<N>::of(point).minus(&Vector::of(sphere.centre));
     let radius = N::of(sphere.radius);
     from_centre.dot(&from_centre).less(&radius.by(&radius))
+}
+
+/// How far the point lies off the surface, over u (|c| + r), u = 2⁻²⁴.
+#[must_use]
+pub fn height_in_u(point: DVec3, sphere: Sphere) -> f64 {
+    let enclosed = surface_height::<Enclosure>(point, sphere).about();
+    let height = enclosed.unwrap_or_else(|| surface_height::<Dyadic>(point, sphere).to_f64());
+    height.abs() / (UNIT_ROUNDOFF_F32 * (sphere.centre.length() + sphere.radius))
+}
+
+/// The distance from the centre less the radius.
+fn surface_height<N: Number>(point: DVec3, sphere: Sphere) -> N {
+    let from_centre = Vector::<N>::of(point).minus(&Vector::of(sphere.centre));
+    from_centre.dot(&from_centre).root().less(&N::of(sphere.radius))
 }
 
 /// Whether the point lies strictly outside the sphere, exactly.

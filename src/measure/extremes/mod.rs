@@ -7,8 +7,11 @@
 mod bench;
 mod camera;
 mod camera_chain;
+mod camera_limits;
 mod camera_table;
 mod case;
+mod film;
+mod film_bytes;
 mod frame;
 mod lamp;
 mod plane;
@@ -16,8 +19,9 @@ mod print;
 mod shadow;
 mod shadow_stages;
 mod sphere;
+mod sphere_limits;
 
-pub use case::{Case, Method, Outcome, Score, Tally, Trial};
+pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 
 use crate::render::Watch;
 use rayon::prelude::*;
@@ -35,19 +39,24 @@ pub enum Group {
     Shadow,
     /// Cameras: raster → NDC → screen → camera → world.
     Camera,
+    /// Films: sums of samples, bytes of pictures.
+    Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 4] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera];
+    pub const ALL: [Self; 5] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Film];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
         match self {
-            Self::Sphere => sphere::trials(),
+            Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
             Self::Plane => plane::trials(),
             Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
-            Self::Camera => [camera::trials(), camera_table::trials()].into_iter().flatten().collect(),
+            Self::Camera => {
+                [camera::trials(), camera_table::trials(), camera_limits::trials()].into_iter().flatten().collect()
+            }
+            Self::Film => film::trials(),
         }
     }
 }
@@ -59,6 +68,7 @@ impl fmt::Display for Group {
             Self::Plane => "plane",
             Self::Shadow => "shadow",
             Self::Camera => "camera",
+            Self::Film => "film",
         })
     }
 }
@@ -67,7 +77,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        Self::ALL.into_iter().find(known).ok_or_else(|| "it must be sphere, plane, shadow or camera".into())
+        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
+        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 

@@ -1,6 +1,6 @@
 //! How a case reads: a line of its own, then a line a method.
 
-use super::{Case, Group, Outcome};
+use super::{Case, Group, Outcome, Score, Worst};
 use std::fmt;
 
 impl Group {
@@ -11,6 +11,7 @@ impl Group {
             Self::Plane => ["rays against planes", "hits", "misjudged"],
             Self::Shadow => ["shadow rays", "starts", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
+            Self::Film => ["samples and bytes of films", "judged", "wrong"],
         }
     }
 
@@ -34,7 +35,39 @@ impl fmt::Display for Case {
                 writeln!(f, "    the naive method passes here too: this case proves nothing about it")?;
             }
         }
-        Ok(())
+        self.worst.as_ref().map_or(Ok(()), |worst| self.write_worst(worst, f))
+    }
+}
+
+impl Case {
+    /// The input at which the first naive method that breaks is at its worst, and what is said of it.
+    fn write_worst(&self, worst: &Worst, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let naive = &worst.scores[worst.method];
+        writeln!(f, "  at its worst, input {}: {}", worst.input, self.outcomes[worst.method].method.name)?;
+        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, worst.scores[0].said) {
+            let [naive, kit, exact] = [naive, kit, exact].map(said);
+            return writeln!(f, "    naive {naive}, kit {kit}, exact {exact}");
+        }
+        let [naive, kit] = [worst.method, 0].map(|row| came(&worst.scores[row], self.outcomes[row].method.unit));
+        writeln!(f, "    naive {naive}, kit {kit}")
+    }
+}
+
+/// A distance or another number, or that there is none.
+fn said(value: Option<f64>) -> String {
+    match value {
+        None => "none".into(),
+        Some(value) if value == 0.0 || (1e-3..1e6).contains(&value.abs()) => format!("{value:.10}"),
+        Some(value) => format!("{value:.10e}"),
+    }
+}
+
+/// Right, wrong, or off by how much.
+fn came(score: &Score, unit: &str) -> String {
+    match (score.wrong > 0, unit) {
+        (true, _) => "wrong".into(),
+        (false, "") => "right".into(),
+        (false, unit) => format!("off by {} {unit}", short(score.worst)),
     }
 }
 
@@ -57,7 +90,7 @@ impl fmt::Display for Outcome {
 }
 
 /// A number in few digits: the eye compares sizes here, not digits.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     match value {
         0.0 => "0".into(),
         _ if value.is_infinite() => "infinite".into(),

@@ -31,6 +31,7 @@ pub fn trials() -> Vec<Trial> {
         trial("horizon of radius 1e6 from height 1", |index| ray_aim::horizon(24, index, 1e6, 1.0)),
         trial("horizon of radius 1e8 from height 1e-2", |index| ray_aim::horizon(25, index, 1e8, 1e-2)),
         trial("disc of radius 1e6 from height 1", |index| ray_aim::disc(26, index, 1e6, 1.0 + 1e-6)),
+        trial("radius 1e-6 at 1e3, finer than directions", |index| ray_aim::disc(32, index, 1e-6, 1e9)),
         trial("tangent at 1.5 radii", |index| ray_aim::tangent(27, index, 1.0, 1.5)),
         trial("tangent at 1e3 radii", |index| ray_aim::tangent(28, index, 1.0, 1e3)),
         trial("centre at 1e5 radii", |index| ray_aim::centre(29, index, 1.0, 1e5)),
