@@ -17,7 +17,8 @@ use std::path::PathBuf;
     cargo run --release -- render cover --view surface\n  \
     cargo run --release -- plan 04_orthographic\n  \
     cargo run --release -- trace cover --pixel 480,300\n  \
-    cargo run --release -- extremes sphere"
+    cargo run --release -- extremes sphere\n  \
+    cargo run --release -- sweep 05_pinhole"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -36,6 +37,8 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
+    /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
+    Sweep(SweepChapter),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
@@ -53,6 +56,12 @@ pub struct TryExtremes {
     /// How many rays each case tries
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub rays: u64,
+}
+
+#[derive(Args)]
+pub struct SweepChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
 }
 
 #[derive(Args)]

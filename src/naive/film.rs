@@ -6,12 +6,12 @@
 /// the darker the picture.
 #[must_use]
 pub fn mean_by_sum_f32(samples: impl IntoIterator<Item = f32>) -> f32 {
-    let (mut sum, mut count) = (0.0_f32, 0.0_f32);
+    let (mut sum, mut count) = (0.0_f32, 0_u32);
     for sample in samples {
         sum += sample;
-        count += 1.0;
+        count += 1;
     }
-    sum / count
+    sum / count as f32
 }
 
 /// The mean kept up to date after every sample: m + (x − m) / n, in f32.

@@ -10,36 +10,37 @@ use crate::naive::camera::{look_at_f32, raster_f32, stepped_f32, tan_half_f32};
 use crate::scene::{Degrees, FovAxis, LookAt};
 use glam::{DMat3, DQuat, DVec3};
 
-/// The widest image.
-const WIDE: u32 = 65_536;
-
 /// The cases of limits that have naive methods of their own.
 pub fn trials() -> Vec<Trial> {
-    vec![every_pixel(), wide_tangents(), no_angle(), no_axes(), any_distance()]
+    vec![every_pixel(65_536), every_pixel(65_535), wide_tangents(), no_angle(), no_axes(), any_distance()]
 }
 
-/// Every pixel of the widest image: its points lie in it.
-fn every_pixel() -> Trial {
+/// Every pixel of a line as wide as images go: its points lie in it.
+///
+/// One over a power of two is exact in f32, and so are its multiples up to 1; one over the width beside it is not.
+fn every_pixel(width: u32) -> Trial {
     const ROWS: [Method; 4] = [
         Method::kit("kit, raster and ndc in their pixel", "", 0.0),
         Method::kit("kit, ndc off the centre", "px", 1e-3),
         Method::naive("naive, x + jitter in f32", "", 0.0),
         Method::naive("naive, x += 1 / width in f32", "px", 1e-3),
     ];
-    let stepped = stepped_f32(WIDE);
+    // Without a factor in common with either width, so that every pixel has its turn, and the first few are spread out.
+    const STRIDE: u64 = 40_507;
+    let stepped = stepped_f32(width);
     let judge = move |chain: &mut CameraChain, index: u64, tally: &mut super::Tally| {
-        let x = index as u32;
-        let axes = chain.set(turned([WIDE, 1], 0.5, DQuat::IDENTITY));
+        let x = (index * STRIDE % u64::from(width)) as u32;
+        let axes = chain.set(turned([width, 1], 0.5, DQuat::IDENTITY));
         tally.count(axes.is_ok());
         let wrote = chain.pixels([x, 0], 1)[0];
-        let (pixel, width) = (f64::from(x), f64::from(WIDE));
-        tally.scores[0].judge(wrote.raster.x.floor() == pixel && (wrote.ndc.x * width).floor() == pixel);
-        tally.scores[1].measure((wrote.ndc.x * width - (pixel + 0.5)).abs());
+        let (pixel, size) = (f64::from(x), f64::from(width));
+        tally.scores[0].judge(wrote.raster.x.floor() == pixel && (wrote.ndc.x * size).floor() == pixel);
+        tally.scores[1].measure((wrote.ndc.x * size - (pixel + 0.5)).abs());
         let jitter = (Draws::new(121, index).unit() * f64::from(1 << 24)).floor() as f32 / (1 << 24) as f32;
         tally.scores[2].judge(raster_f32(x, jitter).floor() == x as f32);
-        tally.scores[3].measure((f64::from(stepped[x as usize]) * width - (pixel + 0.5)).abs());
+        tally.scores[3].measure((f64::from(stepped[x as usize]) * size - (pixel + 0.5)).abs());
     };
-    one_by_one("65536 x 1, every pixel", &ROWS, judge).at_most(u64::from(WIDE))
+    one_by_one(&format!("{width} x 1, every pixel"), &ROWS, judge).at_most(u64::from(width))
 }
 
 /// tan(α / 2) of angles that leave 0.01° to 90° to 180°. In f64 four roundings, one of them through a slope of 2 at

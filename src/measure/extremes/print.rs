@@ -42,14 +42,18 @@ impl fmt::Display for Case {
 impl Case {
     /// The input at which the first naive method that breaks is at its worst, and what is said of it.
     fn write_worst(&self, worst: &Worst, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let naive = &worst.scores[worst.method];
-        writeln!(f, "  at its worst, input {}: {}", worst.input, self.outcomes[worst.method].method.name)?;
-        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, worst.scores[0].said) {
+        let (naive, kit, method) = (&worst.scores[worst.method], &worst.scores[0], self.outcomes[worst.method].method);
+        let word = if naive.wrong > 0 { "first wrong" } else { "at its worst" };
+        writeln!(f, "  {word} at input {}: {}", worst.input, method.name)?;
+        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, kit.said) {
             let [naive, kit, exact] = [naive, kit, exact].map(said);
             return writeln!(f, "    naive {naive}, kit {kit}, exact {exact}");
         }
-        let [naive, kit] = [worst.method, 0].map(|row| came(&worst.scores[row], self.outcomes[row].method.unit));
-        writeln!(f, "    naive {naive}, kit {kit}")
+        if naive.wrong == 0 && kit.wrong == 0 && method.unit == self.outcomes[0].method.unit {
+            let [naive, kit] = [naive, kit].map(|score| short(score.worst));
+            writeln!(f, "    naive off by {naive} {unit}, kit by {kit} {unit}", unit = method.unit)?;
+        }
+        Ok(())
     }
 }
 
@@ -59,15 +63,6 @@ fn said(value: Option<f64>) -> String {
         None => "none".into(),
         Some(value) if value == 0.0 || (1e-3..1e6).contains(&value.abs()) => format!("{value:.10}"),
         Some(value) => format!("{value:.10e}"),
-    }
-}
-
-/// Right, wrong, or off by how much.
-fn came(score: &Score, unit: &str) -> String {
-    match (score.wrong > 0, unit) {
-        (true, _) => "wrong".into(),
-        (false, "") => "right".into(),
-        (false, unit) => format!("off by {} {unit}", short(score.worst)),
     }
 }
 
