@@ -56,6 +56,9 @@ pub struct TryExtremes {
     /// How many rays each case tries
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub rays: u64,
+    /// Write the tables as a page too, with pictures (such as out/extremes/index.html)
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
 }
 
 #[derive(Args)]

@@ -43,7 +43,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Trace(asked)) => {
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
-        Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
+        Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(find::chapter(chapters, &asked.chapter)?, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }

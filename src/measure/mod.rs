@@ -9,6 +9,7 @@ pub mod exact;
 pub mod exact_angle;
 pub mod exact_vector;
 pub mod extremes;
+pub mod extremes_page;
 pub mod film_bits;
 pub mod judge_camera;
 pub mod number;

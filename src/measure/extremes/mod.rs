@@ -22,6 +22,7 @@ mod sphere;
 mod sphere_limits;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
+pub use print::Words;
 
 use crate::render::Watch;
 use rayon::prelude::*;
