@@ -6,12 +6,12 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use glam::DVec3;
 use pinhole::film::FilmTile;
+use pinhole::measure::film_bits::digest;
+use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
-use scenes::{
-    EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, stretched, ties, turned,
-};
+use scenes::{EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, stretched, ties, turned};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -223,8 +223,9 @@ fn scale_by_powers_of_two() {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
-                let scale = if k < 0 { 1.0 / f64::from(1 << -k) } else { f64::from(1 << k) };
-                let film = film(&scene(Setup { scale, ..setup }));
+                let mut scaled = scene(setup);
+                scale(&mut scaled, k);
+                let film = film(&scaled);
                 film.assert_is(&expected, &format!("{eye:?}, scaled by 2^{k}"));
             }
         }
@@ -244,7 +245,9 @@ fn moved_by_two_to_the_twentieth() {
             for axes in 1..8_u32 {
                 for sign in [far, -far] {
                     let by = DVec3::from([0, 1, 2].map(|axis| if axes >> axis & 1 == 1 { sign } else { 0.0 }));
-                    let film = film(&scene(Setup { shift: setup.shift + by, ..setup }));
+                    let mut moved = scene(setup);
+                    shift(&mut moved, by);
+                    let film = film(&moved);
                     film.assert_is(&expected, &format!("{eye:?}, moved by {by}"));
                     tried += 1;
                 }

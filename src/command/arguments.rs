@@ -17,7 +17,8 @@ use std::path::PathBuf;
     cargo run --release -- render cover --view surface\n  \
     cargo run --release -- plan 04_orthographic\n  \
     cargo run --release -- trace cover --pixel 480,300\n  \
-    cargo run --release -- extremes sphere"
+    cargo run --release -- extremes sphere\n  \
+    cargo run --release -- sweep 05_pinhole"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -36,6 +37,8 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
+    /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
+    Sweep(SweepChapter),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
@@ -44,7 +47,7 @@ pub enum Command {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// sphere, plane, shadow, camera or transform (default: all)
+    /// sphere, plane, shadow, camera, transform or film (default: all)
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text
@@ -53,6 +56,15 @@ pub struct TryExtremes {
     /// How many rays each case tries
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub rays: u64,
+    /// Write the tables as a page too, with pictures (such as out/extremes/index.html)
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct SweepChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
 }
 
 #[derive(Args)]

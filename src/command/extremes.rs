@@ -1,13 +1,22 @@
 use super::arguments::TryExtremes;
+use super::find;
 use super::interrupt::{Waiting, interrupted};
+use crate::chapter::{Asked, Chapter};
+use crate::film::{check_place, write_whole};
 use crate::measure::extremes::{Case, Group, try_group, unbroken};
+use crate::measure::extremes_page::{page, strips};
 use crate::{Error, Result};
 use std::io::Write;
+use std::path::Path;
 
-/// A table a group, then how many cases held.
+/// The chapter whose scene the page's pictures show.
+const SHOWN: &str = "05_pinhole";
+
+/// A table a group, then how many cases held; a page of the same where one is asked for.
 ///
-/// Errors: a case in which the kit does not keep what is asked.
-pub fn print_extremes(asked: &TryExtremes, out: &mut dyn Write) -> Result {
+/// Errors: a case in which the kit does not keep what is asked; a page that cannot be written.
+pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, out: &mut dyn Write) -> Result {
+    asked.page.as_deref().map_or(Ok(()), check_place)?;
     let groups = asked.group.map_or(Group::ALL.to_vec(), |group| vec![group]);
     let mut cases: Vec<Case> = Vec::new();
     for group in groups {
@@ -28,10 +37,21 @@ pub fn print_extremes(asked: &TryExtremes, out: &mut dyn Write) -> Result {
     for method in unbroken(&cases) {
         writeln!(out, "no case here breaks \"{method}\"")?;
     }
+    if let Some(file) = &asked.page {
+        write_page(chapters, &cases, file)?;
+        writeln!(out, "wrote {}", file.display())?;
+    }
     let held = cases.iter().filter(|case| case.held()).count();
     writeln!(out, "held: {held} of {} cases", cases.len())?;
     match cases.iter().find(|case| !case.held()) {
         None => Ok(()),
         Some(case) => Err(Error::Usage(format!("the kit does not hold in the case \"{}\"", case.name))),
     }
+}
+
+fn write_page(chapters: &[Chapter], cases: &[Case], file: &Path) -> Result {
+    let chapter = find::chapter(chapters, SHOWN)?;
+    let make = || chapter.world(&Asked::default());
+    let page = page(cases, &strips(&make, &chapter.stages())?, chapter.name)?;
+    write_whole(file, |file| file.write_all(page.as_bytes()))
 }

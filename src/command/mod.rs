@@ -13,6 +13,7 @@ mod list;
 mod plan;
 mod refused;
 mod render;
+mod sweep;
 mod trace;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
@@ -42,7 +43,8 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Trace(asked)) => {
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
-        Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
+        Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
+        Some(Command::Sweep(asked)) => sweep::print_sweep(find::chapter(chapters, &asked.chapter)?, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }
 }

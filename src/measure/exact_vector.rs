@@ -1,39 +1,47 @@
-//! Vectors of exact numbers.
+//! Vectors of exact numbers, and of enclosed ones.
 
+use super::enclosure::Enclosure;
 use super::exact::Dyadic;
+use super::number::Number;
 
-/// A point or a vector of three exact numbers, in whatever space its source was.
+/// A point or a vector of three numbers, in whatever space its source was.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ExactVector {
+pub struct Vector<N> {
     /// The x component.
-    pub x: Dyadic,
+    pub x: N,
     /// The y component.
-    pub y: Dyadic,
+    pub y: N,
     /// The z component.
-    pub z: Dyadic,
+    pub z: N,
 }
 
-impl ExactVector {
+/// A vector of exact numbers.
+pub type ExactVector = Vector<Dyadic>;
+
+/// A vector of enclosed numbers.
+pub type EnclosedVector = Vector<Enclosure>;
+
+impl<N: Number> Vector<N> {
     /// The exact value of three floating point numbers, f32 or f64.
     ///
     /// # Panics
     /// When a component is not finite.
     #[must_use]
     pub fn of<T: Into<f64>>(components: impl Into<[T; 3]>) -> Self {
-        let [x, y, z] = components.into().map(Dyadic::of);
+        let [x, y, z] = components.into().map(|component| N::of(component.into()));
         Self { x, y, z }
     }
 
-    /// The scalar product, exactly.
+    /// The scalar product.
     #[must_use]
-    pub fn dot(&self, other: &Self) -> Dyadic {
-        &(&(&self.x * &other.x) + &(&self.y * &other.y)) + &(&self.z * &other.z)
+    pub fn dot(&self, other: &Self) -> N {
+        self.x.by(&other.x).plus(&self.y.by(&other.y)).plus(&self.z.by(&other.z))
     }
 
-    /// The vector product, exactly.
+    /// The vector product.
     #[must_use]
     pub fn cross(&self, other: &Self) -> Self {
-        let area = |a: &Dyadic, b: &Dyadic, c: &Dyadic, d: &Dyadic| &(a * d) - &(b * c);
+        let area = |a: &N, b: &N, c: &N, d: &N| a.by(d).less(&b.by(c));
         Self {
             x: area(&self.y, &self.z, &other.y, &other.z),
             y: area(&self.z, &self.x, &other.z, &other.x),
@@ -41,18 +49,26 @@ impl ExactVector {
         }
     }
 
-    /// This vector minus the other, exactly.
+    /// This vector minus the other.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
-        Self { x: &self.x - &other.x, y: &self.y - &other.y, z: &self.z - &other.z }
+        Self { x: self.x.less(&other.x), y: self.y.less(&other.y), z: self.z.less(&other.z) }
     }
 
-    /// Each component times the factor, exactly.
+    /// Each component times the factor.
     #[must_use]
-    pub fn times(&self, factor: &Dyadic) -> Self {
-        Self { x: &self.x * factor, y: &self.y * factor, z: &self.z * factor }
+    pub fn times(&self, factor: &N) -> Self {
+        Self { x: self.x.by(factor), y: self.y.by(factor), z: self.z.by(factor) }
     }
 
+    /// The length, good enough for the size of an error; nothing where that cannot be told.
+    #[must_use]
+    pub fn length_about(&self) -> Option<f64> {
+        self.dot(self).about().map(f64::sqrt)
+    }
+}
+
+impl ExactVector {
     /// The length times itself, rounded to f64 once.
     #[must_use]
     pub fn squared_length(&self) -> f64 {

@@ -4,12 +4,18 @@
 //! Nothing here runs in a render.
 
 pub mod cost;
+pub mod enclosure;
 pub mod exact;
 pub mod exact_angle;
 pub mod exact_vector;
 pub mod extremes;
+pub mod extremes_page;
+pub mod film_bits;
+pub mod judge_camera;
+pub mod number;
 pub mod oracle_camera;
 pub mod oracle_ellipsoid;
 pub mod oracle_plane;
 pub mod oracle_sphere;
 pub mod ray_aim;
+pub mod sweep;

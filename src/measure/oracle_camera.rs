@@ -5,35 +5,42 @@
 //! pixels, radians and units in the last place. Positions are left out: render space has the eye at
 //! its origin.
 
-use super::exact::Dyadic;
-use super::exact_angle::tan_of_degrees;
-use super::exact_vector::ExactVector;
+use super::enclosure::Enclosure;
+use super::exact::{Dyadic, UNIT_ROUNDOFF_F32};
+use super::exact_vector::{ExactVector, Vector};
+use super::number::Number;
 use crate::scene::FovAxis;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// A point with exact coordinates, in raster, NDC or screen space as its maker says.
+/// A point, in raster, NDC or screen space as its maker says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ExactPoint {
+pub struct Point<N> {
     /// To the right.
-    pub x: Dyadic,
+    pub x: N,
     /// Down in raster and NDC, up in screen space.
-    pub y: Dyadic,
+    pub y: N,
 }
 
-/// A perspective camera, exactly.
+/// A point with exact coordinates.
+pub type ExactPoint = Point<Dyadic>;
+
+/// A perspective camera, exactly or enclosed.
 #[derive(Clone, Debug)]
-pub struct ExactCamera {
+pub struct OracleCamera<N> {
     /// The image's width in pixels.
     pub width: u32,
     /// The image's height in pixels.
     pub height: u32,
     /// The tangent of half the vertical angle.
-    pub tan_half_vertical: Dyadic,
+    pub tan_half_vertical: N,
     /// The camera's x, y and z axes in the world, as columns, taken exactly as given.
     pub rotation: DMat3,
 }
 
-impl ExactCamera {
+/// A perspective camera, exactly.
+pub type ExactCamera = OracleCamera<Dyadic>;
+
+impl<N: Number> OracleCamera<N> {
     /// The camera whose image of `width` × `height` pixels spans `full_angle` degrees along `axis`.
     ///
     /// # Panics
@@ -41,65 +48,112 @@ impl ExactCamera {
     #[must_use]
     pub fn new(width: u32, height: u32, full_angle: f64, axis: FovAxis, rotation: DMat3) -> Self {
         assert!(width > 0 && height > 0 && full_angle > 0.0, "nothing seen");
-        let tangent = tan_of_degrees(&Dyadic::of(full_angle).scaled(-1));
-        let (w, h) = (Dyadic::of(width), Dyadic::of(height));
+        let tangent = N::tan_of_half(full_angle);
+        let [w, h] = [width, height].map(|side| N::of(f64::from(side)));
         let spanned = match axis {
             FovAxis::Vertical => h.clone(),
             FovAxis::Horizontal => w,
-            FovAxis::Smaller => w.min(h.clone()),
-            FovAxis::Larger => w.max(h.clone()),
-            FovAxis::Diagonal => (&w.squared() + &h.squared()).square_root(),
+            FovAxis::Smaller => N::of(f64::from(width.min(height))),
+            FovAxis::Larger => N::of(f64::from(width.max(height))),
+            FovAxis::Diagonal => w.by(&w).plus(&h.by(&h)).root(),
         };
-        let tan_half_vertical = (&tangent * &h).divided_by(&spanned);
+        let tan_half_vertical = tangent.by(&h).over(&spanned);
         Self { width, height, tan_half_vertical, rotation }
     }
 
     /// The raster point at `sub_pixel` within the pixel, (0.5, 0.5) being its centre; exact, in
     /// pixels, y down.
     #[must_use]
-    pub fn raster(&self, pixel: [u32; 2], sub_pixel: DVec2) -> ExactPoint {
-        let along = |pixel: u32, offset: f64| &Dyadic::of(pixel) + &Dyadic::of(offset);
-        ExactPoint { x: along(pixel[0], sub_pixel.x), y: along(pixel[1], sub_pixel.y) }
+    pub fn raster(&self, pixel: [u32; 2], sub_pixel: DVec2) -> Point<N> {
+        let along = |pixel: u32, offset: f64| N::of(f64::from(pixel)).plus(&N::of(offset));
+        Point { x: along(pixel[0], sub_pixel.x), y: along(pixel[1], sub_pixel.y) }
+    }
+
+    /// Width and height in pixels.
+    fn size(&self) -> [N; 2] {
+        [self.width, self.height].map(|side| N::of(f64::from(side)))
     }
 
     /// The NDC point of a raster point: raster / size, y down.
     #[must_use]
-    pub fn ndc(&self, raster: &ExactPoint) -> ExactPoint {
-        ExactPoint { x: raster.x.divided_by(&Dyadic::of(self.width)), y: raster.y.divided_by(&Dyadic::of(self.height)) }
+    pub fn ndc(&self, raster: &Point<N>) -> Point<N> {
+        let [width, height] = self.size();
+        Point { x: raster.x.over(&width), y: raster.y.over(&height) }
     }
 
     /// The screen point of a raster point: ((2x − width) / height, (height − 2y) / height), y up.
     ///
     /// It is the chain (2 ndc.x − 1) · width / height, 1 − 2 ndc.y with the divisions put last.
     #[must_use]
-    pub fn screen(&self, raster: &ExactPoint) -> ExactPoint {
-        let (width, height) = (Dyadic::of(self.width), Dyadic::of(self.height));
-        ExactPoint {
-            x: (&raster.x.scaled(1) - &width).divided_by(&height),
-            y: (&height - &raster.y.scaled(1)).divided_by(&height),
+    pub fn screen(&self, raster: &Point<N>) -> Point<N> {
+        let [width, height] = self.size();
+        Point {
+            x: raster.x.plus(&raster.x).less(&width).over(&height),
+            y: height.less(&raster.y.plus(&raster.y)).over(&height),
         }
     }
 
     /// The camera point of a raster point: the screen point times the tangent, at z = −1.
     #[must_use]
-    pub fn camera(&self, raster: &ExactPoint) -> ExactVector {
+    pub fn camera(&self, raster: &Point<N>) -> Vector<N> {
         let screen = self.screen(raster);
-        ExactVector {
-            x: &screen.x * &self.tan_half_vertical,
-            y: &screen.y * &self.tan_half_vertical,
-            z: Dyadic::of(-1),
-        }
+        Vector { x: screen.x.by(&self.tan_half_vertical), y: screen.y.by(&self.tan_half_vertical), z: N::of(-1.0) }
     }
 
     /// The world vector of a raster point before it is normalised: the rotation times the camera
     /// point.
     #[must_use]
-    pub fn world_unnormalised(&self, raster: &ExactPoint) -> ExactVector {
+    pub fn world_unnormalised(&self, raster: &Point<N>) -> Vector<N> {
         let camera = self.camera(raster);
-        let row = |row: usize| ExactVector::of(self.rotation.row(row)).dot(&camera);
-        ExactVector { x: row(0), y: row(1), z: row(2) }
+        let row = |row: usize| Vector::of(self.rotation.row(row)).dot(&camera);
+        Vector { x: row(0), y: row(1), z: row(2) }
     }
 
+    /// The width of one pixel on the plane z = −1: 2 · tan(vertical / 2) / height.
+    #[must_use]
+    pub fn pixel_pitch(&self) -> N {
+        let [_, height] = self.size();
+        self.tan_half_vertical.plus(&self.tan_half_vertical).over(&height)
+    }
+
+    /// As [`ExactCamera::camera_error_in_pixels`]; nothing where these numbers cannot tell.
+    pub fn camera_pixels(&self, measured: DVec3, raster: &Point<N>) -> Option<f64> {
+        if !measured.is_finite() {
+            return Some(f64::INFINITY);
+        }
+        self.in_pixels(&Vector::of(measured), raster)
+    }
+
+    /// As [`ExactCamera::world_error_in_pixels`]; nothing where these numbers cannot tell.
+    pub fn world_pixels(&self, measured: Vec3, raster: &Point<N>) -> Option<f64> {
+        if !measured.is_finite() {
+            return Some(f64::INFINITY);
+        }
+        let measured = Vector::<N>::of(measured);
+        let column = |column: usize| Vector::of(self.rotation.col(column)).dot(&measured);
+        let (x, y, depth) = (column(0), column(1), N::of(0.0).less(&column(2)));
+        if depth.sign()? <= 0 {
+            return Some(f64::INFINITY);
+        }
+        self.in_pixels(&Vector { x: x.over(&depth), y: y.over(&depth), z: N::of(-1.0) }, raster)
+    }
+
+    /// As [`ExactCamera::world_error_in_radians`]; nothing where these numbers cannot tell.
+    pub fn world_radians(&self, measured: Vec3, raster: &Point<N>) -> Option<f64> {
+        if !measured.is_finite() || measured == Vec3::ZERO {
+            return Some(f64::INFINITY);
+        }
+        let (measured, exact) = (Vector::<N>::of(measured), self.world_unnormalised(raster));
+        Some(libm::atan2(measured.cross(&exact).length_about()?, measured.dot(&exact).about()?))
+    }
+
+    /// The distance from the exact camera point over the pixel pitch.
+    fn in_pixels(&self, camera: &Vector<N>, raster: &Point<N>) -> Option<f64> {
+        Some(camera.minus(&self.camera(raster)).length_about()? / self.pixel_pitch().about()?)
+    }
+}
+
+impl ExactCamera {
     /// The world direction of a raster point, of unit length.
     #[must_use]
     pub fn world(&self, raster: &ExactPoint) -> ExactVector {
@@ -107,20 +161,11 @@ impl ExactCamera {
         world.times(&Dyadic::of(1).divided_by(&world.length()))
     }
 
-    /// The width of one pixel on the plane z = −1: 2 · tan(vertical / 2) / height.
-    #[must_use]
-    pub fn pixel_pitch(&self) -> Dyadic {
-        self.tan_half_vertical.scaled(1).divided_by(&Dyadic::of(self.height))
-    }
-
     /// How far a measured camera point lies from the exact one, in pixels; infinite when it is not
     /// finite.
     #[must_use]
     pub fn camera_error_in_pixels(&self, measured: DVec3, raster: &ExactPoint) -> f64 {
-        if !measured.is_finite() {
-            return f64::INFINITY;
-        }
-        self.in_pixels(&ExactVector::of(measured), raster)
+        self.camera_pixels(measured, raster).unwrap_or(f64::INFINITY)
     }
 
     /// How far a measured world direction, of any length, points from the exact camera point, in
@@ -129,33 +174,14 @@ impl ExactCamera {
     /// The transpose of the rotation takes it back exactly, so the rotation is to be orthonormal.
     #[must_use]
     pub fn world_error_in_pixels(&self, measured: Vec3, raster: &ExactPoint) -> f64 {
-        if !measured.is_finite() {
-            return f64::INFINITY;
-        }
-        let measured = ExactVector::of(measured);
-        let column = |column: usize| ExactVector::of(self.rotation.col(column)).dot(&measured);
-        let (x, y, depth) = (column(0), column(1), -&column(2));
-        if depth.sign() <= 0 {
-            return f64::INFINITY;
-        }
-        let (x, y) = (x.divided_by(&depth), y.divided_by(&depth));
-        self.in_pixels(&ExactVector { x, y, z: Dyadic::of(-1) }, raster)
+        self.world_pixels(measured, raster).unwrap_or(f64::INFINITY)
     }
 
     /// The angle between a measured world direction, of any length, and the exact one, in radians;
     /// infinite when it is not finite or zero.
     #[must_use]
     pub fn world_error_in_radians(&self, measured: Vec3, raster: &ExactPoint) -> f64 {
-        if !measured.is_finite() || measured == Vec3::ZERO {
-            return f64::INFINITY;
-        }
-        let (measured, exact) = (ExactVector::of(measured), self.world_unnormalised(raster));
-        libm::atan2(measured.cross(&exact).squared_length().sqrt(), measured.dot(&exact).to_f64())
-    }
-
-    /// The distance from the exact camera point over the pixel pitch.
-    fn in_pixels(&self, camera: &ExactVector, raster: &ExactPoint) -> f64 {
-        camera.minus(&self.camera(raster)).squared_length().sqrt() / self.pixel_pitch().to_f64()
+        self.world_radians(measured, raster).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -166,7 +192,13 @@ pub fn length_error_in_u(direction: Vec3) -> f64 {
     if !direction.is_finite() {
         return f64::INFINITY;
     }
-    (&ExactVector::of(direction).length() - &Dyadic::of(1)).scaled(24).to_f64()
+    let enclosed = length_less_one::<Enclosure>(direction).about();
+    enclosed.unwrap_or_else(|| length_less_one::<Dyadic>(direction).to_f64()) / UNIT_ROUNDOFF_F32
+}
+
+fn length_less_one<N: Number>(direction: Vec3) -> N {
+    let direction = Vector::<N>::of(direction);
+    direction.dot(&direction).root().less(&N::of(1.0))
 }
 
 #[cfg(test)]

@@ -3,8 +3,10 @@
 //! Reads: the f32 ray and the f64 plane a kernel sees, in render space. Writes: hit or miss without
 //! any rounding, and t with a relative error below 2^-319.
 
+use super::enclosure::Enclosure;
 use super::exact::Dyadic;
-use super::exact_vector::ExactVector;
+use super::exact_vector::Vector;
+use super::number::Number;
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
@@ -25,9 +27,17 @@ impl Plane {
     }
 }
 
-/// offset − normal · point, exactly: positive below the plane, zero on it.
-fn depth_below(point: &ExactVector, plane: Plane) -> Dyadic {
-    &Dyadic::of(plane.offset) - &ExactVector::of(plane.normal).dot(point)
+/// offset − normal · point: positive below the plane, zero on it.
+fn depth_below<N: Number>(point: &Vector<N>, plane: Plane) -> N {
+    N::of(plane.offset).less(&Vector::of(plane.normal).dot(point))
+}
+
+/// The t > 0 at which the ray meets the plane, if it does; nothing where these numbers cannot tell.
+fn hit<N: Number>(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Option<N>> {
+    let distance: N = depth_below(&Vector::of(origin), plane);
+    let approach: N = Vector::of(plane.normal).dot(&Vector::of(direction));
+    // Two numbers of one sign have a positive quotient, so the verdict needs no division.
+    Some((distance.sign()? * approach.sign()? > 0).then(|| distance.over(&approach)))
 }
 
 /// The t > 0 at which the ray meets the plane, or nothing when it is parallel, points away or
@@ -37,10 +47,22 @@ fn depth_below(point: &ExactVector, plane: Plane) -> Dyadic {
 /// When an input is not finite.
 #[must_use]
 pub fn plane_hit(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Dyadic> {
-    let distance = depth_below(&ExactVector::of(origin), plane);
-    let approach = ExactVector::of(plane.normal).dot(&ExactVector::of(direction));
-    // Two numbers of one sign have a positive quotient, so the verdict needs no division.
-    (distance.sign() * approach.sign() > 0).then(|| distance.divided_by(&approach))
+    hit(origin, direction, plane).flatten()
+}
+
+/// The same t, rounded to f64 once.
+#[must_use]
+pub fn plane_t(origin: Vec3, direction: Vec3, plane: Plane) -> Option<f64> {
+    enclosed_plane_t(origin, direction, plane)
+        .unwrap_or_else(|| plane_hit(origin, direction, plane).map(|t| t.to_f64()))
+}
+
+/// The same by enclosures; nothing where these cannot tell.
+pub fn enclosed_plane_t(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Option<f64>> {
+    match hit::<Enclosure>(origin, direction, plane)? {
+        None => Some(None),
+        Some(t) => t.rounded().map(Some),
+    }
 }
 
 /// How the point lies to the plane, exactly: `Greater` is strictly on the side its normal points
@@ -50,7 +72,8 @@ pub fn plane_hit(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Dyadic> 
 /// When an input is not finite.
 #[must_use]
 pub fn side_of_plane(point: DVec3, plane: Plane) -> Ordering {
-    0.cmp(&depth_below(&ExactVector::of(point), plane).sign())
+    let enclosed = depth_below::<Enclosure>(&Vector::of(point), plane).sign();
+    0.cmp(&enclosed.unwrap_or_else(|| depth_below::<Dyadic>(&Vector::of(point), plane).sign()))
 }
 
 #[cfg(test)]

@@ -4,8 +4,10 @@
 //! given, unit or not. Writes: hit or miss without any rounding, and the roots t with a relative
 //! error below 2^-300.
 
-use super::exact::Dyadic;
-use super::exact_vector::ExactVector;
+use super::enclosure::Enclosure;
+use super::exact::{Dyadic, UNIT_ROUNDOFF_F32};
+use super::exact_vector::Vector;
+use super::number::Number;
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
@@ -28,39 +30,61 @@ impl Sphere {
 
 /// Where the ray's line meets a sphere, as parameters t of origin + t · direction.
 #[derive(Clone, Debug)]
-pub struct Roots {
+pub struct Roots<N = Dyadic> {
     /// The smaller root.
-    pub near: Dyadic,
+    pub near: N,
     /// The larger root.
-    pub far: Dyadic,
+    pub far: N,
+}
+
+/// Where the line of the ray meets the sphere, if it does; nothing where these numbers cannot tell.
+///
+/// With f = centre − origin the roots solve (d·d) t² − 2 (f·d) t + (f·f − r²) = 0.
+fn roots<N: Number>(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Option<Roots<N>>> {
+    let direction = Vector::<N>::of(direction);
+    let to_centre = Vector::<N>::of(sphere.centre).minus(&Vector::of(origin));
+    let radius = N::of(sphere.radius);
+    let a = direction.dot(&direction);
+    let half_b = to_centre.dot(&direction);
+    let c = to_centre.dot(&to_centre).less(&radius.by(&radius));
+    let discriminant = half_b.by(&half_b).less(&a.by(&c));
+    if discriminant.sign()? < 0 || a.sign()? == 0 {
+        return Some(None);
+    }
+    let root = discriminant.root();
+    // The root of larger magnitude has no cancellation, and the other follows from the product of
+    // both, c / a.
+    let behind = half_b.sign()? < 0;
+    let larger = if behind { half_b.less(&root) } else { half_b.plus(&root) };
+    let outer = larger.over(&a);
+    let inner = if larger.sign()? == 0 { N::of(0.0) } else { c.over(&larger) };
+    Some(Some(if behind { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } }))
 }
 
 /// Where the line of the ray meets the sphere, or nothing when it passes by or the direction is
 /// zero.
 ///
-/// With f = centre − origin the roots solve (d·d) t² − 2 (f·d) t + (f·f − r²) = 0.
-///
 /// # Panics
 /// When an input is not finite.
 #[must_use]
 pub fn line_roots(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Roots> {
-    let direction = ExactVector::of(direction);
-    let to_centre = ExactVector::of(sphere.centre).minus(&ExactVector::of(origin));
-    let a = direction.dot(&direction);
-    let half_b = to_centre.dot(&direction);
-    let c = &to_centre.dot(&to_centre) - &Dyadic::of(sphere.radius).squared();
-    let discriminant = &half_b.squared() - &(&a * &c);
-    if discriminant.sign() < 0 || a.sign() == 0 {
-        return None;
+    roots(origin, direction, sphere).flatten()
+}
+
+/// The same roots, near and far, rounded to f64 once.
+#[must_use]
+pub fn line_ts(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<[f64; 2]> {
+    enclosed_line_ts(origin, direction, sphere).unwrap_or_else(|| {
+        line_roots(origin, direction, sphere).map(|Roots { near, far }| [near.to_f64(), far.to_f64()])
+    })
+}
+
+/// The same by enclosures; nothing where these cannot tell.
+pub fn enclosed_line_ts(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Option<[f64; 2]>> {
+    match roots::<Enclosure>(origin, direction, sphere)? {
+        None => Some(None),
+        Some(Roots { near, far }) => Some(Some([near.rounded()?, far.rounded()?])),
     }
-    let root = discriminant.square_root();
-    // The root of larger magnitude has no cancellation, and the other follows from the product of
-    // both, c / a.
-    let away = if half_b.sign() < 0 { -&root } else { root };
-    let larger = &half_b + &away;
-    let outer = larger.divided_by(&a);
-    let inner = if larger.sign() == 0 { Dyadic::of(0) } else { c.divided_by(&larger) };
-    Some(if half_b.sign() < 0 { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } })
 }
 
 /// The nearest t > 0 at which the ray meets the sphere's surface, or nothing when it does not.
@@ -76,6 +100,24 @@ pub fn sphere_hit(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Dyadi
     [near, far].into_iter().find(|root| root.sign() > 0)
 }
 
+/// The same t, rounded to f64 once.
+#[must_use]
+pub fn sphere_t(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<f64> {
+    enclosed_sphere_t(origin, direction, sphere)
+        .unwrap_or_else(|| sphere_hit(origin, direction, sphere).map(|t| t.to_f64()))
+}
+
+/// The same by enclosures; nothing where these cannot tell.
+pub fn enclosed_sphere_t(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Option<f64>> {
+    let Some(Roots { near, far }) = roots::<Enclosure>(origin, direction, sphere)? else { return Some(None) };
+    for root in [near, far] {
+        if root.sign()? > 0 {
+            return root.rounded().map(Some);
+        }
+    }
+    Some(None)
+}
+
 /// How the point lies to the sphere, exactly: `Greater` is strictly outside, `Less` strictly
 /// inside.
 ///
@@ -83,8 +125,28 @@ pub fn sphere_hit(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Dyadi
 /// When an input is not finite.
 #[must_use]
 pub fn side_of_sphere(point: DVec3, sphere: Sphere) -> Ordering {
-    let from_centre = ExactVector::of(point).minus(&ExactVector::of(sphere.centre));
-    from_centre.dot(&from_centre).cmp(&Dyadic::of(sphere.radius).squared())
+    height::<Enclosure>(point, sphere).sign().unwrap_or_else(|| height::<Dyadic>(point, sphere).sign()).cmp(&0)
+}
+
+/// The squared distance from the centre less that of the surface.
+fn height<N: Number>(point: DVec3, sphere: Sphere) -> N {
+    let from_centre = Vector::<N>::of(point).minus(&Vector::of(sphere.centre));
+    let radius = N::of(sphere.radius);
+    from_centre.dot(&from_centre).less(&radius.by(&radius))
+}
+
+/// How far the point lies off the surface, over u (|c| + r), u = 2⁻²⁴.
+#[must_use]
+pub fn height_in_u(point: DVec3, sphere: Sphere) -> f64 {
+    let enclosed = surface_height::<Enclosure>(point, sphere).about();
+    let height = enclosed.unwrap_or_else(|| surface_height::<Dyadic>(point, sphere).to_f64());
+    height.abs() / (UNIT_ROUNDOFF_F32 * (sphere.centre.length() + sphere.radius))
+}
+
+/// The distance from the centre less the radius.
+fn surface_height<N: Number>(point: DVec3, sphere: Sphere) -> N {
+    let from_centre = Vector::<N>::of(point).minus(&Vector::of(sphere.centre));
+    from_centre.dot(&from_centre).root().less(&N::of(sphere.radius))
 }
 
 /// Whether the point lies strictly outside the sphere, exactly.

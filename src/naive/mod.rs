@@ -6,6 +6,7 @@
 pub mod camera;
 pub mod ellipsoid;
 pub mod euler;
+pub mod film;
 pub mod plane;
 pub mod shadow;
 pub mod sphere;

@@ -3,8 +3,9 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::{Film, FilmTile, film_stage};
+use pinhole::film::film_stage;
 use pinhole::look::view_stage;
+pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
@@ -274,67 +275,6 @@ pub fn named(world: &mut World, name: &str) -> Entity {
     let mut names = world.query::<(Entity, &Name)>();
     let found = names.iter(world).find(|(_, own)| own.as_str() == name);
     found.map(|(entity, _)| entity).expect("the scene has an entity of this name")
-}
-
-/// A film pixel by pixel: the bits of three sums and the count.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FilmBits {
-    pub width: u32,
-    pub pixels: Vec<[u64; 4]>,
-    pub rejected: u64,
-}
-
-impl FilmBits {
-    pub fn of(film: &Film) -> Self {
-        Self::of_tiles(film.width, film.height, film.tiles.iter())
-    }
-
-    pub fn of_tiles<'f>(width: u32, height: u32, tiles: impl Iterator<Item = &'f FilmTile>) -> Self {
-        let mut pixels = vec![[u64::MAX; 4]; width as usize * height as usize];
-        let mut rejected = 0;
-        for tile in tiles {
-            rejected += tile.rejected;
-            for row in 0..tile.count.len() {
-                let [x, y] = tile.tile.pixel_of(row);
-                let sums = [tile.r[row], tile.g[row], tile.b[row]].map(f64::to_bits);
-                let pixel = &mut pixels[(y * width + x) as usize];
-                assert_eq!(*pixel, [u64::MAX; 4], "two tiles hold the pixel {x},{y}");
-                *pixel = [sums[0], sums[1], sums[2], u64::from(tile.count[row])];
-            }
-        }
-        Self { width, pixels, rejected }
-    }
-
-    /// A digest of all bits, in the order of the pixels.
-    pub fn digest(&self) -> u64 {
-        digest(self.pixels.iter().flatten().copied())
-    }
-
-    /// How many different pixels it has: a picture of one colour proves little.
-    pub fn colours(&self) -> usize {
-        self.pixels.iter().collect::<std::collections::BTreeSet<_>>().len()
-    }
-
-    /// Fails with the first pixel that differs.
-    pub fn assert_is(&self, expected: &Self, what: &str) {
-        assert_eq!(self.pixels.len(), expected.pixels.len(), "{what}: the number of pixels");
-        let differ = |pixel: &usize| self.pixels[*pixel] != expected.pixels[*pixel];
-        let wrong: Vec<usize> = (0..self.pixels.len()).filter(differ).collect();
-        if let Some(&first) = wrong.first() {
-            let (x, y) = (first as u32 % self.width, first as u32 / self.width);
-            let shown = |bits: [u64; 4]| ([bits[0], bits[1], bits[2]].map(f64::from_bits), bits[3]);
-            let (expected, found) = (shown(expected.pixels[first]), shown(self.pixels[first]));
-            let (wrong, all) = (wrong.len(), self.pixels.len());
-            panic!("{what}: {wrong} of {all} pixels differ, first {x},{y}: {expected:?} became {found:?}");
-        }
-        assert_eq!(self.rejected, expected.rejected, "{what}: rejected samples");
-    }
-}
-
-/// FNV-1a over the bytes of some words.
-pub fn digest(words: impl Iterator<Item = u64>) -> u64 {
-    let bytes = words.flat_map(u64::to_le_bytes);
-    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }
 
 /// Renders by these stages, or says why not.

@@ -5,10 +5,10 @@ use super::camera_chain::{
 };
 use super::{Group, Method, Tally, Trial};
 use crate::extract::SMALLEST_PIXEL;
-use crate::measure::oracle_camera::ExactCamera;
+use crate::measure::judge_camera::CameraJudge;
 use crate::measure::ray_aim::Draws;
 use crate::scene::{FovAxis, LookAt};
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use std::ops::Range;
 
 /// The most that a point of the image may be off, in pixels.
@@ -48,31 +48,30 @@ fn judge(ask: &impl Fn(u64) -> AskedCamera, range: Range<u64>) -> Tally {
         let asked = ask(index);
         let rotation = chain.set(asked);
         tally.count(rotation.is_ok());
-        let exact = chain.exact(asked, *rotation.as_ref().unwrap_or(&DMat3::IDENTITY));
-        let fine = exact.pixel_pitch().to_f64() < SMALLEST_PIXEL;
+        let judge = chain.judge(asked, *rotation.as_ref().unwrap_or(&DMat3::IDENTITY));
+        let fine = judge.pixel_pitch() < SMALLEST_PIXEL;
         tally.scores[0].judge(rotation.as_ref().err().map(|refusal| refusal.field) == fine.then_some("fov"));
-        if let Ok(rotation) = rotation {
+        if rotation.is_ok() {
             let pixel = any_pixel(asked.size, &mut Draws::new(71, index));
-            judge_pixel(&mut chain, asked, &ExactCamera { rotation, ..exact }, pixel, &mut tally);
+            judge_pixel(&mut chain, asked, &judge, pixel, &mut tally);
         }
     }
     tally
 }
 
-fn judge_pixel(chain: &mut CameraChain, asked: AskedCamera, exact: &ExactCamera, pixel: [u32; 2], tally: &mut Tally) {
+fn judge_pixel(chain: &mut CameraChain, asked: AskedCamera, judge: &CameraJudge, pixel: [u32; 2], tally: &mut Tally) {
     let wrote = chain.pixels(pixel, 1)[0];
-    let raster = exact.raster(pixel, DVec2::splat(0.5));
     let eye = match asked.pose {
         Pose::Turned(eye, _) => eye,
         Pose::Looking(look) => {
-            tally.scores[1].measure(axes_error(exact.rotation, &look));
+            tally.scores[1].measure(axes_error(judge.rotation(), &look));
             look.eye
         }
     };
-    judge_stages(exact, &raster, &wrote, &mut tally.scores[2..6]);
-    judge_world(exact, &raster, &wrote, &mut tally.scores[6..9]);
-    if seen_width(exact, &wrote) >= SMALLEST_PIXEL {
-        tally.scores[9].measure(viewport_error(exact, eye, pixel));
+    judge_stages(judge, pixel, &wrote, &mut tally.scores[2..6]);
+    judge_world(judge, pixel, &wrote, &mut tally.scores[6..9]);
+    if seen_width(judge, &wrote) >= SMALLEST_PIXEL {
+        tally.scores[9].measure(viewport_error(judge, eye, pixel));
     }
 }
 

@@ -3,8 +3,12 @@
 use super::Score;
 use super::bench::Bench;
 use crate::extract::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL};
-use crate::measure::exact_vector::ExactVector;
-use crate::measure::oracle_camera::{ExactCamera, ExactPoint, length_error_in_u};
+use crate::measure::enclosure::Enclosure;
+use crate::measure::exact::Dyadic;
+use crate::measure::exact_vector::Vector;
+use crate::measure::judge_camera::CameraJudge;
+use crate::measure::number::Number;
+use crate::measure::oracle_camera::length_error_in_u;
 use crate::naive::camera::viewport_f32;
 use crate::plan::Table;
 use crate::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
@@ -55,7 +59,7 @@ pub struct CameraChain {
     camera: Entity,
     bench: Bench,
     set: Option<(AskedCamera, DMat3)>,
-    exact: Option<(AskedCamera, ExactCamera)>,
+    judge: Option<(AskedCamera, CameraJudge)>,
 }
 
 impl CameraChain {
@@ -70,7 +74,7 @@ impl CameraChain {
             rays::perspective_stage(),
             rays::world_stage(),
         ];
-        Self { scene, camera, bench: Bench::new(&stages), set: None, exact: None }
+        Self { scene, camera, bench: Bench::new(&stages), set: None, judge: None }
     }
 
     /// Extracts this camera's tables, unless it is the one that is there, and answers its axes.
@@ -98,15 +102,15 @@ impl CameraChain {
         Ok(axes.world_from_camera)
     }
 
-    /// The exact camera of what was asked, with these axes; its tangent is kept for the next that asks the same.
-    pub fn exact(&mut self, asked: AskedCamera, rotation: DMat3) -> ExactCamera {
+    /// The judge of what was asked, with these axes; its tangent is kept for the next that asks the same.
+    pub fn judge(&mut self, asked: AskedCamera, rotation: DMat3) -> CameraJudge {
         let same = |kept: &AskedCamera| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
-        if let Some((_, exact)) = self.exact.as_ref().filter(|(kept, _)| same(kept)) {
-            return ExactCamera { rotation, ..exact.clone() };
+        if let Some((_, judge)) = self.judge.as_ref().filter(|(kept, _)| same(kept)) {
+            return judge.turned(rotation);
         }
-        let exact = ExactCamera::new(asked.size[0], asked.size[1], asked.fov, asked.axis, rotation);
-        self.exact = Some((asked, exact.clone()));
-        exact
+        let judge = CameraJudge::new(asked.size[0], asked.size[1], asked.fov, asked.axis, rotation);
+        self.judge = Some((asked, judge.clone()));
+        judge
     }
 
     /// Runs the stages for `count` pixels of a row, from this one on.
@@ -128,56 +132,56 @@ impl CameraChain {
     }
 }
 
-/// An exact point, rounded once.
-fn rounded(point: &ExactPoint) -> DVec2 {
-    DVec2::new(point.x.to_f64(), point.y.to_f64())
-}
-
 /// How far the raster, NDC, screen and camera points of a pixel are off, in pixels, into four scores.
-pub fn judge_stages(exact: &ExactCamera, raster: &ExactPoint, pixel: &PixelChain, scores: &mut [Score]) {
-    let size = DVec2::new(f64::from(exact.width), f64::from(exact.height));
-    scores[0].measure((pixel.raster - rounded(raster)).length());
-    scores[1].measure(((pixel.ndc - rounded(&exact.ndc(raster))) * size).length());
-    scores[2].measure((pixel.screen - rounded(&exact.screen(raster))).length() * size.y / 2.0);
-    scores[3].measure(exact.camera_error_in_pixels(pixel.camera / -pixel.camera.z, raster));
+pub fn judge_stages(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    let size = DVec2::new(f64::from(judge.width), f64::from(judge.height));
+    scores[0].measure((wrote.raster - judge.raster(pixel)).length());
+    scores[1].measure(((wrote.ndc - judge.ndc(pixel)) * size).length());
+    scores[2].measure((wrote.screen - judge.screen(pixel)).length() * size.y / 2.0);
+    scores[3].measure(judge.camera_error_in_pixels(wrote.camera / -wrote.camera.z, pixel));
 }
 
 /// How wide a pixel is where it is narrowest, seen from the eye, in radians: towards the edge of a wide image its plane
 /// is both farther and slanted.
-pub fn seen_width(exact: &ExactCamera, pixel: &PixelChain) -> f64 {
-    exact.pixel_pitch().to_f64() * pixel.camera.z * pixel.camera.z
+pub fn seen_width(judge: &CameraJudge, wrote: &PixelChain) -> f64 {
+    judge.pixel_pitch() * wrote.camera.z * wrote.camera.z
 }
 
 /// How far a world ray is off into three scores: in pixels where these are wide enough for f32, in radians everywhere,
 /// its length in u.
-pub fn judge_world(exact: &ExactCamera, raster: &ExactPoint, pixel: &PixelChain, scores: &mut [Score]) {
-    if seen_width(exact, pixel) >= SMALLEST_PIXEL {
-        scores[0].measure(exact.world_error_in_pixels(pixel.world, raster));
+pub fn judge_world(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    if seen_width(judge, wrote) >= SMALLEST_PIXEL {
+        scores[0].measure(judge.world_error_in_pixels(wrote.world, pixel));
     }
-    scores[1].measure(exact.world_error_in_radians(pixel.world, raster));
-    scores[2].measure(length_error_in_u(pixel.world).abs());
+    scores[1].measure(judge.world_error_in_radians(wrote.world, pixel));
+    scores[2].measure(length_error_in_u(wrote.world).abs());
 }
 
 /// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and the kit's axes, rounded to
 /// f32.
-pub fn viewport_error(exact: &ExactCamera, eye: DVec3, pixel: [u32; 2]) -> f64 {
-    let vertical = 2.0 * libm::atan(exact.tan_half_vertical.to_f64()).to_degrees();
-    let size = [exact.width, exact.height];
-    let direction = viewport_f32(eye.as_vec3(), exact.rotation.as_mat3(), vertical as f32, size, pixel);
-    exact.world_error_in_pixels(direction, &exact.raster(pixel, DVec2::splat(0.5)))
+pub fn viewport_error(judge: &CameraJudge, eye: DVec3, pixel: [u32; 2]) -> f64 {
+    let vertical = 2.0 * libm::atan(judge.tan_half_vertical()).to_degrees();
+    let size = [judge.width, judge.height];
+    let direction = viewport_f32(eye.as_vec3(), judge.rotation().as_mat3(), vertical as f32, size, pixel);
+    judge.world_error_in_pixels(direction, pixel)
 }
 
 /// How far the axes of a camera that looks at something are from where it looks and from upright, in radians.
 ///
 /// The nearer up lies to the view, the less it says of what is upright, so that error counts times the sine between.
 pub fn axes_error(axes: DMat3, look: &LookAt) -> f64 {
-    let back = ExactVector::of(look.eye).minus(&ExactVector::of(look.target));
-    let up = ExactVector::of(look.up);
-    let right = up.cross(&back);
-    let sine = (right.squared_length() / up.squared_length() / back.squared_length()).sqrt();
-    let angle = |axis: DVec3, exact: &ExactVector| {
-        (ExactVector::of(axis).cross(exact).squared_length() / exact.squared_length()).sqrt()
-    };
+    let enclosed = axes_errors::<Enclosure>(axes, look);
+    let [back, right, sine] = enclosed.or_else(|| axes_errors::<Dyadic>(axes, look)).unwrap_or([f64::INFINITY; 3]);
     let upright = (axes.x_axis.cross(axes.y_axis) - axes.z_axis).length();
-    angle(axes.z_axis, &back).max(sine * angle(axes.x_axis, &right).max(upright))
+    back.max(sine * right.max(upright))
+}
+
+/// The angles by which back and right are off, and the sine between up and back.
+fn axes_errors<N: Number>(axes: DMat3, look: &LookAt) -> Option<[f64; 3]> {
+    let (up, back) = (Vector::<N>::of(look.up), Vector::<N>::of(look.eye).minus(&Vector::of(look.target)));
+    let right = up.cross(&back);
+    let sine = right.length_about()? / up.length_about()? / back.length_about()?;
+    let angle =
+        |axis: DVec3, exact: &Vector<N>| Some(Vector::of(axis).cross(exact).length_about()? / exact.length_about()?);
+    Some([angle(axes.z_axis, &back)?, angle(axes.x_axis, &right)?, sine])
 }

@@ -4,6 +4,7 @@ use super::camera::{METHODS, WORLD_BOUND, any_pixel, any_pose, any_pose_at, any_
 use super::camera_chain::{AskedCamera, CameraChain, Pose, viewport_error};
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
+use crate::naive::camera::ndc_over_last;
 use crate::scene::{FovAxis, LookAt};
 use glam::{DMat3, DQuat, DVec3};
 
@@ -43,7 +44,7 @@ fn far_eye(index: u64, distance: f64) -> AskedCamera {
 }
 
 /// A case whose inputs are judged one by one, right or wrong.
-fn one_by_one(
+pub(super) fn one_by_one(
     name: &str,
     methods: &[Method],
     judge: impl Fn(&mut CameraChain, u64, &mut Tally) + Send + Sync + 'static,
@@ -56,7 +57,7 @@ fn one_by_one(
     })
 }
 
-fn turned(size: [u32; 2], fov: f64, turn: DQuat) -> AskedCamera {
+pub(super) fn turned(size: [u32; 2], fov: f64, turn: DQuat) -> AskedCamera {
     AskedCamera { size, fov, axis: FovAxis::Vertical, pose: Pose::Turned(DVec3::ZERO, turn) }
 }
 
@@ -73,14 +74,17 @@ fn too_narrow() -> Trial {
         let refusal = chain.set(asked).err().map(|refusal| refusal.to_string()).unwrap_or_default();
         tally.count(refusal.is_empty());
         tally.scores[0].judge(refusal.contains("fov is 0.0001°") && refusal.contains("4e-6 rad"));
-        let exact = chain.exact(asked, DMat3::from_quat(turn));
-        tally.scores[1].measure(viewport_error(&exact, DVec3::ZERO, any_pixel(asked.size, &mut draws)));
+        let judge = chain.judge(asked, DMat3::from_quat(turn));
+        tally.scores[1].measure(viewport_error(&judge, DVec3::ZERO, any_pixel(asked.size, &mut draws)));
     })
 }
 
 /// The one pixel of an image looks straight ahead, to the last bit.
 fn one_pixel() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, straight ahead to the last bit", "", 0.0)];
+    const ROWS: [Method; 2] = [
+        Method::kit("kit, straight ahead to the last bit", "", 0.0),
+        Method::naive("naive, pixel / (width - 1)", "", 0.0),
+    ];
     one_by_one("1 x 1, any angle", &ROWS, |chain, index, tally| {
         let mut draws = Draws::new(76, index);
         let turn = any_turn(&mut draws);
@@ -89,6 +93,7 @@ fn one_pixel() -> Trial {
         let wrote = chain.pixels([0, 0], 1)[0];
         let ahead = axes.is_ok_and(|axes| wrote.world == (-axes.z_axis).as_vec3());
         tally.scores[0].judge(ahead && wrote.camera == DVec3::NEG_Z);
+        tally.scores[1].judge(ndc_over_last(0, 1) == 0.5);
     })
 }
 

@@ -41,25 +41,68 @@ pub struct Score {
     pub wrong: u64,
     /// Its worst error where it was right.
     pub worst: f64,
+    /// The first input at which it was wrong.
+    pub first_wrong: Option<u64>,
+    /// The input of its worst error.
+    pub worst_at: u64,
+    /// What it said last, and what is exactly so, where both are numbers.
+    pub said: Option<[Option<f64>; 2]>,
+    input: u64,
 }
 
 impl Score {
     /// Counts an answer that is right or wrong.
     pub fn judge(&mut self, right: bool) {
         self.wrong += u64::from(!right);
+        if !right && self.first_wrong.is_none() {
+            self.first_wrong = Some(self.input);
+        }
     }
 
     /// Takes note of an error; what is not a number counts as infinite.
     pub fn measure(&mut self, error: f64) {
-        self.worst = self.worst.max(if error.is_nan() { f64::INFINITY } else { error });
+        let error = if error.is_nan() { f64::INFINITY } else { error };
+        if error > self.worst {
+            (self.worst, self.worst_at) = (error, self.input);
+        }
     }
 
     /// Judges a distance by the exact one, rounded to f64; its error is relative, in u = 2⁻²⁴.
     pub fn judge_t(&mut self, t: Option<f64>, exact: Option<f64>) {
+        self.said = Some([t, exact]);
         match (t, exact) {
             (Some(t), Some(exact)) => self.measure((t - exact).abs() / exact / U),
             (t, exact) => self.judge(t.is_some() == exact.is_some()),
         }
+    }
+
+    /// Judges a number above 0 by the exact one, rounded to f64; its error is relative, in u.
+    pub fn judge_value(&mut self, value: f64, exact: f64) {
+        self.judge_t(Some(value), Some(exact));
+    }
+
+    /// The input that shows it at its worst: where it is wrong first, or else where its error is largest.
+    pub fn worst_input(&self) -> u64 {
+        self.first_wrong.unwrap_or(self.worst_at)
+    }
+
+    /// Both together; no order of adding changes the sum.
+    fn add(&mut self, other: Self) {
+        self.wrong += other.wrong;
+        let first = [self.first_wrong, other.first_wrong].into_iter().flatten().min();
+        let earlier = other.worst == self.worst && other.worst_at < self.worst_at;
+        if other.worst > self.worst || earlier {
+            (self.worst, self.worst_at) = (other.worst, other.worst_at);
+        }
+        (self.first_wrong, self.said) = (first, None);
+    }
+
+    /// The same, inputs counted from another one.
+    fn counted_from(mut self, first: u64) -> Self {
+        self.first_wrong = self.first_wrong.map(|input| input + first);
+        self.worst_at += first;
+        (self.said, self.input) = (None, 0);
+        self
     }
 }
 
@@ -80,8 +123,9 @@ impl Tally {
         Self { rays: 0, hits: 0, scores: vec![Score::default(); methods] }
     }
 
-    /// Counts an input.
+    /// Counts an input; what is judged from here on is judged of it.
     pub fn count(&mut self, hit: bool) {
+        self.scores.iter_mut().for_each(|score| score.input = self.rays);
         self.rays += 1;
         self.hits += u64::from(hit);
     }
@@ -91,9 +135,14 @@ impl Tally {
         self.rays += other.rays;
         self.hits += other.hits;
         for (score, other) in self.scores.iter_mut().zip(other.scores) {
-            score.wrong += other.wrong;
-            score.worst = score.worst.max(other.worst);
+            score.add(other);
         }
+        self
+    }
+
+    /// The same, inputs counted from another one.
+    fn counted_from(mut self, first: u64) -> Self {
+        self.scores.iter_mut().for_each(|score| *score = score.counted_from(first));
         self
     }
 }
@@ -131,12 +180,35 @@ impl Trial {
         let chunks = (0..rays.div_ceil(CHUNK)).into_par_iter();
         let tally = chunks
             .filter(|_| !watch.stopped())
-            .map(|chunk| (self.judge)(chunk * CHUNK..rays.min((chunk + 1) * CHUNK)))
+            .map(|chunk| chunk * CHUNK)
+            .map(|first| (self.judge)(first..rays.min(first + CHUNK)).counted_from(first))
             .reduce(|| Tally::new(self.methods.len()), Tally::add);
         let outcome = |(&method, score)| Outcome { method, score };
-        let outcomes = self.methods.iter().zip(tally.scores).map(outcome).collect();
-        Case { group: self.group, name: self.name.clone(), rays: tally.rays, hits: tally.hits, outcomes }
+        let outcomes: Vec<Outcome> = self.methods.iter().zip(tally.scores).map(outcome).collect();
+        let worst = self.worst(&outcomes);
+        Case { group: self.group, name: self.name.clone(), rays: tally.rays, hits: tally.hits, outcomes, worst }
     }
+
+    /// The first of the naive methods that break, and what all say of the input that shows it at its worst.
+    fn worst(&self, outcomes: &[Outcome]) -> Option<Worst> {
+        let naive = |outcome: &Outcome| !outcome.method.of_kit && !outcome.passes();
+        let method = outcomes.iter().position(naive)?;
+        let input = outcomes[method].score.worst_input();
+        let scores = (self.judge)(input..input + 1).scores;
+        // A judge that takes several inputs together may say something else of one alone.
+        (scores[method].wrong > 0 || scores[method].worst > 0.0).then_some(Worst { method, input, scores })
+    }
+}
+
+/// One input at which a naive method is at its worst.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Worst {
+    /// Which method, by its row.
+    pub method: usize,
+    /// The input's number.
+    pub input: u64,
+    /// What came of it, one a method.
+    pub scores: Vec<Score>,
 }
 
 /// A method and how it did.
@@ -168,6 +240,8 @@ pub struct Case {
     pub hits: u64,
     /// The methods.
     pub outcomes: Vec<Outcome>,
+    /// Where a naive one is at its worst; none where all pass.
+    pub worst: Option<Worst>,
 }
 
 impl Case {

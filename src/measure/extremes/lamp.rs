@@ -8,8 +8,8 @@
 use super::shadow_stages::{Shadow, ShadowStages, leaving};
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::Surface;
-use crate::measure::oracle_plane::{Plane, plane_hit, side_of_plane};
-use crate::measure::oracle_sphere::{Sphere, line_roots};
+use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
+use crate::measure::oracle_sphere::{Sphere, line_ts};
 use crate::measure::ray_aim::{Draws, rounded_ray, seen_sphere_of_any_size};
 use crate::naive::shadow::{ShadowStart, reach_to_light, reach_without_end, start_after_constant, start_off_surface};
 use glam::{DVec3, Vec3};
@@ -60,7 +60,7 @@ fn judge_walls(standing: Standing, range: Range<u64>) -> Tally {
         tally.count(shadow.is_some());
         let Some((shadow, wall, distance)) = shadow else { continue };
         tally.scores[0].judge(shadow.blocked.is_none());
-        let to_wall = plane_hit(shadow.origin, shadow.direction, wall).map(|t| t.to_f64());
+        let to_wall = plane_t(shadow.origin, shadow.direction, wall);
         for (score, reach) in tally.scores[1..].iter_mut().zip([reach_without_end(distance), reach_to_light(distance)])
         {
             score.judge(to_wall.is_none_or(|t| t >= f64::from(reach)));
@@ -131,8 +131,7 @@ fn judge_balls(range: Range<u64>) -> Tally {
 /// Whether the ball still shadows the naive starts; their kernel is exact, so that only the start is judged.
 fn judge_naive_balls(surface: Surface, direction: Vec3, ball: Sphere, scores: &mut [Score]) {
     let shadowed = |start: ShadowStart| {
-        let beyond = |root: f64| root > f64::from(start.t_min);
-        line_roots(start.origin, direction, ball).is_some_and(|roots| beyond(roots.far.to_f64()))
+        line_ts(start.origin, direction, ball).is_some_and(|[_, far]| far > f64::from(start.t_min))
     };
     scores[0].judge(shadowed(start_after_constant(surface.position)));
     scores[1].judge(shadowed(start_off_surface(surface.position, surface.normal)));

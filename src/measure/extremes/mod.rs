@@ -7,8 +7,11 @@
 mod bench;
 mod camera;
 mod camera_chain;
+mod camera_limits;
 mod camera_table;
 mod case;
+mod film;
+mod film_bytes;
 mod frame;
 mod lamp;
 mod plane;
@@ -16,12 +19,14 @@ mod print;
 mod shadow;
 mod shadow_stages;
 mod sphere;
+mod sphere_limits;
 mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
 
-pub use case::{Case, Method, Outcome, Score, Tally, Trial};
+pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
+pub use print::Words;
 
 use crate::render::Watch;
 use rayon::prelude::*;
@@ -41,20 +46,25 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Films: sums of samples, bytes of pictures.
+    Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 5] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform];
+    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
         match self {
-            Self::Sphere => sphere::trials(),
+            Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
             Self::Plane => plane::trials(),
             Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
-            Self::Camera => [camera::trials(), camera_table::trials()].into_iter().flatten().collect(),
+            Self::Camera => {
+                [camera::trials(), camera_table::trials(), camera_limits::trials()].into_iter().flatten().collect()
+            }
             Self::Transform => transform::trials(),
+            Self::Film => film::trials(),
         }
     }
 }
@@ -67,6 +77,7 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Film => "film",
         })
     }
 }
@@ -75,7 +86,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        Self::ALL.into_iter().find(known).ok_or_else(|| "it must be sphere, plane, shadow, camera or transform".into())
+        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
+        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::bench::{Bench, plane_table};
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Hits, plane_stage, plane_t, start_stage};
-use crate::measure::oracle_plane::{Plane, plane_hit};
+use crate::measure::oracle_plane::{self, Plane};
 use crate::measure::ray_aim::{AimedRay, plane_of_any_offset};
 use crate::naive::plane::hit_f32;
 use glam::Vec3;
@@ -90,7 +90,7 @@ fn judge(view: View, range: Range<u64>) -> Tally {
 
 /// The exact distance, rounded to f64 once.
 fn exact(ray: AimedRay, plane: Plane) -> Option<f64> {
-    plane_hit(ray.origin, ray.direction, plane).map(|t| t.to_f64())
+    oracle_plane::plane_t(ray.origin, ray.direction, plane)
 }
 
 /// The distance by the kit's function of one ray and one plane.

@@ -1,6 +1,6 @@
 //! How a case reads: a line of its own, then a line a method.
 
-use super::{Case, Group, Outcome};
+use super::{Case, Group, Outcome, Worst};
 use std::fmt;
 
 impl Group {
@@ -12,6 +12,7 @@ impl Group {
             Self::Shadow => ["shadow rays", "starts", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
+            Self::Film => ["samples and bytes of films", "judged", "wrong"],
         }
     }
 
@@ -31,29 +32,77 @@ impl fmt::Display for Case {
         writeln!(f, "{}: {} tried, {} {hits}", self.name, self.rays, self.hits)?;
         for outcome in &self.outcomes {
             writeln!(f, "{outcome}")?;
-            if !outcome.method.of_kit && outcome.passes() {
+            if outcome.words().proves_nothing {
                 writeln!(f, "    the naive method passes here too: this case proves nothing about it")?;
             }
         }
-        Ok(())
+        self.worst_lines().iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
 
-impl fmt::Display for Outcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Case {
+    /// The input at which the first naive method that breaks is at its worst, and what is said of it.
+    pub fn worst_lines(&self) -> Vec<String> {
+        let Some(Worst { method: row, input, scores }) = &self.worst else { return Vec::new() };
+        let (naive, kit, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
+        let word = if naive.wrong > 0 { "first wrong" } else { "at its worst" };
+        let mut lines = vec![format!("{word} at input {input}: {}", method.name)];
+        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, kit.said) {
+            let [naive, kit, exact] = [naive, kit, exact].map(said);
+            lines.push(format!("  naive {naive}, kit {kit}, exact {exact}"));
+        } else if naive.wrong == 0 && kit.wrong == 0 && method.unit == self.outcomes[0].method.unit {
+            let [naive, kit] = [naive, kit].map(|score| short(score.worst));
+            lines.push(format!("  naive off by {naive} {unit}, kit by {kit} {unit}", unit = method.unit));
+        }
+        lines
+    }
+}
+
+/// What a table says of a method.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// The worst error with its unit; empty where right and wrong is all there is.
+    pub worst: String,
+    /// What is asked.
+    pub asked: String,
+    /// held, NOT HELD, breaks or passes.
+    pub verdict: &'static str,
+    /// Whether a naive method passes.
+    pub proves_nothing: bool,
+}
+
+impl Outcome {
+    /// What a table says of it.
+    pub fn words(&self) -> Words {
         let Self { method, score } = self;
         let (worst, asked) = match method.unit {
             "" => (String::new(), "none wrong".into()),
             unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "none wrong".into()),
             unit => (format!("{} {unit}", short(score.worst)), format!("<= {}", short(method.bound))),
         };
-        let word = match (method.of_kit, self.passes()) {
+        let verdict = match (method.of_kit, self.passes()) {
             (true, true) => "held",
             (true, false) => "NOT HELD",
             (false, true) => "passes",
             (false, false) => "breaks",
         };
-        write!(f, "  {:<36}{:>12}{worst:>21}   {word:<8}{asked:>12}", method.name, score.wrong)
+        Words { worst, asked, verdict, proves_nothing: verdict == "passes" }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Words { worst, asked, verdict, .. } = self.words();
+        write!(f, "  {:<36}{:>12}{worst:>21}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
+    }
+}
+
+/// A distance or another number, or that there is none.
+fn said(value: Option<f64>) -> String {
+    match value {
+        None => "none".into(),
+        Some(value) if value == 0.0 || (1e-3..1e6).contains(&value.abs()) => format!("{value:.10}"),
+        Some(value) => format!("{value:.10e}"),
     }
 }
 

@@ -21,8 +21,8 @@ use super::shadow_stages::{Shadow, ShadowStages, leaving};
 use super::sphere::by_function as sphere_by_function;
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::Surface;
-use crate::measure::oracle_plane::{Plane, plane_hit, side_of_plane};
-use crate::measure::oracle_sphere::{Roots, Sphere, line_roots, side_of_sphere, sphere_hit};
+use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
+use crate::measure::oracle_sphere::{Sphere, line_ts, side_of_sphere, sphere_t};
 use crate::measure::ray_aim::{self, AimedRay, Draws};
 use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, start_off_surface};
 use glam::Vec3;
@@ -91,9 +91,8 @@ fn judge_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
             tally.scores[0].judge(sphere_is_left(side, shadow, sphere));
             if side == Ordering::Greater {
                 judge_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
-                    line_roots(start.origin, direction, sphere).is_some_and(|Roots { near, far }| {
-                        [near, far].iter().any(|root| root.to_f64() > f64::from(start.t_min))
-                    })
+                    let ts = line_ts(start.origin, direction, sphere);
+                    ts.is_some_and(|ts| ts.iter().any(|&t| t > f64::from(start.t_min)))
                 });
             }
         }
@@ -124,7 +123,7 @@ fn start_on_sphere(
 fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;
     let meets = sphere_by_function(AimedRay { origin, direction }, sphere).is_finite();
-    let exactly = sphere_hit(origin, direction, sphere).is_some();
+    let exactly = sphere_t(origin, direction, sphere).is_some();
     let outside = side == Ordering::Greater;
     side_of_sphere(origin.as_dvec3(), sphere) == side && meets == exactly && !(outside && (meets || blocked.is_some()))
 }
@@ -146,8 +145,7 @@ fn judge_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
         if let Some((surface, shadow)) = shadow {
             tally.scores[0].judge(plane_is_left(side, shadow, plane));
             judge_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
-                let hit = plane_hit(start.origin, direction, plane);
-                hit.is_some_and(|t| t.to_f64() > f64::from(start.t_min))
+                plane_t(start.origin, direction, plane).is_some_and(|t| t > f64::from(start.t_min))
             });
         }
     }

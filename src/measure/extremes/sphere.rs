@@ -4,7 +4,7 @@ use super::bench::{Bench, sphere_table};
 use super::frame;
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Hits, sphere_stage, sphere_t, start_stage};
-use crate::measure::oracle_sphere::{Sphere, sphere_hit};
+use crate::measure::oracle_sphere::{self, Sphere};
 use crate::measure::ray_aim::{self, AimedRay};
 use crate::naive::sphere::{hit_f32, hit_f64_plain, hit_haines_f32};
 use std::ops::Range;
@@ -31,6 +31,7 @@ pub fn trials() -> Vec<Trial> {
         trial("horizon of radius 1e6 from height 1", |index| ray_aim::horizon(24, index, 1e6, 1.0)),
         trial("horizon of radius 1e8 from height 1e-2", |index| ray_aim::horizon(25, index, 1e8, 1e-2)),
         trial("disc of radius 1e6 from height 1", |index| ray_aim::disc(26, index, 1e6, 1.0 + 1e-6)),
+        trial("radius 1e-6 at 1e3, finer than directions", |index| ray_aim::disc(32, index, 1e-6, 1e9)),
         trial("tangent at 1.5 radii", |index| ray_aim::tangent(27, index, 1.0, 1.5)),
         trial("tangent at 1e3 radii", |index| ray_aim::tangent(28, index, 1.0, 1e3)),
         trial("centre at 1e5 radii", |index| ray_aim::centre(29, index, 1.0, 1e5)),
@@ -64,7 +65,7 @@ fn judge(aim: fn(u64) -> (AimedRay, Sphere), range: Range<u64>) -> Tally {
 
 /// The exact distance, rounded to f64 once.
 pub(super) fn exact(ray: AimedRay, sphere: Sphere) -> Option<f64> {
-    sphere_hit(ray.origin, ray.direction, sphere).map(|t| t.to_f64())
+    oracle_sphere::sphere_t(ray.origin, ray.direction, sphere)
 }
 
 /// The distance by the kit's function of one ray and one sphere.

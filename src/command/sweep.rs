@@ -1,0 +1,29 @@
+use super::interrupt::{Waiting, interrupted};
+use crate::chapter::{Asked, Chapter};
+use crate::measure::sweep::{Line, SIZE, sweep};
+use crate::{Error, Result};
+use std::io::Write;
+
+/// A line for each thing done to a chapter's scene.
+///
+/// Errors: what a render of the scene would be refused for; a line that does not hold.
+pub fn print_sweep(chapter: &Chapter, out: &mut dyn Write) -> Result {
+    let make = || chapter.world(&Asked::default());
+    let lines = sweep(&make, &chapter.stages(), &Waiting::new(0, true))?;
+    if interrupted() {
+        return Err(Error::Interrupted);
+    }
+    writeln!(out, "{}, {} x {} pixels where no other size is named", chapter.name, SIZE[0], SIZE[1])?;
+    writeln!(out, "{:<32}{:<46}{:<9}asked", "done", "came", "")?;
+    for line in &lines {
+        writeln!(out, "{line}")?;
+    }
+    let held = lines.iter().filter(|line| line.held).count();
+    writeln!(out, "held: {held} of {} lines", lines.len())?;
+    match lines.iter().find(|line| !line.held) {
+        None => Ok(()),
+        Some(Line { done, came, asked, .. }) => {
+            Err(Error::Usage(format!("{} does not hold when {done}: {came}, where {asked} is asked", chapter.name)))
+        }
+    }
+}
