@@ -264,8 +264,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         ("lamp", &["Aim at lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
-    let on =
-        [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
+    let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
     for (name, stages) in kinds {
         let mut scene = toggled(&on);
         let entity = named(&mut scene, name);

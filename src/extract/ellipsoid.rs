@@ -84,11 +84,21 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
     Ok(Ellipsoid::new(centre, unit_from_world, longest))
 }
 
-/// The most by which a map makes a vector longer: exact where its columns are at right angles, else up to √3 times as
-/// much (the largest sum of a row of MᵀM bounds its eigenvalues).
+/// The most by which a map makes a vector longer, or up to 1 % more where its columns are not at right angles.
 fn stretch(map: DMat3) -> f64 {
-    let products = map.transpose() * map;
-    [0, 1, 2].map(|row| products.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max).sqrt()
+    const ROUNDS: u32 = 5;
+    bound_of_eigenvalues(map.transpose() * map, ROUNDS).sqrt()
+}
+
+/// No eigenvalue of a symmetric matrix is larger than the largest sum of a row; each round takes the square of the matrix
+/// for the matrix, which halves the room between the two as a power of ten.
+fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
+    let bound = [0, 1, 2].map(|row| matrix.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max);
+    if rounds == 0 || bound == 0.0 || !bound.is_finite() {
+        return bound;
+    }
+    let reduced = matrix * (1.0 / bound);
+    bound * bound_of_eigenvalues(reduced * reduced, rounds - 1).sqrt()
 }
 
 /// Whether the entity's placement and its parents' together scale unevenly, so that a sphere becomes an ellipsoid.
@@ -159,6 +169,22 @@ mod tests {
             assert!(pole.length() <= reach);
         }
         assert!(reach < 2e3 * 1.0001);
+    }
+
+    #[test]
+    fn a_sheared_sphere_lies_within_its_reach_and_not_far_within() {
+        let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
+        let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
+        world.entity_mut(spheres[0]).insert(ChildOf(parent));
+        let map = pose(&world, "", spheres[0]).expect("a pose").world_from_entity.matrix3;
+        let reach = EllipsoidTable::extract(&world).expect("ellipsoids").ellipsoid[0].reach;
+        let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
+        let point = |angle: f64| {
+            let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
+            map * (DVec3::new(libm::cos(angle) * round, libm::sin(angle) * round, height) * 2.0)
+        };
+        let farthest = steps.map(|angle| point(angle).length()).fold(0.0, f64::max);
+        assert!(farthest <= reach && reach <= farthest * 1.02, "{farthest} within {reach}");
     }
 
     #[test]

@@ -16,8 +16,7 @@ pub struct Pose {
     pub world_from_entity: DAffine3,
     /// The linear part turned round, made of each placement's own inverse.
     ///
-    /// An inverse taken of the whole map would lose twice the digits by which the map stretches one way more than
-    /// another.
+    /// An inverse of the whole map by its determinant loses up to four digits more where a stretched parent is turned.
     pub entity_from_world: DMat3,
 }
 

@@ -8,8 +8,8 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MatteTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
-    ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MatteTable, PinholeLens, PlaneTable, PointLightTable,
+    ShapeKind, ShapeTable, SphereTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
