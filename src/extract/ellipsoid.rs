@@ -49,11 +49,9 @@ impl Table for EllipsoidTable {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
-            let Some(sphere) = scene.get::<Sphere>(entity) else { continue };
-            if unevenly_scaled(scene, entity) {
-                table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
-                table.shape.push(shape as u32);
-            }
+            let Some(sphere) = scene.get::<Sphere>(entity).filter(|_| unevenly_scaled(scene, entity)) else { continue };
+            table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
+            table.shape.push(shape as u32);
         }
         Ok(table)
     }
@@ -107,17 +105,16 @@ fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
 pub fn unevenly_scaled(scene: &World, entity: Entity) -> bool {
     let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
     let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
-    !even_alone && pose(scene, "", entity).is_ok_and(|pose| even_scale(pose.world_from_entity.matrix3).is_none())
+    !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
 }
 
-/// The one factor by which a map stretches every direction, mirrored or not; none where it stretches unevenly.
-pub(super) fn even_scale(world_from_entity: DMat3) -> Option<f64> {
+/// Whether a map stretches every direction by the same factor, mirrored or not.
+fn is_even(world_from_entity: DMat3) -> bool {
     let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
     let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
     let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
     let uneven = (lengths - lengths.x).abs().max_element();
-    let even = uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x;
-    even.then_some(lengths.x)
+    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
 }
 
 #[cfg(test)]
