@@ -72,7 +72,7 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
     positive_length(&who, "longest half axis", longest)?;
     positive_length(&who, "shortest half axis", shortest)?;
     let ratio = longest / shortest;
-    if !(ratio <= LARGEST_RATIO) {
+    if ratio > LARGEST_RATIO {
         let own = scene.get::<Placement>(entity).copied().unwrap_or_default().scale;
         let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
         let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));

@@ -27,6 +27,7 @@ pub fn trials() -> Vec<Trial> {
         ("surface anywhere, 10 times as long, 1e3 radii away", 1.0, 0.0, Aim::Anywhere, From::Far(1e3)),
         ("surface anywhere, 1e4 times as long, any size", 4.0, 8.0, Aim::Anywhere, From::Far(1e3)),
         ("surface at tips, 1e4 times as long, 1e7 radii away", 4.0, 0.0, Aim::Pole, From::Far(1e7)),
+        ("surface anywhere, 1e7 times as long, 1e7 radii away", 7.0, 8.0, Aim::Anywhere, From::Far(1e7)),
         ("surface at tips, 1e7 times as long, from near", 7.0, 8.0, Aim::Pole, From::Near(-6.0)),
         ("surface at silhouettes, 1e3 times as long", 3.0, 3.0, Aim::Silhouette, From::Far(1e5)),
         ("surface from inside, 1e3 times as long, any size", 3.0, 8.0, Aim::Anywhere, From::Inside),
