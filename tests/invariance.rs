@@ -5,12 +5,13 @@ mod scenes;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use glam::DVec3;
+use pinhole::extract::EllipsoidTable;
 use pinhole::film::FilmTile;
 use pinhole::measure::film_bits::digest;
 use pinhole::measure::sweep::{scale, shift};
-use pinhole::plan::Stage;
+use pinhole::plan::{Stage, Table};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
-use pinhole::scene::{PointLight, Statistics};
+use pinhole::scene::{Placement, PointLight, Statistics};
 use scenes::{EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, stretched, ties, turned};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -304,4 +305,34 @@ fn digests() {
     settings.set_omit_expression(true);
     settings.bind(|| insta::assert_snapshot!("digests", lines.join("\n")));
     eprintln!("digests: {} films and every bit of {columns} columns", lines.len() - columns);
+}
+
+/// A scale that is even up to 1e-9 keeps a sphere a sphere; beyond, it is an ellipsoid, and the picture does not jump.
+#[test]
+fn nearly_even_scales() {
+    let scene = |by: f64| {
+        let mut scene = full(Setup { size: [48, 33], ..Setup::default() });
+        for name in ["left ball", "middle ball"] {
+            let ball = named(&mut scene, name);
+            let mut placement = scene.get_mut::<Placement>(ball).expect("a placement");
+            placement.scale.z = 1.0 + by;
+        }
+        scene
+    };
+    let ellipsoids = |scene: &World| EllipsoidTable::extract(scene).expect("extracts").shape.len();
+    let even = film(&scene(0.0));
+    for (by, uneven) in [(1e-12, 0), (9e-10, 0), (1.1e-9, 2), (1e-8, 2)] {
+        let scene = scene(by);
+        assert_eq!(ellipsoids(&scene), uneven, "1 + {by:e}");
+        let film = film(&scene);
+        if uneven == 0 {
+            film.assert_is(&even, &format!("scaled by 1 + {by:e} along z"));
+        }
+        let parts = |film: &FilmBits| film.pixels.iter().flat_map(|p| [p[0], p[1], p[2]]).map(f64::from_bits).collect();
+        let (own, other): (Vec<f64>, Vec<f64>) = (parts(&film), parts(&even));
+        let off = own.iter().zip(&other).map(|(a, b)| (a - b).abs() / b.max(0.01)).fold(0.0, f64::max);
+        eprintln!("scaled by 1 + {by:e} along z: {uneven} ellipsoids, pixels off by {off:.1e} of themselves at most");
+        // A few rounding steps of f32, for the numbers that a pixel is made of.
+        assert!(off <= 1e-6, "1 + {by:e}: a pixel is off by {off:e} of itself");
+    }
 }

@@ -49,11 +49,9 @@ impl Table for EllipsoidTable {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
-            let Some(sphere) = scene.get::<Sphere>(entity) else { continue };
-            if unevenly_scaled(scene, entity) {
-                table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
-                table.shape.push(shape as u32);
-            }
+            let Some(sphere) = scene.get::<Sphere>(entity).filter(|_| unevenly_scaled(scene, entity)) else { continue };
+            table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
+            table.shape.push(shape as u32);
         }
         Ok(table)
     }
@@ -74,7 +72,7 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
     positive_length(&who, "longest half axis", longest)?;
     positive_length(&who, "shortest half axis", shortest)?;
     let ratio = longest / shortest;
-    if !(ratio <= LARGEST_RATIO) {
+    if ratio > LARGEST_RATIO {
         let own = scene.get::<Placement>(entity).copied().unwrap_or_default().scale;
         let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
         let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));
@@ -84,11 +82,21 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
     Ok(Ellipsoid::new(centre, unit_from_world, longest))
 }
 
-/// The most by which a map makes a vector longer: exact where its columns are at right angles, else up to √3 times as
-/// much (the largest sum of a row of MᵀM bounds its eigenvalues).
+/// The most by which a map makes a vector longer, or up to 1 % more where its columns are not at right angles.
 fn stretch(map: DMat3) -> f64 {
-    let products = map.transpose() * map;
-    [0, 1, 2].map(|row| products.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max).sqrt()
+    const ROUNDS: u32 = 5;
+    bound_of_eigenvalues(map.transpose() * map, ROUNDS).sqrt()
+}
+
+/// No eigenvalue of a symmetric matrix is larger than the largest sum of a row; each round takes the square of the matrix
+/// for the matrix, which halves the room between the two as a power of ten.
+fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
+    let bound = [0, 1, 2].map(|row| matrix.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max);
+    if rounds == 0 || bound == 0.0 || !bound.is_finite() {
+        return bound;
+    }
+    let reduced = matrix * (1.0 / bound);
+    bound * bound_of_eigenvalues(reduced * reduced, rounds - 1).sqrt()
 }
 
 /// Whether the entity's placement and its parents' together scale unevenly, so that a sphere becomes an ellipsoid.
@@ -97,17 +105,16 @@ fn stretch(map: DMat3) -> f64 {
 pub fn unevenly_scaled(scene: &World, entity: Entity) -> bool {
     let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
     let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
-    !even_alone && pose(scene, "", entity).is_ok_and(|pose| even_scale(pose.world_from_entity.matrix3).is_none())
+    !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
 }
 
-/// The one factor by which a map stretches every direction, mirrored or not; none where it stretches unevenly.
-pub(super) fn even_scale(world_from_entity: DMat3) -> Option<f64> {
+/// Whether a map stretches every direction by the same factor, mirrored or not.
+fn is_even(world_from_entity: DMat3) -> bool {
     let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
     let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
     let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
     let uneven = (lengths - lengths.x).abs().max_element();
-    let even = uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x;
-    even.then_some(lengths.x)
+    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
 }
 
 #[cfg(test)]
@@ -159,6 +166,22 @@ mod tests {
             assert!(pole.length() <= reach);
         }
         assert!(reach < 2e3 * 1.0001);
+    }
+
+    #[test]
+    fn a_sheared_sphere_lies_within_its_reach_and_not_far_within() {
+        let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
+        let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
+        world.entity_mut(spheres[0]).insert(ChildOf(parent));
+        let map = pose(&world, "", spheres[0]).expect("a pose").world_from_entity.matrix3;
+        let reach = EllipsoidTable::extract(&world).expect("ellipsoids").ellipsoid[0].reach;
+        let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
+        let point = |angle: f64| {
+            let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
+            map * (DVec3::new(libm::cos(angle) * round, libm::sin(angle) * round, height) * 2.0)
+        };
+        let farthest = steps.map(|angle| point(angle).length()).fold(0.0, f64::max);
+        assert!(farthest <= reach && reach <= farthest * 1.02, "{farthest} within {reach}");
     }
 
     #[test]

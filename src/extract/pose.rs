@@ -16,8 +16,7 @@ pub struct Pose {
     pub world_from_entity: DAffine3,
     /// The linear part turned round, made of each placement's own inverse.
     ///
-    /// An inverse taken of the whole map would lose twice the digits by which the map stretches one way more than
-    /// another.
+    /// An inverse of the whole map by its determinant loses up to four digits more where a stretched parent is turned.
     pub entity_from_world: DMat3,
 }
 
@@ -148,3 +147,45 @@ fn direction(v: DVec3) -> Option<DVec3> {
     if v.is_finite() && largest > 0.0 { (v / largest).try_normalize() } else { None }
 }
 // ANCHOR_END: direction
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mirrored, stretched thing under a turned and flattened parent.
+    fn nested() -> Pose {
+        let mut world = World::new();
+        let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+        let (position, flat) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(1.0, 0.125, -2.0));
+        let parent = world.spawn(Placement { position, orientation: tilt, scale: flat }).id();
+        let own = Placement { position, orientation: tilt, scale: DVec3::new(-1.0, 3.0, 0.5) };
+        let entity = world.spawn((own, ChildOf(parent))).id();
+        pose(&world, "", entity).expect("a pose")
+    }
+
+    #[test]
+    fn points_and_directions_come_back() {
+        let Pose { world_from_entity, entity_from_world } = nested();
+        let (point, along) = (DVec3::new(0.3, -0.7, 1.1), DVec3::new(-0.2, 0.9, 0.4));
+        let there = world_from_entity.transform_point3(point);
+        let back = point_object_from_world(entity_from_world, world_from_entity.translation, there);
+        assert!(back.distance(point) < 1e-14, "{back}");
+        let further = world_from_entity.transform_point3(point + along);
+        let back = direction_object_from_world(entity_from_world, further - there);
+        assert!(back.distance(along) < 1e-14, "a direction is a difference of two points: {back}");
+    }
+
+    #[test]
+    fn normals_stay_across_the_surface_and_on_their_side() {
+        let Pose { world_from_entity, entity_from_world } = nested();
+        let normal = DVec3::new(0.6, 0.0, 0.8);
+        let there = normal_world_from_object(entity_from_world, normal);
+        for along in [DVec3::Y, DVec3::new(0.8, 0.0, -0.6)] {
+            assert!(there.dot(world_from_entity.matrix3 * along).abs() < 1e-14);
+        }
+        // What lies before the surface still does, though this map mirrors once and once again.
+        assert!(there.dot(world_from_entity.matrix3 * normal) > 0.0);
+        let leaning = (world_from_entity.matrix3 * normal).normalize().dot(there.normalize());
+        assert!(leaning < 0.9, "taken there as a direction is, it would lean: {leaning}");
+    }
+}

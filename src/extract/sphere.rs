@@ -1,6 +1,5 @@
 use super::check::{finite_point, kind_and_name, number, positive_length};
-use super::ellipsoid::even_scale;
-use super::{eye, shape_entities, world_from_entity};
+use super::{eye, shape_entities, unevenly_scaled, world_from_entity};
 use crate::plan::Table;
 use crate::scene::{Refusal, Sphere};
 use bevy_ecs::prelude::*;
@@ -36,11 +35,14 @@ impl Table for SphereTable {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
-            let Some(sphere) = scene.get::<Sphere>(entity) else { continue };
+            let Some(sphere) = scene.get::<Sphere>(entity).filter(|_| !unevenly_scaled(scene, entity)) else {
+                continue;
+            };
             let who = kind_and_name(scene, "sphere", entity);
             let pose = world_from_entity(scene, &who, entity)?;
             positive_length(&who, "radius", sphere.radius)?;
-            let Some(scale) = even_scale(pose.matrix3) else { continue };
+            // The same along all axes, mirrored or not.
+            let scale = pose.matrix3.x_axis.length();
             let centre = finite_point(&who, "position", pose.translation - eye)?;
             table.x.push(centre.x);
             table.y.push(centre.y);

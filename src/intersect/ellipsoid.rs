@@ -141,6 +141,8 @@ fn narrow(
 /// So a start that is moved along m by more than this, and by what rounding takes, is off the surface for certain, be the
 /// surface as sharply bent as it likes: nothing but this distance to a plane counts.
 /// The residual |g|² − 1 is measured, up to twice the error of g; both are taken twice over.
+/// From inside, the start lies inside while the bound is less than a seventh of the sharpest bend's radius, the shortest
+/// half axis squared over the longest; below that no room is left to start in.
 /// Where that error would turn the normal by more than u or reach farther than u of the shortest half axis, g is found
 /// again in twice as many digits.
 #[inline(always)]

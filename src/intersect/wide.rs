@@ -66,9 +66,10 @@ pub fn wide_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: 
     let residual = add(dot(g, g), (-1.0, 0.0)).0;
     let (near, q) = (DVec3::from(g.map(|part| part.0)), ellipsoid.unit_from_world * direction);
     let slope = near.dot(q);
-    let root = (slope * slope - q.dot(q) * residual).max(0.0).sqrt();
-    let steepest = slope + root.copysign(slope);
-    let further = if steepest == 0.0 { 0.0 } else { -residual / steepest };
+    let discriminant = slope * slope - q.dot(q) * residual;
+    // A tangent, up to rounding, is met where it comes nearest.
+    let further =
+        if discriminant > 0.0 { -residual / (slope + discriminant.sqrt().copysign(slope)) } else { -slope / q.dot(q) };
     (further, near + further * q)
 }
 

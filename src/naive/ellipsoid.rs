@@ -42,15 +42,6 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, unit_from_world: Mat
     super::sphere::hit_f32(unit_from_world * (origin - centre), unit_from_world * direction, Vec3::ZERO, 1.0)
 }
 
-/// The inverse of a whole placement by its determinant.
-///
-/// Each part of it is a difference of products of the longest axis, so it loses twice the digits by which the longest
-/// axis exceeds the shortest.
-#[must_use]
-pub fn inverse_of_the_whole(world_from_object: DMat3) -> DMat3 {
-    world_from_object.inverse()
-}
-
 /// The axes of something that looks from `eye` to `target`, as first look-at functions have them.
 ///
 /// Nothing asks whether there is a direction at all.
@@ -69,7 +60,7 @@ mod tests {
     fn an_even_scale_hides_all_of_it() {
         let (centre, double) = (DVec3::new(0.0, 0.0, -6.0), DMat3::from_diagonal(DVec3::splat(2.0)));
         assert_eq!(normal_as_direction(double, DVec3::Y), DVec3::Y);
-        let half = inverse_of_the_whole(double);
+        let half = double.inverse();
         let t = hit_f32(Vec3::ZERO, Vec3::NEG_Z, centre.as_vec3(), half.as_mat3());
         assert_eq!(t, Some(4.0));
         assert_eq!(look_at_unchecked(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y), DMat3::IDENTITY);
@@ -79,9 +70,9 @@ mod tests {
     fn an_uneven_scale_shows_it() {
         let stretched = DMat3::from_diagonal(DVec3::new(1.0, 4.0, 1.0));
         let slanted = DVec3::new(0.6, 0.8, 0.0);
-        let right = (inverse_of_the_whole(stretched).transpose() * slanted).normalize();
+        let right = (stretched.inverse().transpose() * slanted).normalize();
         assert!(normal_as_direction(stretched, slanted).dot(right) < 0.6, "the normal leans the wrong way");
-        let half = inverse_of_the_whole(DMat3::from_diagonal(DVec3::splat(2.0)));
+        let half = DMat3::from_diagonal(DVec3::splat(0.5));
         let t = hit_renormalised(DVec3::ZERO, DVec3::NEG_Z, DVec3::new(0.0, 0.0, -6.0), half);
         assert_eq!(t, Some(2.0), "the sphere begins at 4");
         assert!(look_at_unchecked(DVec3::ZERO, DVec3::NEG_Z, DVec3::Z).is_nan());

@@ -1,7 +1,7 @@
 use super::Placement;
 use bevy_ecs::prelude::*;
 
-/// A sphere about the entity's position.
+/// A sphere about the entity's position; an ellipsoid where its placement scales it unevenly.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Placement)]
 pub struct Sphere {

@@ -29,6 +29,7 @@ pub fn trials() -> Vec<Trial> {
         ("silhouette, 1e3 times as long, 1e5 radii away", 3.0, 0.0, Aim::Silhouette, From::Far(1e5)),
         ("silhouette, 1e4 times as long, 1e7 radii away", 4.0, 0.0, Aim::Silhouette, From::Far(1e7)),
         ("silhouette, 1e7 times as long, any size 1e-8 to 1e8", 7.0, 8.0, Aim::Silhouette, From::Far(2.0)),
+        ("silhouette, 1e7 times as long, 1e7 radii away", 7.0, 0.0, Aim::Silhouette, From::Far(1e7)),
         ("tips and poles, 1e4 times as long, 1e3 radii away", 4.0, 0.0, Aim::Pole, From::Far(1e3)),
         ("tips and poles, 1e7 times as long, from near", 7.0, 8.0, Aim::Pole, From::Near(-6.0)),
         ("anywhere, 1e4 times as long, any size, 1e3 radii away", 4.0, 8.0, Aim::Anywhere, From::Far(1e3)),

@@ -16,6 +16,8 @@ pub struct Stretched {
     pub world_from_unit: DMat3,
     /// The longest half axis.
     pub longest: f64,
+    /// The shortest.
+    pub shortest: f64,
 }
 
 /// Where a ray is aimed.
@@ -36,6 +38,8 @@ pub enum From {
     Far(f64),
     /// 10^U(this, 0) of the shortest half axis off the surface.
     Near(f64),
+    /// Anywhere inside.
+    Inside,
 }
 
 /// What a case draws.
@@ -55,12 +59,11 @@ pub struct View {
 
 /// A turn, uniform over all turns.
 pub fn turn(draws: &mut Draws) -> DQuat {
-    let (a, b) = (draws.unit_vector(), draws.unit());
-    let [angle, s] = [draws.between(0.0, std::f64::consts::TAU), libm::sqrt(b)];
     // Two halves of the four numbers, each uniform on a circle (Shoemake, Graphics Gems III).
-    let other = libm::atan2(a.y, a.x);
-    let r = libm::sqrt(1.0 - b);
-    DQuat::from_xyzw(r * libm::sin(angle), r * libm::cos(angle), s * libm::sin(other), s * libm::cos(other))
+    let [a, b] = [(); 2].map(|()| draws.between(0.0, std::f64::consts::TAU));
+    let share = draws.unit();
+    let (r, s) = (libm::sqrt(1.0 - share), libm::sqrt(share));
+    DQuat::from_xyzw(r * libm::sin(a), r * libm::cos(a), s * libm::sin(b), s * libm::cos(b))
 }
 
 /// Scales of which the largest is `ratio` times the smallest: needles, pancakes and all between, mirrored or not.
@@ -105,6 +108,7 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Stretched) {
             let aside = draws.unit_vector_across(seen_from) * draws.unit();
             world_from_unit * g + (seen_from + aside) * (shortest * draws.power_of_ten(least, 0.0))
         }
+        From::Inside => world_from_unit * (seen_from * draws.between(0.0, 0.95)),
     };
     let from_unit = unit_from_world * start;
     if from_unit.dot(g) < 1.0 && matches!(view.from, From::Far(_)) {
@@ -122,7 +126,7 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Stretched) {
     let normal = (unit_from_world.transpose() * g).normalize();
     let ray = rounded_ray(Vec3::ZERO, target.normalize() + normal * (quanta * QUANTUM));
     let ellipsoid = Ellipsoid::new(-start, unit_from_world, longest);
-    (ray, Stretched { ellipsoid, world_from_unit, longest })
+    (ray, Stretched { ellipsoid, world_from_unit, longest, shortest })
 }
 
 /// The table of these ellipsoids; an ellipsoid's shape number is its place.

@@ -4,7 +4,7 @@ use super::shadow_stages::{ShadowStages, leaving};
 use super::transform_aim::{Aim, From, Stretched, View, ellipsoid_table, shot};
 use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Surface, offset_origin};
-use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
+use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::exact_vector::ExactVector;
 use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess, outward};
 use crate::measure::ray_aim::{AimedRay, Draws};
@@ -27,8 +27,10 @@ pub fn trials() -> Vec<Trial> {
         ("surface anywhere, 10 times as long, 1e3 radii away", 1.0, 0.0, Aim::Anywhere, From::Far(1e3)),
         ("surface anywhere, 1e4 times as long, any size", 4.0, 8.0, Aim::Anywhere, From::Far(1e3)),
         ("surface at tips, 1e4 times as long, 1e7 radii away", 4.0, 0.0, Aim::Pole, From::Far(1e7)),
+        ("surface anywhere, 1e7 times as long, 1e7 radii away", 7.0, 8.0, Aim::Anywhere, From::Far(1e7)),
         ("surface at tips, 1e7 times as long, from near", 7.0, 8.0, Aim::Pole, From::Near(-6.0)),
         ("surface at silhouettes, 1e3 times as long", 3.0, 3.0, Aim::Silhouette, From::Far(1e5)),
+        ("surface from inside, 1e3 times as long, any size", 3.0, 8.0, Aim::Anywhere, From::Inside),
     ];
     let trial = |(seed, (name, ratio, sizes, aim, from)): (u64, (&str, f64, f64, Aim, From))| {
         let view = View { seed, ratio, sizes, aim, from };
@@ -42,11 +44,18 @@ fn judge(view: View, range: Range<u64>) -> Tally {
     for index in range {
         let (ray, shape) = shot(view, index);
         stages.ellipsoids(ellipsoid_table([shape.ellipsoid]));
-        let hit = stages.surface(ray);
+        // From inside, a bound that is not well below the sharpest bend's radius leaves no room to start in.
+        let room = shape.shortest * shape.shortest / shape.longest / 7.0;
+        let inside = matches!(view.from, From::Inside);
+        let hit = stages.surface(ray).filter(|(_, surface)| !inside || f64::from(surface.bound) <= room);
         tally.count(hit.is_some());
-        if let Some((_, surface)) = hit {
-            judge_normal(ray, &shape, surface, &mut tally.scores);
-            judge_start(&mut stages, Draws::new(view.seed + 1000, index), &shape, surface, &mut tally.scores);
+        let Some((_, surface)) = hit else { continue };
+        judge_normal(ray, &shape, inside, surface, &mut tally.scores);
+        judge_start(&shape, inside, surface, &mut tally.scores);
+        let mut draws = Draws::new(view.seed + 1000, index);
+        let light = surface.position.as_dvec3() + leaving(&mut draws, surface.normal, 3.0) * shape.longest;
+        if let (false, Some(shadow)) = (inside, stages.shadow(surface, light)) {
+            tally.scores[2].judge(shadow.blocked.is_none());
         }
     }
     tally
@@ -62,26 +71,25 @@ pub(super) fn angle(normal: Vec3, exact: &ExactVector) -> f64 {
     sine.to_f64() / U
 }
 
-/// All rays come from outside, so the outward normal is the one that is asked for, whatever the map mirrors.
-fn judge_normal(ray: AimedRay, shape: &Stretched, surface: Surface, scores: &mut [Score]) {
+/// The normal on the side of the ray, outward but from inside, whatever the map mirrors.
+fn judge_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
     let Some(t) = ellipsoid_hit(ray.origin, ray.direction, &shape.ellipsoid) else {
         scores[0].judge(false);
         return;
     };
-    let exact = outward(ray.origin, ray.direction, &t, &shape.ellipsoid);
+    let side = Dyadic::of(if inside { -1 } else { 1 });
+    let exact = outward(ray.origin, ray.direction, &t, &shape.ellipsoid).times(&side);
     scores[0].measure(angle(surface.normal, &exact));
     scores[1].measure((surface.normal.as_dvec3().length() - 1.0).abs() / U);
-    let on_unit = shape.ellipsoid.unit_from_world * (surface.position.as_dvec3() - shape.ellipsoid.centre);
+    let on_unit =
+        shape.ellipsoid.unit_from_world * (surface.position.as_dvec3() - shape.ellipsoid.centre) * side.to_f64();
     scores[3].measure(angle(normal_as_direction(shape.world_from_unit, on_unit).as_vec3(), &exact));
 }
 
-/// A start is right when it lies strictly outside, and so the light that it faces is seen.
-fn judge_start(stages: &mut ShadowStages, mut draws: Draws, shape: &Stretched, surface: Surface, scores: &mut [Score]) {
-    let outside = |start: Vec3| excess(start.as_dvec3(), &shape.ellipsoid).sign() > 0;
-    scores[2].judge(outside(offset_origin(surface.position, surface.normal, surface.bound)));
-    scores[4].judge(outside(start_off_surface(surface.position, surface.normal).origin));
-    let light = surface.position.as_dvec3() + leaving(&mut draws, surface.normal, 3.0) * shape.longest;
-    if let Some(shadow) = stages.shadow(surface, light) {
-        scores[2].judge(shadow.blocked.is_none());
-    }
+/// A start is right when it lies strictly on the side of the ray.
+fn judge_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
+    let side = if inside { -1 } else { 1 };
+    let right = |start: Vec3| excess(start.as_dvec3(), &shape.ellipsoid).sign() == side;
+    scores[2].judge(right(offset_origin(surface.position, surface.normal, surface.bound)));
+    scores[4].judge(right(start_off_surface(surface.position, surface.normal).origin));
 }
