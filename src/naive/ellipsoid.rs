@@ -51,6 +51,7 @@ pub fn inverse_of_the_whole(world_from_object: DMat3) -> DMat3 {
     world_from_object.inverse()
 }
 
+// ANCHOR: naive_look_at
 /// The axes of something that looks from `eye` to `target`, as first look-at functions have them.
 ///
 /// Nothing asks whether there is a direction at all.
@@ -60,6 +61,7 @@ pub fn look_at_unchecked(eye: DVec3, target: DVec3, up: DVec3) -> DMat3 {
     let right = up.cross(back).normalize();
     DMat3::from_cols(right, back.cross(right), back)
 }
+// ANCHOR_END: naive_look_at
 
 #[cfg(test)]
 mod tests {
