@@ -1,12 +1,16 @@
 //! The numbers and sentences that stand in a page as text are computed here, and must stand there as computed.
 
 use bevy_ecs::prelude::*;
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use pinhole::extract::validate;
 use pinhole::film::{Curve, byte_from_linear, linear_from_srgb};
+use pinhole::intersect::{NO_SHAPE, Surfaces};
+use pinhole::naive::euler::{pitch_yaw_roll, yaw_pitch_roll};
+use pinhole::plan::plan;
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
+use pinhole::shade::{LightRays, ShadowHits};
 use pinhole::{Asked, Chapter};
 use std::path::Path;
 
@@ -117,6 +121,7 @@ fn refusals_are_worded_as_the_pages_say() {
     let narrow = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
     let eye = DVec3::new(0.0, 2.6, 6.0);
     let look = |target| LookAt { eye, target, ..LookAt::default() };
+    let (stand, along) = (DVec3::new(3.0, 2.6, 4.5), DVec3::new(-30.0, -19.0, -45.0));
     for (page, sentence) in [
         ("01_image.md", refusal("01_image", |camera| _ = camera.insert(resolution))),
         ("02_ray.md", refusal("02_ray", |camera| _ = camera.insert(narrow(0.06)))),
@@ -130,7 +135,96 @@ fn refusals_are_worded_as_the_pages_say() {
             refusal("04_orthographic", |camera| _ = camera.insert(look(DVec3::new(0.0, -1.0, 6.0)))),
         ),
         ("05_pinhole.md", refusal("05_pinhole", |camera| _ = camera.insert(narrow(0.01)))),
+        (
+            "09_camera_to_world.md",
+            refusal("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").target = stand),
+        ),
+        (
+            "09_camera_to_world.md",
+            refusal("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").up = along),
+        ),
     ] {
         page_says(page, &sentence);
     }
+}
+
+#[test]
+fn angles_are_as_page_09_says() {
+    let [yaw, pitch, none] = [40.0, 30.0, 0.0].map(Degrees);
+    let view = |axes: DMat3| {
+        let [x, y, z] = (-axes.z_axis).to_array();
+        format!("$({x:.3}, {y:.3}, {z:.3})$")
+    };
+    let [one, other] = [yaw_pitch_roll(yaw, pitch, none), pitch_yaw_roll(yaw, pitch, none)].map(view);
+    let sentence = format!("With yaw 40° and pitch 30°, the one camera looks along {one}, the other along {other}.");
+    page_says("09_camera_to_world.md", &sentence);
+    let up = Degrees(90.0);
+    let off = yaw_pitch_roll(Degrees(50.0), up, none) - yaw_pitch_roll(none, up, Degrees(-50.0));
+    assert!(off.to_cols_array().iter().all(|part| part.abs() < 1e-15));
+    page_says("09_camera_to_world.md", "yaw 50° gives the same axes as roll −50°, to within $10^{-15}$.");
+}
+
+#[test]
+fn numbers_of_f32_are_as_far_apart_as_page_10_says() {
+    for coordinate in [5.5e5_f32, 6e5, 7e5] {
+        assert_eq!(coordinate.next_up() - coordinate, 1.0 / 16.0);
+    }
+    page_says("10_light_and_shadow.md", "around $6\\cdot 10^5$, where neighbouring f32 numbers are 1/16 apart");
+}
+
+/// Whether the warm lamp of chapter 10, standing here and alone, lights the slope, and whether it lights any ball.
+fn lit_from(place: [f64; 3]) -> [bool; 2] {
+    let chapter = chapter("10_light_and_shadow");
+    let mut world = chapter.world(&Asked::default());
+    let mut lamps = world.query_filtered::<Entity, With<PointLight>>();
+    let [warm, cool] = lamps.iter(&world).collect::<Vec<_>>()[..] else { panic!("two lamps") };
+    world.despawn(cool);
+    world.entity_mut(warm).insert(Placement { position: place.into(), ..Placement::default() });
+    let inspection = inspect(&world, &chapter.stages(), 32).expect("inspects");
+    let mut lit = [false; 2];
+    for &tile in &inspection.tiles {
+        let tile = inspection.world.entity(tile);
+        let (rays, shadows) = (tile.get::<LightRays>().expect("rays"), tile.get::<ShadowHits>().expect("shadows"));
+        let surfaces = tile.get::<Surfaces>().expect("surfaces");
+        for (ray, &path) in rays.path.iter().enumerate().filter(|(ray, _)| shadows.shape[*ray] == NO_SHAPE) {
+            assert!(rays.r[ray] > 0.0);
+            let slope = surfaces.get(path as usize).normal == slope_normal();
+            lit[usize::from(!slope)] = true;
+        }
+    }
+    lit
+}
+
+fn slope_normal() -> Vec3 {
+    DVec3::new(0.0, 40.0, 9.0).normalize().as_vec3()
+}
+
+#[test]
+fn lamps_in_odd_places_are_as_page_10_says() {
+    assert_eq!(lit_from([-4.0, 4.6, 3.4]), [true, true], "where it stands");
+    assert_eq!(lit_from([-0.3, 1.025, 0.0]), [false, false], "inside the large ball");
+    assert_eq!(lit_from([-2.0, -1.0, 2.0]), [false, false], "beneath the slope");
+    assert_eq!(lit_from([-2.0, -0.45, 2.0]), [false, true], "on the slope");
+}
+
+#[test]
+fn lamps_without_shadows_drop_what_page_10_says() {
+    let chapter = chapter("10_light_and_shadow");
+    let mut world = chapter.world(&Asked::default());
+    let kept = |world: &World| {
+        let plan = plan(world, &chapter.stages()).expect("a plan");
+        plan.stages.iter().map(|stage| stage.name).collect::<Vec<_>>()
+    };
+    let all = kept(&world);
+    let mut lamps = world.query::<&mut PointLight>();
+    let mut changed = Vec::new();
+    for lamp in 0..2 {
+        if let Some(mut light) = lamps.iter_mut(&mut world).nth(lamp) {
+            light.casts_shadows = false;
+        }
+        let now = kept(&world);
+        changed.push(all.iter().copied().filter(|name| !now.contains(name)).collect::<Vec<_>>());
+    }
+    let three = vec!["Start with light seen", "Look for spheres in the way", "Look for planes in the way"];
+    assert_eq!(changed, [vec![], three]);
 }

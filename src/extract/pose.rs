@@ -121,6 +121,7 @@ fn quadruple(q: DQuat) -> String {
     format!("({}, {}, {}, {})", number(q.x), number(q.y), number(q.z), number(q.w))
 }
 
+// ANCHOR: look_at_axes
 /// The axes of something that stands at `eye` and looks at `target`: x to its right, y up, −z ahead.
 ///
 /// Errors: a coordinate that is not finite, `eye` at `target`, `up` of length 0 or along the view.
@@ -139,6 +140,7 @@ pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, Refusal> {
         _ => Err(Refusal::new(who, "up", triple(look.up), "it must not point along the view from eye to target")),
     }
 }
+// ANCHOR_END: look_at_axes
 
 // ANCHOR: direction
 /// The unit vector along `v`, or none where it has no direction; scaled first, so that no square overflows.

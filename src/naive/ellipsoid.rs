@@ -42,6 +42,7 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, unit_from_world: Mat
     super::sphere::hit_f32(unit_from_world * (origin - centre), unit_from_world * direction, Vec3::ZERO, 1.0)
 }
 
+// ANCHOR: naive_look_at
 /// The axes of something that looks from `eye` to `target`, as first look-at functions have them.
 ///
 /// Nothing asks whether there is a direction at all.
@@ -51,6 +52,7 @@ pub fn look_at_unchecked(eye: DVec3, target: DVec3, up: DVec3) -> DMat3 {
     let right = up.cross(back).normalize();
     DMat3::from_cols(right, back.cross(right), back)
 }
+// ANCHOR_END: naive_look_at
 
 #[cfg(test)]
 mod tests {

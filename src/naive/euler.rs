@@ -47,7 +47,7 @@ mod tests {
         assert!(apart(yaw_pitch_roll(yaw, pitch, roll), pitch_yaw_roll(yaw, pitch, roll)) > 0.1);
         // Looking straight up, to turn by 50° is to roll back by 50°.
         let [yaw, pitch, roll] = angles(50.0, 90.0, 0.0);
-        let [no_yaw, _, rolled] = angles(0.0, 90.0, 50.0);
+        let [no_yaw, _, rolled] = angles(0.0, 90.0, -50.0);
         let locked = apart(yaw_pitch_roll(yaw, pitch, roll), yaw_pitch_roll(no_yaw, pitch, rolled));
         let free = apart(yaw_pitch_roll(yaw, Degrees(45.0), roll), yaw_pitch_roll(no_yaw, Degrees(45.0), rolled));
         assert!(locked < 1e-15 && free > 0.1, "{locked:e} {free}");

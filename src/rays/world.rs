@@ -46,6 +46,7 @@ pub fn fill_world(
     }
 }
 
+// ANCHOR: direction_rows
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn direction_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
     let rows = camera.rows();
@@ -56,6 +57,7 @@ fn direction_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut Wor
         (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
     }
 }
+// ANCHOR_END: direction_rows
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn origin_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldRays) {
