@@ -52,6 +52,11 @@ fn cameras_hold() {
 }
 
 #[test]
+fn transforms_hold() {
+    holds(Group::Transform, 2048);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

@@ -14,6 +14,7 @@ pub mod film_bits;
 pub mod judge_camera;
 pub mod number;
 pub mod oracle_camera;
+pub mod oracle_ellipsoid;
 pub mod oracle_plane;
 pub mod oracle_sphere;
 pub mod ray_aim;

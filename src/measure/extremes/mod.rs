@@ -20,6 +20,10 @@ mod shadow;
 mod shadow_stages;
 mod sphere;
 mod sphere_limits;
+mod transform;
+mod transform_aim;
+mod transform_placement;
+mod transform_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -40,13 +44,16 @@ pub enum Group {
     Shadow,
     /// Cameras: raster → NDC → screen → camera → world.
     Camera,
+    /// Scaled spheres, their normals, placements through parents.
+    Transform,
     /// Films: sums of samples, bytes of pictures.
     Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 5] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Film];
+    pub const ALL: [Self; 6] =
+        [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -57,6 +64,7 @@ impl Group {
             Self::Camera => {
                 [camera::trials(), camera_table::trials(), camera_limits::trials()].into_iter().flatten().collect()
             }
+            Self::Transform => transform::trials(),
             Self::Film => film::trials(),
         }
     }
@@ -69,6 +77,7 @@ impl fmt::Display for Group {
             Self::Plane => "plane",
             Self::Shadow => "shadow",
             Self::Camera => "camera",
+            Self::Transform => "transform",
             Self::Film => "film",
         })
     }
