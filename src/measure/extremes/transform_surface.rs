@@ -6,7 +6,7 @@ use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Surface, offset_origin};
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::exact_vector::ExactVector;
-use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess, outward};
+use crate::measure::oracle_ellipsoid::{ellipsoid_hit, outside_ellipsoid, outward};
 use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::ellipsoid::normal_as_direction;
 use crate::naive::shadow::start_off_surface;
@@ -77,7 +77,7 @@ fn judge_normal(ray: AimedRay, shape: &Stretched, surface: Surface, scores: &mut
 
 /// A start is right when it lies strictly outside, and so the light that it faces is seen.
 fn judge_start(stages: &mut ShadowStages, mut draws: Draws, shape: &Stretched, surface: Surface, scores: &mut [Score]) {
-    let outside = |start: Vec3| excess(start.as_dvec3(), &shape.ellipsoid).sign() > 0;
+    let outside = |start: Vec3| outside_ellipsoid(start.as_dvec3(), &shape.ellipsoid);
     scores[2].judge(outside(offset_origin(surface.position, surface.normal, surface.bound)));
     scores[4].judge(outside(start_off_surface(surface.position, surface.normal).origin));
     let light = surface.position.as_dvec3() + leaving(&mut draws, surface.normal, 3.0) * shape.longest;
