@@ -24,16 +24,13 @@ const PIXELS: [Method; 2] = [
     Method::naive("naive, inverse by the determinant", "px", 0.01),
 ];
 const REFUSALS: [Method; 1] = [Method::kit("kit, refused beyond, taken within", "", 0.0)];
-const LOOK_AT: [Method; 2] = [
-    Method::kit("kit, refused or orthonormal", "u", 4.0),
-    Method::naive("naive, cross and normalize", "u", 4.0),
-];
+const LOOK_AT: [Method; 2] =
+    [Method::kit("kit, refused or orthonormal", "u", 4.0), Method::naive("naive, cross and normalize", "u", 4.0)];
 
 /// The cases of placements.
 pub fn trials() -> Vec<Trial> {
-    let trial = |name, methods: &[Method], judge: fn(Range<u64>) -> Tally| {
-        Trial::new(Group::Transform, name, methods, judge)
-    };
+    let trial =
+        |name, methods: &[Method], judge: fn(Range<u64>) -> Tally| Trial::new(Group::Transform, name, methods, judge);
     vec![
         trial("planes mirrored and 1e3 times as long, under 0 to 2 parents", &PLANES, judge_planes),
         trial("the author's ellipsoid, up to 1e7 times as long, 0 or 1 parent", &PIXELS, judge_pixels),
