@@ -1,10 +1,20 @@
 //! The extremes with few rays: the very code that `cargo run --release -- extremes` runs with many.
 
+use bevy_ecs::prelude::*;
 use glam::Vec3;
+use pinhole::intersect::Hits;
 use pinhole::measure::extremes::{Group, Outcome, try_group, unbroken};
 use pinhole::measure::oracle_plane::{Plane, enclosed_plane_t, plane_hit};
 use pinhole::measure::oracle_sphere::{Roots, Sphere, enclosed_line_ts, enclosed_sphere_t, line_roots, sphere_hit};
 use pinhole::measure::ray_aim::{self, AimedRay};
+use pinhole::measure::sweep::sweep;
+use pinhole::plan::{Evidence, Stage, TileSystems};
+use pinhole::shade::Radiance;
+use pinhole::{Asked, Chapter};
+use std::fs;
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
 
 /// Tries a group, prints its table, and asks that the kit holds everywhere and each naive method breaks somewhere.
 fn holds(group: Group, rays: u64) {
@@ -127,4 +137,60 @@ fn enclosures_tell_what_exact_arithmetic_tells() {
     }
     eprintln!("enclosures: {told} answers equal exact arithmetic to the last bit, {untold} left to it, 0 disagree");
     assert!(untold * 10 < told, "exact arithmetic has too much left to do");
+}
+
+fn chapter(name: &str) -> Chapter {
+    chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter of this name")
+}
+
+#[test]
+fn sweeps_of_chapters_hold() {
+    for name in ["cover", "02_ray", "03_hit", "04_orthographic", "05_pinhole"] {
+        let chapter = chapter(name);
+        let lines = sweep(&|| chapter.world(&Asked::default()), &chapter.stages(), &()).expect("sweeps");
+        for line in &lines {
+            assert!(line.held, "{name}: {line}");
+            assert!(line.to_string().chars().count() <= 132, "{line}");
+        }
+        eprintln!("sweep: {} lines of {name}, all held", lines.len());
+    }
+}
+
+/// Light that depends on a length of its own.
+fn add_fog(mut tiles: Query<(&Hits, &mut Radiance)>) {
+    for (hits, mut radiance) in &mut tiles {
+        for row in 0..hits.t.len() {
+            radiance.r[row] += if hits.t[row] < 7.0 { 0.25 } else { 0.0 };
+        }
+    }
+}
+
+#[test]
+fn a_stage_with_a_length_of_its_own_does_not_survive_a_sweep() {
+    let chapter = chapter("05_pinhole");
+    let mut stages = chapter.stages();
+    let fog = Stage::new("Add fog", TileSystems::Shade, add_fog).reads::<Hits>().reads::<Radiance>();
+    stages.push(fog.writes::<Radiance>().when(|_| Evidence::always("the test asks for it")));
+    let lines = sweep(&|| chapter.world(&Asked::default()), &stages, &()).expect("sweeps");
+    let broken: Vec<String> = lines.iter().filter(|line| !line.held).map(ToString::to_string).collect();
+    eprintln!("with fog: {}", broken.join("\n"));
+    assert!(broken.iter().any(|line| line.starts_with("scaled")), "{broken:?}");
+}
+
+#[test]
+fn the_page_needs_nothing_but_itself() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("extremes").join("index.html");
+    let words = ["extremes", "sphere", "--rays", "256", "--page", &file.display().to_string()].map(String::from);
+    let mut said = Vec::new();
+    pinhole::command::run(&chapters::all(), &words, &mut said).expect("the kit holds");
+    let page = fs::read_to_string(&file).expect("the page");
+    for outside in ["http:", "https:", "src=\"/", "<script", "url("] {
+        assert!(!page.contains(outside), "the page asks for {outside}");
+    }
+    let pictures = page.matches("<img alt=\"").count();
+    assert_eq!(pictures, page.matches("src=\"data:image/png;base64,").count());
+    assert!(pictures >= 30 && page.contains("class=\"held\"") && page.contains("class=\"breaks\""));
+    assert!(page.len() < 2_000_000, "{} bytes", page.len());
+    eprintln!("page: {pictures} pictures in {} bytes", page.len());
 }

@@ -14,7 +14,7 @@ pub fn print_sweep(chapter: &Chapter, out: &mut dyn Write) -> Result {
         return Err(Error::Interrupted);
     }
     writeln!(out, "{}, {} x {} pixels where no other size is named", chapter.name, SIZE[0], SIZE[1])?;
-    writeln!(out, "{:<32}{:<46}{:<9}asked", "done", "came", "")?;
+    writeln!(out, "{:<39}{:<44}{:<9}asked", "done", "came", "")?;
     for line in &lines {
         writeln!(out, "{line}")?;
     }

@@ -5,44 +5,51 @@
 //! What is exact is the shape that the table describes, |A (x − C)| = 1; that A itself is the author's placement turned
 //! round and rounded is another matter, judged by `extremes transform` in pixels.
 
+use super::enclosure::Enclosure;
 use super::exact::Dyadic;
-use super::exact_vector::ExactVector;
+use super::exact_vector::{ExactVector, Vector};
+use super::number::Number;
 use super::oracle_sphere::Roots;
 use crate::extract::Ellipsoid;
 use glam::{DVec3, Vec3};
 
-/// A v, exactly.
-fn to_unit(ellipsoid: &Ellipsoid, v: &ExactVector) -> ExactVector {
-    let [x, y, z] = [0, 1, 2].map(|row| ExactVector::of(ellipsoid.unit_from_world.row(row).to_array()).dot(v));
-    ExactVector { x, y, z }
+/// A v.
+fn to_unit<N: Number>(ellipsoid: &Ellipsoid, v: &Vector<N>) -> Vector<N> {
+    let [x, y, z] = [0, 1, 2].map(|row| Vector::of(ellipsoid.unit_from_world.row(row).to_array()).dot(v));
+    Vector { x, y, z }
 }
 
-fn from_centre(point: &ExactVector, ellipsoid: &Ellipsoid) -> ExactVector {
-    point.minus(&ExactVector::of(ellipsoid.centre))
+fn from_centre<N: Number>(point: &Vector<N>, ellipsoid: &Ellipsoid) -> Vector<N> {
+    point.minus(&Vector::of(ellipsoid.centre))
+}
+
+/// Where the line of the ray meets the ellipsoid, if it does; nothing where these numbers cannot tell.
+///
+/// With p = A (O − C) and q = A R the roots solve (q·q) t² + 2 (p·q) t + (p·p − 1) = 0.
+fn roots<N: Number>(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<Option<Roots<N>>> {
+    let p: Vector<N> = to_unit(ellipsoid, &from_centre(&Vector::of(origin), ellipsoid));
+    let q: Vector<N> = to_unit(ellipsoid, &Vector::of(direction));
+    let (a, half_b, c) = (q.dot(&q), N::of(0.0).less(&p.dot(&q)), p.dot(&p).less(&N::of(1.0)));
+    let discriminant = half_b.by(&half_b).less(&a.by(&c));
+    if discriminant.sign()? < 0 || a.sign()? == 0 {
+        return Some(None);
+    }
+    // The larger root has no cancellation, and the product of both is c / a.
+    let root = discriminant.root();
+    let negative = half_b.sign()? < 0;
+    let larger = if negative { half_b.less(&root) } else { half_b.plus(&root) };
+    let outer = larger.over(&a);
+    let inner = if larger.sign()? == 0 { N::of(0.0) } else { c.over(&larger) };
+    Some(Some(if negative { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } }))
 }
 
 /// Where the line of the ray meets the ellipsoid, or nothing when it passes by or the direction is zero.
-///
-/// With p = A (O − C) and q = A R the roots solve (q·q) t² + 2 (p·q) t + (p·p − 1) = 0.
 ///
 /// # Panics
 /// When an input is not finite.
 #[must_use]
 pub fn line_roots(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<Roots> {
-    let p = to_unit(ellipsoid, &from_centre(&ExactVector::of(origin), ellipsoid));
-    let q = to_unit(ellipsoid, &ExactVector::of(direction));
-    let (a, half_b, c) = (q.dot(&q), -&p.dot(&q), &p.dot(&p) - &Dyadic::of(1));
-    let discriminant = &half_b.squared() - &(&a * &c);
-    if discriminant.sign() < 0 || a.sign() == 0 {
-        return None;
-    }
-    // The larger root has no cancellation, and the product of both is c / a.
-    let root = discriminant.square_root();
-    let negative = half_b.sign() < 0;
-    let larger = if negative { &half_b - &root } else { &half_b + &root };
-    let outer = larger.divided_by(&a);
-    let inner = if larger.sign() == 0 { Dyadic::of(0) } else { c.divided_by(&larger) };
-    Some(if negative { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } })
+    roots(origin, direction, ellipsoid).flatten()
 }
 
 /// The nearest t > 0 at which the ray meets the ellipsoid's surface, or nothing when it does not.
@@ -55,14 +62,46 @@ pub fn ellipsoid_hit(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Op
     [near, far].into_iter().find(|root| root.sign() > 0)
 }
 
+/// The same t, rounded to f64 once.
+#[must_use]
+pub fn ellipsoid_t(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<f64> {
+    enclosed_ellipsoid_t(origin, direction, ellipsoid)
+        .unwrap_or_else(|| ellipsoid_hit(origin, direction, ellipsoid).map(|t| t.to_f64()))
+}
+
+/// The same by enclosures; nothing where these cannot tell.
+pub fn enclosed_ellipsoid_t(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<Option<f64>> {
+    let Some(Roots { near, far }) = roots::<Enclosure>(origin, direction, ellipsoid)? else { return Some(None) };
+    for root in [near, far] {
+        if root.sign()? > 0 {
+            return root.rounded().map(Some);
+        }
+    }
+    Some(None)
+}
+
+/// |A (x − C)|² − 1: positive outside, negative inside.
+fn excess_of<N: Number>(point: DVec3, ellipsoid: &Ellipsoid) -> N {
+    let unit: Vector<N> = to_unit(ellipsoid, &from_centre(&Vector::of(point), ellipsoid));
+    unit.dot(&unit).less(&N::of(1.0))
+}
+
 /// |A (x − C)|² − 1, exactly: positive outside, negative inside.
 ///
 /// # Panics
 /// When an input is not finite.
 #[must_use]
 pub fn excess(point: DVec3, ellipsoid: &Ellipsoid) -> Dyadic {
-    let unit = to_unit(ellipsoid, &from_centre(&ExactVector::of(point), ellipsoid));
-    &unit.dot(&unit) - &Dyadic::of(1)
+    excess_of(point, ellipsoid)
+}
+
+/// 1 where the point lies outside, −1 inside, 0 on the ellipsoid, exactly.
+///
+/// # Panics
+/// When an input is not finite.
+#[must_use]
+pub fn side_of_ellipsoid(point: DVec3, ellipsoid: &Ellipsoid) -> i32 {
+    excess_of::<Enclosure>(point, ellipsoid).sign().unwrap_or_else(|| excess(point, ellipsoid).sign())
 }
 
 /// Aᵀ A (O + tR − C): along the outward normal where the ray has come at t, of no particular length.

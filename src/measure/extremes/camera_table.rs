@@ -2,6 +2,7 @@
 
 use super::camera::{METHODS, WORLD_BOUND, any_pixel, any_pose, any_pose_at, any_turn, trial};
 use super::camera_chain::{AskedCamera, CameraChain, Pose, viewport_error};
+use super::camera_limits::FEW;
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
 use crate::naive::camera::ndc_over_last;
@@ -77,6 +78,7 @@ fn too_narrow() -> Trial {
         let judge = chain.judge(asked, DMat3::from_quat(turn));
         tally.scores[1].measure(viewport_error(&judge, DVec3::ZERO, any_pixel(asked.size, &mut draws)));
     })
+    .at_most(FEW)
 }
 
 /// The one pixel of an image looks straight ahead, to the last bit.

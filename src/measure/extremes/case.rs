@@ -45,7 +45,7 @@ pub struct Score {
     pub first_wrong: Option<u64>,
     /// The input of its worst error.
     pub worst_at: u64,
-    /// What it said last, and what is exactly so, where both are numbers.
+    /// What it said last of the first inputs, and what is exactly so, where both are numbers.
     pub said: Option<[Option<f64>; 2]>,
     input: u64,
 }
@@ -94,14 +94,14 @@ impl Score {
         if other.worst > self.worst || earlier {
             (self.worst, self.worst_at) = (other.worst, other.worst_at);
         }
-        (self.first_wrong, self.said) = (first, None);
+        (self.first_wrong, self.said) = (first, self.said.or(other.said));
     }
 
     /// The same, inputs counted from another one.
     fn counted_from(mut self, first: u64) -> Self {
         self.first_wrong = self.first_wrong.map(|input| input + first);
         self.worst_at += first;
-        (self.said, self.input) = (None, 0);
+        (self.said, self.input) = (self.said.filter(|_| first == 0), 0);
         self
     }
 }
@@ -194,7 +194,9 @@ impl Trial {
         let naive = |outcome: &Outcome| !outcome.method.of_kit && !outcome.passes();
         let method = outcomes.iter().position(naive)?;
         let input = outcomes[method].score.worst_input();
-        let scores = (self.judge)(input..input + 1).scores;
+        // The only input has just been judged.
+        let alone = || (self.judge)(input..input + 1).scores;
+        let scores = if self.most == 1 { outcomes.iter().map(|outcome| outcome.score).collect() } else { alone() };
         // A judge that takes several inputs together may say something else of one alone.
         (scores[method].wrong > 0 || scores[method].worst > 0.0).then_some(Worst { method, input, scores })
     }

@@ -12,11 +12,11 @@ use std::ops::Range;
 /// How far t may be off, relative to itself, in u.
 pub(super) const T_BOUND: f64 = 2.0;
 /// Spheres and rays that the stage gets at once.
-const AMONG: usize = 64;
+const AMONG: usize = 32;
 
 const METHODS: [Method; 5] = [
     Method::kit("kit, a sphere and a ray at a time", "u of t", T_BOUND),
-    Method::kit("kit, 64 spheres and 64 rays", "u of t", T_BOUND),
+    Method::kit("kit, 32 spheres and 32 rays", "u of t", T_BOUND),
     Method::naive("naive b2 - 4ac, f32", "u of t", T_BOUND),
     Method::naive("naive perpendicular form, f32", "u of t", T_BOUND),
     Method::naive("naive b2 - ac, f64", "u of t", T_BOUND),

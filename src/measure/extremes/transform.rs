@@ -7,7 +7,7 @@ use super::{Group, Method, Score, Tally, Trial};
 use super::{transform_placement, transform_surface};
 use crate::extract::Ellipsoid;
 use crate::intersect::{Hits, ellipsoid_stage, ellipsoid_t, start_stage};
-use crate::measure::oracle_ellipsoid::ellipsoid_hit;
+use crate::measure::oracle_ellipsoid;
 use crate::measure::ray_aim::AimedRay;
 use crate::naive::ellipsoid::{hit_f32, hit_renormalised};
 use std::ops::Range;
@@ -63,7 +63,7 @@ fn judge(view: View, range: Range<u64>) -> Tally {
 
 /// The exact distance, rounded to f64 once.
 fn exact(ray: AimedRay, ellipsoid: &Ellipsoid) -> Option<f64> {
-    ellipsoid_hit(ray.origin, ray.direction, ellipsoid).map(|t| t.to_f64())
+    oracle_ellipsoid::ellipsoid_t(ray.origin, ray.direction, ellipsoid)
 }
 
 fn by_function(ray: AimedRay, ellipsoid: &Ellipsoid) -> f64 {

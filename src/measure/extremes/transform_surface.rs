@@ -6,7 +6,7 @@ use super::{Group, Method, Score, Tally, Trial};
 use crate::intersect::{Surface, offset_origin};
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::exact_vector::ExactVector;
-use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess, outward};
+use crate::measure::oracle_ellipsoid::{ellipsoid_hit, outward, side_of_ellipsoid};
 use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::ellipsoid::normal_as_direction;
 use crate::naive::shadow::start_off_surface;
@@ -89,7 +89,7 @@ fn judge_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface
 /// A start is right when it lies strictly on the side of the ray.
 fn judge_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
     let side = if inside { -1 } else { 1 };
-    let right = |start: Vec3| excess(start.as_dvec3(), &shape.ellipsoid).sign() == side;
+    let right = |start: Vec3| side_of_ellipsoid(start.as_dvec3(), &shape.ellipsoid) == side;
     scores[2].judge(right(offset_origin(surface.position, surface.normal, surface.bound)));
     scores[4].judge(right(start_off_surface(surface.position, surface.normal).origin));
 }

@@ -96,7 +96,7 @@ fn far_sphere(distance: f64, offer: &[Stage]) -> Result<Strip> {
     let (wrong, better, all) = (kit.differing(&school), kit.differing(&perpendicular), kit.pixels.len());
     let says = format!(
         "Grey is how far before its centre the sphere is met. The formula from school in f32 is off in {wrong} of {all} \
-         pixels, the perpendicular form in f32 in {better}: t itself is rounded to more than a shade of grey."
+         pixels, the perpendicular form in f32 in {better}."
     );
     let pictures = vec![
         ("naive b2 - 4ac, f32".to_string(), school.clone()),

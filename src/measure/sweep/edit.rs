@@ -31,9 +31,17 @@ pub fn scale(scene: &mut World, k: i32) {
     }
 }
 
+/// The entities that stand somewhere and hang on no parent.
+fn roots(scene: &World) -> Vec<Entity> {
+    // Asked one by one: a scene that has never known a parent knows no filter for one.
+    let mut placed = entities::<With<Placement>>(scene);
+    placed.retain(|&entity| scene.get::<ChildOf>(entity).is_none());
+    placed
+}
+
 /// Every root's place, changed by `edit`: its position, or the points that it stands at and looks at.
 fn edit_places(scene: &mut World, edit: impl Fn(DVec3) -> DVec3) {
-    for entity in entities::<(With<Placement>, Without<ChildOf>)>(scene) {
+    for entity in roots(scene) {
         let mut entity = scene.entity_mut(entity);
         if let Some(mut look) = entity.get_mut::<LookAt>() {
             (look.eye, look.target) = (edit(look.eye), edit(look.target));
@@ -57,7 +65,7 @@ pub fn lay_on_grid(scene: &mut World) {
 /// The whole scene turned about the world's origin.
 pub fn turn(scene: &mut World, by: DQuat) {
     edit_places(scene, |point| by * point);
-    for entity in entities::<(With<Placement>, Without<ChildOf>)>(scene) {
+    for entity in roots(scene) {
         let mut entity = scene.entity_mut(entity);
         if let Some(mut look) = entity.get_mut::<LookAt>() {
             look.up = by * look.up;
@@ -85,4 +93,57 @@ pub fn set_size(scene: &mut World, [width, height]: [u32; 2]) {
 /// Whether anything hangs on a parent: its place in the world is then a sum that rounds.
 pub fn has_children(scene: &World) -> bool {
     !entities::<With<ChildOf>>(scene).is_empty()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{CameraAxes, PlaneTable, SphereTable};
+    use crate::plan::Table;
+
+    /// A camera that looks at a ball on a floor, and another ball that hangs on the first.
+    fn scene(with_child: bool) -> World {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), LookAt { eye: DVec3::Z * 4.0, target: DVec3::ZERO, up: DVec3::Y }));
+        let ball = world.spawn((Sphere { radius: 1.0 }, Placement::at(0.5, 0.0, 0.0), Matte::default())).id();
+        world.spawn((Plane::default(), Placement::at(0.0, -1.0, 0.0), Matte::default()));
+        if with_child {
+            world.spawn((Sphere { radius: 0.25 }, Placement::at(2.0, 0.0, 0.0), Matte::default(), ChildOf(ball)));
+        }
+        world
+    }
+
+    /// The first ball's centre in the world.
+    fn place(world: &World) -> DVec3 {
+        let ball = entities::<With<Sphere>>(world)[0];
+        world.get::<Placement>(ball).expect("a ball stands somewhere").position
+    }
+
+    #[test]
+    fn every_edit_edits_every_root_and_no_child() {
+        for with_child in [false, true] {
+            let mut moved = scene(with_child);
+            shift(&mut moved, DVec3::new(1.0, 2.0, 3.0));
+            assert_eq!(place(&moved), DVec3::new(1.5, 2.0, 3.0));
+            assert_eq!(crate::extract::eye(&moved), Ok(DVec3::new(1.0, 2.0, 7.0)));
+            // From the eye nothing has moved, also not what hangs on a parent.
+            let of = |world: &World| SphereTable::extract(world).expect("spheres");
+            assert_eq!(of(&moved).x, of(&scene(with_child)).x);
+
+            let mut turned = scene(with_child);
+            let half = std::f64::consts::FRAC_1_SQRT_2;
+            turn(&mut turned, DQuat::from_xyzw(0.0, 0.0, half, half));
+            assert!((place(&turned) - DVec3::Y * 0.5).length() < 1e-15);
+            let axes = CameraAxes::extract(&turned).expect("axes").world_from_camera;
+            assert!((axes.y_axis + DVec3::X).length() < 1e-15);
+            let normal = PlaneTable::extract(&turned).expect("planes").normal[0];
+            assert!((normal + DVec3::X).length() < 1e-7);
+
+            let mut large = scene(with_child);
+            scale(&mut large, 3);
+            assert_eq!(place(&large), DVec3::X * 4.0);
+            assert_eq!(of(&large).radius[0], 8.0);
+            assert_eq!(has_children(&large), with_child);
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! A frame of a sweep: every pixel's ray, hit and light, and how two frames differ.
 
 use crate::Result;
+use crate::extract::{EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable};
 use crate::film::FilmTile;
-use crate::intersect::{Hits, NO_SHAPE, Surfaces};
+use crate::intersect::{Hits, NO_SHAPE};
 use crate::measure::film_bits::FilmBits;
-use crate::plan::Stage;
+use crate::plan::{Stage, Table};
 use crate::rays::{Tile, WorldRays};
 use crate::render::inspect;
 use bevy_ecs::prelude::*;
@@ -20,7 +21,7 @@ pub struct Met {
     pub t: f64,
     /// The shape's number.
     pub shape: u32,
-    /// The cosine between ray and normal; 1 where no surface was asked for.
+    /// The cosine between ray and normal.
     pub cosine: f64,
 }
 
@@ -44,8 +45,9 @@ impl Frame {
         let frame = inspect(scene, offer, SIDE)?;
         let tiles = || frame.tiles.iter().map(|&tile| frame.world.entity(tile));
         let (width, height) = (frame.image.width, frame.image.height);
+        let shapes = Shapes::of(scene)?;
         let film = FilmBits::of_tiles(width, height, tiles().filter_map(|tile| tile.get::<FilmTile>()));
-        let met = tiles().flat_map(|tile| met(&tile)).collect();
+        let met = tiles().flat_map(|tile| met(&tile, &shapes)).collect();
         let mut middle: Vec<(u32, DVec3)> = tiles().flat_map(|tile| on_line(&tile, height / 2)).collect();
         middle.sort_by_key(|&(x, _)| x);
         let middle = middle.into_iter().map(|(_, direction)| direction).collect();
@@ -53,12 +55,48 @@ impl Frame {
     }
 }
 
-fn met(tile: &EntityRef<'_>) -> Vec<Met> {
+/// The shapes of a scene, for the normals where its stages ask for none.
+struct Shapes {
+    all: ShapeTable,
+    spheres: SphereTable,
+    planes: PlaneTable,
+    ellipsoids: EllipsoidTable,
+}
+
+impl Shapes {
+    fn of(scene: &World) -> Result<Self> {
+        Ok(Self {
+            all: ShapeTable::extract(scene)?,
+            spheres: SphereTable::extract(scene)?,
+            planes: PlaneTable::extract(scene)?,
+            ellipsoids: EllipsoidTable::extract(scene)?,
+        })
+    }
+
+    /// Along the normal of a shape at a point, of no particular length.
+    fn normal(&self, shape: u32, point: DVec3) -> DVec3 {
+        let shape = shape as usize;
+        let row = self.all.row[shape] as usize;
+        match self.all.kind[shape] {
+            ShapeKind::Sphere => point - self.spheres.centre(row),
+            ShapeKind::Plane => self.planes.normal[row],
+            ShapeKind::Ellipsoid => {
+                let ellipsoid = &self.ellipsoids.ellipsoid[row];
+                let map = ellipsoid.unit_from_world;
+                map.transpose() * (map * (point - ellipsoid.centre))
+            }
+        }
+    }
+}
+
+fn met(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<Met> {
     let (Some(hits), Some(rays)) = (tile.get::<Hits>(), tile.get::<WorldRays>()) else { return Vec::new() };
-    let surfaces = tile.get::<Surfaces>();
-    let cosine = |row: usize| match surfaces {
-        Some(surfaces) => surfaces.get(row).normal.as_dvec3().dot(rays.direction_of(row)).abs(),
-        None => 1.0,
+    let cosine = |row: usize| match hits.shape[row] {
+        NO_SHAPE => 1.0,
+        shape => {
+            let normal = shapes.normal(shape, rays.point_at(row, hits.t[row]));
+            normal.dot(rays.direction_of(row)).abs() / normal.length()
+        }
     };
     (0..hits.t.len()).map(|row| Met { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()
 }

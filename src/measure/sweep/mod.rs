@@ -51,7 +51,7 @@ pub struct Line {
 impl fmt::Display for Line {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let word = if self.held { "held" } else { "NOT HELD" };
-        write!(f, "{:<32}{:<46}{word:<9}{}", self.done, self.came, self.asked)
+        write!(f, "{:<39}{:<44}{word:<9}{}", self.done, self.came, self.asked)
     }
 }
 
@@ -188,7 +188,11 @@ fn angles(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Vec<Line>> {
             Ok(frame) => {
                 let finite = frame.middle.iter().all(|direction| direction.is_finite());
                 let (rejected, monotone) = (frame.film.rejected, goes_on(&frame.middle));
-                let word = if finite && monotone { "finite, each to the right" } else { "not finite or not in order" };
+                let word = match (frame.middle.is_empty(), finite && monotone) {
+                    (true, _) => "no rays are made",
+                    (_, true) => "finite, each to the right",
+                    _ => "not finite or not in order",
+                };
                 let counted = frame.film.pixels.iter().all(|pixel| pixel[3] == 1);
                 (format!("{word}, {rejected} rejected"), finite && monotone && rejected == 0 && counted)
             }
@@ -199,9 +203,9 @@ fn angles(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Vec<Line>> {
     Ok(lines)
 }
 
-/// Whether directions along a line turn the same way all along, none back.
+/// Whether directions along a line turn the same way all along, none back; so do none at all.
 fn goes_on(directions: &[DVec3]) -> bool {
-    let (Some(&first), Some(&last)) = (directions.first(), directions.last()) else { return false };
+    let (Some(&first), Some(&last)) = (directions.first(), directions.last()) else { return true };
     let ahead = last - first;
     directions.windows(2).all(|pair| (pair[1] - pair[0]).dot(ahead) > 0.0)
 }
