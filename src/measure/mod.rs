@@ -8,6 +8,8 @@ pub mod exact;
 pub mod exact_angle;
 pub mod exact_vector;
 pub mod extremes;
+pub mod image_error;
+pub mod image_file;
 pub mod oracle_camera;
 pub mod oracle_plane;
 pub mod oracle_sphere;

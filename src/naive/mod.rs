@@ -5,5 +5,6 @@
 
 pub mod camera;
 pub mod plane;
+pub mod planted;
 pub mod shadow;
 pub mod sphere;
