@@ -75,8 +75,8 @@ pub fn picture_contrast(old: &[u8], new: &[u8]) -> Result<Option<(Vec<u8>, Strin
     // Bytes cannot differ by more than 255.
     let full = full_white(largest).min(255.0);
     let png = difference_png([old.width(), old.height()], full, difference)?;
-    let gain = 255.0 / full;
-    let words = format!("difference × {gain:.4}: black is none, full white is {full} of 255 (largest: {largest})");
+    let gain = (25_500.0 / full).round() / 100.0;
+    let words = format!("difference × {gain}: black is none, full white is {full} of 255 (largest: {largest})");
     Ok(Some((png, words)))
 }
 

@@ -65,14 +65,14 @@ pub fn normal_inward(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
 }
 
 /// One epsilon for all hits.
-pub fn constant_epsilon(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
+pub fn constant_epsilon(mut tiles: Query<(&PlaneRows, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         list.row.iter().for_each(|&row| surfaces.bound[row as usize] = 1e-4);
     }
 }
 
 /// No epsilon at all.
-pub fn no_epsilon(mut tiles: Query<(&PlaneRows, &mut Surfaces)>) {
+pub fn no_epsilon(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         list.row.iter().for_each(|&row| surfaces.bound[row as usize] = 0.0);
     }
