@@ -29,7 +29,8 @@ pub fn mismatch(chapter: &str, before: &Snapshots, now: &Snapshots, refused: &[&
         text.push_str(&probes(&before.probes, &now.probes));
         text.push_str(&changed_lines("plan", &before.plan, &now.plan));
     }
-    text.push_str(&what_to_do(chapter, pixel(before, now, picture.as_ref())));
+    let waits = FILES.iter().any(|file| folder(chapter).join(format!("{file}.new")).is_file());
+    text.push_str(&what_to_do(chapter, pixel(before, now, picture.as_ref()), waits));
     Mismatch(text)
 }
 
@@ -108,9 +109,9 @@ fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference
     }
 }
 
-fn what_to_do(chapter: &str, [x, y]: [u32; 2]) -> String {
+/// The commands that show, keep and undo; without a review where insta was told to let nothing wait.
+pub fn what_to_do(chapter: &str, [x, y]: [u32; 2], waits: bool) -> String {
     let (width, height) = (SIZE.width, SIZE.height);
-    let waits = FILES.iter().any(|file| folder(chapter).join(format!("{file}.new")).is_file());
     let trace = format!("cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}");
     if !waits {
         // Insta was told to write nothing: INSTA_UPDATE=no, or CI is set.
@@ -149,6 +150,17 @@ mod tests {
         assert_eq!(line, "all numbers and pixels are the same; what differs is the wording of plan");
         assert_eq!(headline(&now, &now, &FILES, &["image"]), "no snapshot of it is kept yet");
         assert_eq!(headline(&now, &now, &["plan.snap"], &["plan"]), "of its snapshots plan.snap is missing");
+    }
+
+    #[test]
+    fn what_to_do_names_a_review_only_where_something_waits() {
+        let text = what_to_do("05_pinhole", [3, 4], true);
+        for command in ["review 05_pinhole", "trace 05_pinhole --pixel 3,4 --size 96x54", "review accept 05_pinhole"] {
+            assert!(text.contains(&format!("cargo run --release -- {command}\n")), "{text}");
+        }
+        assert!(text.ends_with("cargo run --release -- review reject 05_pinhole\n"), "{text}");
+        let text = what_to_do("05_pinhole", [3, 4], false);
+        assert!(!text.contains("review") && text.contains("INSTA_UPDATE=always"), "{text}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Every bug planted on purpose is found, and the message names the very stage it was planted at.
 
 use crate::chapters;
-use crate::message::mismatch;
+use crate::message::{mismatch, what_to_do};
 use pinhole::naive::planted::{PLANTED, Planted};
 use pinhole::review::{DEVELOP, Snapshots};
 use pinhole::{Asked, Chapter};
@@ -48,4 +48,27 @@ fn a_bug_that_cannot_be_planted_is_refused_in_a_sentence() {
     let planted = Planted::named("no-cosine").expect("a bug");
     let told = planted.snapshots(&chapter("01_image")).expect_err("no lights").to_string();
     assert_eq!(told, "01_image does not run \"Aim at lights\", where no-cosine is planted; 05_pinhole does");
+}
+
+/// The page shows a message with lines left out; what it shows must be what is said.
+#[test]
+fn the_book_shows_the_message_as_it_is() {
+    let planted = Planted::named("no-cosine").expect("a bug");
+    let chapter = chapter(planted.chapter);
+    let (before, now) = (Snapshots::of(&chapter).expect("renders"), planted.snapshots(&chapter).expect("renders"));
+    let message = format!("{:?}", mismatch(chapter.name, &before, &now, &["digests"]));
+    let worst = pinhole::review::compare_pictures(&before.picture, &now.picture).expect("pictures").worst;
+    let said = message + &what_to_do(chapter.name, worst, true);
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/reviewing.md");
+    let page = std::fs::read_to_string(page).expect("the page can be read");
+    let shown = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).expect("the message");
+    let mut lines = 0;
+    for line in shown.lines().filter(|line| !line.is_empty() && line.trim() != "…") {
+        assert!(
+            said.lines().any(|other| other == line),
+            "book/src/reviewing.md shows the line\n{line}\nand said is\n{said}"
+        );
+        lines += 1;
+    }
+    assert!(lines > 10, "{lines} lines of the message are shown");
 }

@@ -82,8 +82,8 @@ fn tools(name: &str, framed: bool) -> String {
     };
     format!(
         "<div class=\"tools\" hidden>\n<fieldset class=\"modes\"><legend>show</legend>{modes}</fieldset>\n\
-         <label class=\"at\">before <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
-         aria-label=\"how much of now\"> now</label>\n\
+         <label class=\"at\"><span class=\"ends\">before</span> <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
+         aria-label=\"how far from before to now\"> <span class=\"ends\">now</span></label>\n\
          <button type=\"button\" class=\"swap\">show the other</button>\n\
          <span class=\"zoom\"><button type=\"button\" class=\"smaller\" aria-label=\"smaller\">−</button>\
          <output>4×</output><button type=\"button\" class=\"larger\" aria-label=\"larger\">+</button></span>\n{frame}\n\
