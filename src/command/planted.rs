@@ -11,7 +11,11 @@ use std::io::Write;
 
 /// What a review shows with a bug planted: as a page, a picture, or, of all bugs, a table or a gallery.
 pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
-    if name != "all" {
+    let all = name == "all";
+    if (asked.gallery && !all) || (asked.picture.is_some() && all) {
+        return Err(Error::Usage("--gallery goes with --plant all, and --picture with the name of one bug".into()));
+    }
+    if !all {
         let planted = Planted::named(name)?;
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
         let compared = compared(planted, chapter)?;
@@ -28,21 +32,21 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
         let intro = "The bug lives in this run only: no source and no snapshot has changed.";
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
-    let mut all = Vec::new();
+    let mut bugs = Vec::new();
     for planted in &PLANTED {
-        all.push((
+        bugs.push((
             planted,
             compared(planted, find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?)?,
         ));
     }
     if asked.gallery {
         let file = asked.output.clone().unwrap_or_else(|| "out/review/planted.svg".into());
-        let gallery = gallery(&all)?;
+        let gallery = gallery(&bugs)?;
         write_whole(&file, |file| file.write_all(gallery.as_bytes()))?;
         writeln!(out, "wrote {}", file.display())?;
         return Ok(());
     }
-    table(&all, out)
+    table(&bugs, out)
 }
 
 fn compared(planted: &Planted, chapter: &Chapter) -> Result<Compared> {

@@ -2,7 +2,10 @@ use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
 use super::find;
 use crate::chapter::Chapter;
 use crate::film::write_whole;
-use crate::review::{Compared, Pending, Snapshots, page, pending, picture_contrast};
+use crate::review::{
+    Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast,
+};
+use crate::scene::Resolution;
 use crate::{Error, Result};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -63,16 +66,17 @@ fn nothing_waits(chapter: Option<&str>, out: &mut dyn Write) -> Result {
 fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
     let name = &pending.chapter;
     let title = chapters.iter().find(|chapter| chapter.name == name).map_or("", |chapter| chapter.title);
-    Compared {
-        name: name.clone(),
-        title: title.into(),
-        before: Snapshots::kept(&pending.folder),
-        now: Snapshots::pending(&pending.folder),
-        commands: vec![
-            ("to keep what is new", format!("{TYPED} review accept {name}")),
-            ("to throw it away", format!("{TYPED} review reject {name}")),
-        ],
+    let (before, now) = (Snapshots::kept(&pending.folder), Snapshots::pending(&pending.folder));
+    let mut commands = vec![
+        ("to keep what is new", format!("{TYPED} review accept {name}")),
+        ("to throw it away", format!("{TYPED} review reject {name}")),
+    ];
+    if let Ok(difference) = compare_pictures(&before.picture, &now.picture).as_ref() {
+        let ([x, y], Resolution { width, height }) = (difference.worst, SNAPSHOT_SIZE);
+        let command = format!("{TYPED} trace {name} --pixel {x},{y} --size {width}x{height}");
+        commands.push(("to follow the worst pixel", command));
     }
+    Compared { name: name.clone(), title: title.into(), before, now, commands }
 }
 
 /// Writes the page and says where it is.
