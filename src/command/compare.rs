@@ -53,7 +53,7 @@ fn kind_of(file: &Path) -> Result<ImageKind> {
 
 /// Writes the difference as a PNG and says which difference is full white.
 fn write_difference(reference: &Numbers, image: &Numbers, error: &ImageError, file: &Path) -> Result<f64> {
-    if !file.extension().is_some_and(|ending| ending == "png") {
+    if file.extension().is_none_or(|ending| ending != "png") {
         return Err(Error::Usage(format!("cannot write {}: the name must end in .png", file.display())));
     }
     let full = full_white(error.means.map_or(0.0, |means| means.largest));

@@ -6,6 +6,7 @@ use crate::film::write_whole;
 use crate::naive::planted::{PLANTED, Planted};
 use crate::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast, png_url};
 use crate::{Error, Result};
+use std::collections::btree_map::{BTreeMap, Entry};
 use std::fmt::Write as _;
 use std::io::Write;
 
@@ -18,7 +19,7 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
     if !all {
         let planted = Planted::named(name)?;
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
-        let compared = compared(planted, chapter)?;
+        let compared = compared(planted, chapter, Snapshots::of(chapter)?)?;
         if let Some(which) = asked.picture {
             let file =
                 asked.output.clone().ok_or_else(|| Error::Usage("--picture needs a file: -o FILE.png".into()))?;
@@ -32,12 +33,14 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
         let intro = "The bug lives in this run only: no source and no snapshot has changed.";
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
-    let mut bugs = Vec::new();
+    let (mut bugs, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
     for planted in &PLANTED {
-        bugs.push((
-            planted,
-            compared(planted, find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?)?,
-        ));
+        let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
+        let before = match right.entry(chapter.name) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(place) => place.insert(Snapshots::of(chapter)?).clone(),
+        };
+        bugs.push((planted, compared(planted, chapter, before)?));
     }
     if asked.gallery {
         let file = asked.output.clone().unwrap_or_else(|| "out/review/planted.svg".into());
@@ -49,11 +52,11 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
     table(&bugs, out)
 }
 
-fn compared(planted: &Planted, chapter: &Chapter) -> Result<Compared> {
+fn compared(planted: &Planted, chapter: &Chapter, before: Snapshots) -> Result<Compared> {
     Ok(Compared {
         name: chapter.name.into(),
         title: format!("with {}: {}", planted.name, planted.slip),
-        before: Snapshots::of(chapter)?,
+        before,
         now: planted.snapshots(chapter)?,
         commands: Vec::new(),
     })

@@ -2,9 +2,7 @@ use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
 use super::find;
 use crate::chapter::Chapter;
 use crate::film::write_whole;
-use crate::review::{
-    Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast,
-};
+use crate::review::{Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast};
 use crate::scene::Resolution;
 use crate::{Error, Result};
 use std::io::Write;

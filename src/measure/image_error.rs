@@ -74,7 +74,6 @@ impl Oddities {
     }
 }
 
-// ANCHOR: image_error
 /// Compares an image with a reference, in f64, in the order of the pixels.
 ///
 /// A pixel with a number that is not finite, in either image, joins no mean and no denominator; the counts tell it.
@@ -115,7 +114,6 @@ pub fn image_error(reference: &Numbers, image: &Numbers) -> Result<ImageError, S
         oddities: [Oddities::of(reference), Oddities::of(image)],
     })
 }
-// ANCHOR_END: image_error
 
 fn largest_finite(image: &Numbers) -> f64 {
     image.pixels.iter().flatten().copied().filter(|part| part.is_finite()).fold(0.0, f64::max)
