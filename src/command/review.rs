@@ -30,6 +30,10 @@ pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, out: &mut dyn Write
 fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
     let mut waiting = pending(folder)?;
     if let Some(name) = &asked.chapter {
+        let near = |word: &&str| strsim::jaro_winkler(word, name) > 0.85;
+        if let Some(word) = ["accept", "reject"].into_iter().find(near) {
+            return Err(Error::Usage(format!("there is no chapter \"{name}\"; a similar word is `review {word}`")));
+        }
         let chapter = find::chapter(chapters, name)?;
         waiting.retain(|pending| pending.chapter == chapter.name);
     }
