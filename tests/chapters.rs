@@ -1,7 +1,8 @@
 //! Every chapter against its snapshots: what it computes, stage by stage, is what it computed when they were kept.
 //!
 //! One chapter: `cargo test --test chapters 05`.
-//! To keep what the chapters compute now: `INSTA_UPDATE=always cargo test --test chapters`, then look at `git diff`.
+//! What they compute otherwise now waits beside what is kept: `cargo run --release -- review` shows it, and
+//! `cargo run --release -- review accept all` keeps it.
 
 #[path = "../chapters/mod.rs"]
 mod chapters;
@@ -9,10 +10,14 @@ mod chapters;
 mod files;
 #[path = "chapters/message.rs"]
 mod message;
+#[path = "chapters/planted.rs"]
+mod planted;
 #[path = "chapters/png_pixels.rs"]
 mod png_pixels;
 #[path = "chapters/snapshots.rs"]
 mod snapshots;
+#[path = "chapters/waiting.rs"]
+mod waiting;
 
 /// A test for each chapter, named `chapter_` and its stem.
 macro_rules! test_chapters {

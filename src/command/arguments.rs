@@ -1,7 +1,7 @@
 use crate::chapter::Asked;
 use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// pinhole: a ray tracing book you can run
@@ -43,6 +43,72 @@ pub enum Command {
     Cost(CostOfChapter),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+    /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
+    Review(ReviewSnapshots),
+    /// Measure how far a picture is from another, both PNG or both EXR
+    Compare(CompareImages),
+}
+
+#[derive(Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct ReviewSnapshots {
+    #[command(subcommand)]
+    pub action: Option<ReviewAction>,
+    /// Only this chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: Option<String>,
+    /// Show the page as it would look with a bug planted (all: a table of all bugs)
+    #[arg(long, value_name = "BUG")]
+    pub plant: Option<String>,
+    /// Write one picture instead of the page
+    #[arg(long, requires = "plant")]
+    pub picture: Option<Picture>,
+    /// With --plant all: a drawing instead of a table
+    #[arg(long, requires = "plant")]
+    pub gallery: bool,
+    /// Where to write (default: out/review/index.html)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// The folder of chapters (default: the one beside the source)
+    #[arg(long, value_name = "FOLDER", global = true)]
+    pub chapters: Option<PathBuf>,
+}
+
+#[derive(Subcommand)]
+pub enum ReviewAction {
+    /// Keep the snapshots that wait, as `cargo insta accept` does
+    Accept {
+        /// A chapter, or all; may be left out where only one waits
+        chapter: Option<String>,
+    },
+    /// Throw the snapshots that wait away, as `cargo insta reject` does
+    Reject {
+        /// A chapter, or all; may be left out where only one waits
+        chapter: Option<String>,
+    },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Picture {
+    /// What is kept
+    Before,
+    /// What is computed
+    Now,
+    /// How far the two are from each other
+    Difference,
+}
+
+#[derive(Args)]
+pub struct CompareImages {
+    /// The image that is taken for right, PNG or EXR
+    pub reference: PathBuf,
+    /// The image that is measured, of the same kind and size
+    pub image: PathBuf,
+    /// Where to write a PNG of the difference
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Print the numbers as JSON, and nothing else
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Args)]

@@ -3,6 +3,7 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod compare;
 mod cost;
 mod extremes;
 mod figure;
@@ -11,8 +12,10 @@ mod hints;
 mod interrupt;
 mod list;
 mod plan;
+mod planted;
 mod refused;
 mod render;
+mod review;
 mod sweep;
 mod trace;
 
@@ -46,6 +49,8 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(find::chapter(chapters, &asked.chapter)?, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
+        Some(Command::Review(asked)) => review::review(chapters, &asked, out),
+        Some(Command::Compare(asked)) => compare::compare(&asked, out),
     }
 }
 

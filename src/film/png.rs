@@ -7,17 +7,22 @@ use std::path::Path;
 ///
 /// Errors: the path and what the system said; no part of a file is left behind.
 pub fn write_png(film: &Film, curve: Curve, path: &Path) -> Result {
-    write_whole(path, |file| encode(film, curve, file))
+    write_whole(path, |file| encode(film, curve, |part| byte_from_linear(part, curve), file))
 }
 
 /// The same PNG in memory.
 pub fn png_bytes(film: &Film, curve: Curve) -> io::Result<Vec<u8>> {
+    png_bytes_by(film, curve, |part| byte_from_linear(part, curve))
+}
+
+/// The same, each linear number developed by a function of the caller's; the file still names the curve.
+pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    encode(film, curve, &mut bytes)?;
+    encode(film, curve, develop, &mut bytes)?;
     Ok(bytes)
 }
 
-fn encode(film: &Film, curve: Curve, out: impl Write) -> io::Result<()> {
+fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Write) -> io::Result<()> {
     let mut encoder = png::Encoder::new(out, film.width, film.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -30,7 +35,7 @@ fn encode(film: &Film, curve: Curve, out: impl Write) -> io::Result<()> {
     for y in 0..film.height {
         line.clear();
         for x in 0..film.width {
-            line.extend(film.mean(x, y).map(|part| byte_from_linear(part, curve)));
+            line.extend(film.mean(x, y).map(&develop));
         }
         lines.write_all(&line)?;
     }

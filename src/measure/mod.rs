@@ -11,6 +11,8 @@ pub mod exact_vector;
 pub mod extremes;
 pub mod extremes_page;
 pub mod film_bits;
+pub mod image_error;
+pub mod image_file;
 pub mod judge_camera;
 pub mod number;
 pub mod oracle_camera;

@@ -8,5 +8,6 @@ pub mod ellipsoid;
 pub mod euler;
 pub mod film;
 pub mod plane;
+pub mod planted;
 pub mod shadow;
 pub mod sphere;

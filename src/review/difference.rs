@@ -78,14 +78,63 @@ fn image_size(text: &str) -> [u32; 2] {
     [numbers.next().unwrap_or(u32::MAX), numbers.next().unwrap_or(u32::MAX)]
 }
 
-fn first_block(old: &Table<'_>, new: &Table<'_>, size: [u32; 2]) -> Option<Place> {
-    let across = [old, new].iter().flat_map(|table| &table.lines).map(Vec::len).max()?;
+/// A stage and what it writes, with the blocks in which two texts of [`digests`](super::digests) differ.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StageBlocks {
+    /// The stage, in words.
+    pub stage: String,
+    /// The column that it writes.
+    pub column: String,
+    /// Blocks from left to right.
+    pub across: usize,
+    /// Blocks from top to bottom.
+    pub down: usize,
+    /// The blocks with other numbers, line by line, counted from 0 at the top left.
+    pub differing: Vec<[usize; 2]>,
+    /// Whether it only ran before.
+    pub gone: bool,
+    /// Whether it only runs now.
+    pub new: bool,
+}
+
+/// Every stage of two texts of [`digests`](super::digests): those of the later one in order, then those that are gone.
+pub fn stage_blocks(old: &str, new: &str) -> Vec<StageBlocks> {
+    let [old, new] = [old, new].map(tables);
+    let same = |one: &Table<'_>, other: &Table<'_>| one.stage == other.stage && one.column == other.column;
+    let of = |table: &Table<'_>, [across, down]: [usize; 2], differing, gone, new| StageBlocks {
+        stage: table.stage.into(),
+        column: table.column.into(),
+        across,
+        down,
+        differing,
+        gone,
+        new,
+    };
+    let mut all = Vec::new();
+    for table in &new {
+        let before = old.iter().find(|before| same(before, table));
+        let (size, differing) = differing_blocks(before.unwrap_or(table), table);
+        all.push(of(table, size, differing, false, before.is_none()));
+    }
+    for table in old.iter().filter(|gone| !new.iter().any(|now| same(now, gone))) {
+        all.push(of(table, differing_blocks(table, table).0, Vec::new(), true, false));
+    }
+    all
+}
+
+/// How many blocks two tables have across and down, and which of them differ.
+fn differing_blocks(old: &Table<'_>, new: &Table<'_>) -> ([usize; 2], Vec<[usize; 2]>) {
+    let across = [old, new].iter().flat_map(|table| &table.lines).map(Vec::len).max().unwrap_or(0);
     let down = old.lines.len().max(new.lines.len());
     fn word<'a>(table: &Table<'a>, x: usize, y: usize) -> Option<&'a str> {
         table.lines.get(y)?.get(x).copied()
     }
     let blocks = (0..down).flat_map(|y| (0..across).map(move |x| [x, y]));
-    let differing: Vec<[usize; 2]> = blocks.filter(|&[x, y]| word(old, x, y) != word(new, x, y)).collect();
+    ([across, down], blocks.filter(|&[x, y]| word(old, x, y) != word(new, x, y)).collect())
+}
+
+fn first_block(old: &Table<'_>, new: &Table<'_>, size: [u32; 2]) -> Option<Place> {
+    let ([across, down], differing) = differing_blocks(old, new);
     let block = differing.first()?.map(|along| along as u32);
     let pixels = [0, 1].map(|axis| {
         let first = block[axis] * BLOCK_SIDE;
@@ -149,6 +198,22 @@ mod tests {
             let pixels = [8..=15, 8..=9];
             assert_eq!(place, Some(Place::Block { block: [1, 1], pixels, differing: 1, blocks: 6 }));
         }
+    }
+
+    #[test]
+    fn every_stage_has_its_blocks_and_those_that_come_or_go_say_so() {
+        let new = OLD.replace("bbbb cccc", "bbbb cccd").replace("Add light", "Add more light");
+        let told = stage_blocks(OLD, &new);
+        let words: Vec<_> =
+            told.iter().map(|stage| (&*stage.stage, stage.differing.len(), stage.gone, stage.new)).collect();
+        let expected = [
+            ("Place points", 0, false, false),
+            ("List rows", 1, false, false),
+            ("Add more light", 0, false, true),
+            ("Add light", 0, true, false),
+        ];
+        assert_eq!(words, expected);
+        assert_eq!((told[1].across, told[1].down, &told[1].differing[..]), (3, 2, &[[2, 0]][..]));
     }
 
     #[test]

@@ -1,3 +1,4 @@
+use super::{difference_png, full_white};
 use crate::Result;
 use crate::film::png_bytes;
 use crate::plan::Stage;
@@ -54,6 +55,29 @@ pub fn compare_pictures(old: &[u8], new: &[u8]) -> ImageResult<PictureDifference
         }
     }
     Ok(difference)
+}
+
+/// The difference of two pictures of one size as a PNG, with its scale in words; none where they cannot be compared.
+///
+/// Errors: an encoder that refuses.
+pub fn picture_contrast(old: &[u8], new: &[u8]) -> Result<Option<(Vec<u8>, String)>> {
+    let decode = |bytes| image::load_from_memory_with_format(bytes, ImageFormat::Png).map(|image| image.to_rgb8());
+    let (Ok(old), Ok(new)) = (decode(old), decode(new)) else { return Ok(None) };
+    if old.dimensions() != new.dimensions() {
+        return Ok(None);
+    }
+    let bytes = |x, y| [old.get_pixel(x, y).0, new.get_pixel(x, y).0];
+    let difference = |x, y| {
+        let [old, new] = bytes(x, y);
+        [0, 1, 2].map(|part| f64::from(old[part].abs_diff(new[part])))
+    };
+    let largest = old.enumerate_pixels().flat_map(|(x, y, _)| difference(x, y)).fold(0.0, f64::max);
+    // Bytes cannot differ by more than 255.
+    let full = full_white(largest).min(255.0);
+    let png = difference_png([old.width(), old.height()], full, difference)?;
+    let gain = (25_500.0 / full).round() / 100.0;
+    let words = format!("difference × {gain}: black is none, full white is {full} of 255 (largest: {largest})");
+    Ok(Some((png, words)))
 }
 
 impl PictureDifference {

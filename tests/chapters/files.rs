@@ -1,7 +1,8 @@
 //! Which snapshot files there should be, and which there are.
 
 use crate::message::Mismatch;
-use crate::snapshots::{FILES, folder};
+use crate::snapshots::folder;
+use pinhole::review::SNAPSHOT_FILES as FILES;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,10 @@
 //! What a reader is told whose chapter no longer computes what its snapshots hold.
 
-use crate::snapshots::{FILES, SIZE, Snapshots, folder};
-use pinhole::review::{ChangedRow, PictureDifference, Place, changed_rows, compare_pictures, first_difference};
+use crate::snapshots::folder;
+use pinhole::review::{
+    ChangedRow, DEVELOP, PictureDifference, Place, SNAPSHOT_FILES as FILES, SNAPSHOT_SIZE as SIZE, Snapshots,
+    changed_rows, compare_pictures,
+};
 use std::fmt::{self, Write};
 
 /// A test's failure: a message for a person.
@@ -26,7 +29,8 @@ pub fn mismatch(chapter: &str, before: &Snapshots, now: &Snapshots, refused: &[&
         text.push_str(&probes(&before.probes, &now.probes));
         text.push_str(&changed_lines("plan", &before.plan, &now.plan));
     }
-    text.push_str(&what_to_do(chapter, pixel(before, now, picture.as_ref())));
+    let waits = FILES.iter().any(|file| folder(chapter).join(format!("{file}.new")).is_file());
+    text.push_str(&what_to_do(chapter, pixel(before, now, picture.as_ref()), waits));
     Mismatch(text)
 }
 
@@ -37,15 +41,17 @@ fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&s
     if !missing.is_empty() {
         return format!("of its snapshots {} is missing", missing.join(", "));
     }
-    if let Some(difference) = first_difference(&before.digests, &now.digests) {
-        return difference.to_string();
+    match before.first_difference(now) {
+        Some(difference) if difference.stage == DEVELOP => {
+            format!(
+                "{difference}: all columns of all stages are the same, so look at src/film/develop.rs and src/film/png.rs"
+            )
+        }
+        Some(difference) => difference.to_string(),
+        None => {
+            format!("all numbers and pixels are the same; what differs is the wording of {}", refused.join(" and "))
+        }
     }
-    if refused.contains(&"image") {
-        return "all columns of all stages are the same, and the picture differs: look at what makes pixels of the \
-            film (src/film/develop.rs, src/film/png.rs)"
-            .into();
-    }
-    format!("all numbers and pixels are the same; what differs is the wording of {}", refused.join(" and "))
 }
 
 /// The probes before and now: every column that changed of the first probe, the first column of the others.
@@ -95,7 +101,7 @@ fn write_lines(text: &mut String, when: &str, lines: &[&str]) {
 
 /// The pixel to look at: where the picture differs most, or the first of the block that differs first.
 fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference>) -> [u32; 2] {
-    let block = first_difference(&before.digests, &now.digests).map(|difference| difference.place);
+    let block = before.first_difference(now).map(|difference| difference.place);
     match (picture, block) {
         (Some(picture), _) if picture.largest > 0 => picture.worst,
         (_, Some(Place::Block { pixels: [x, y], .. })) => [*x.start(), *y.start()],
@@ -103,22 +109,25 @@ fn pixel(before: &Snapshots, now: &Snapshots, picture: Option<&PictureDifference
     }
 }
 
-fn what_to_do(chapter: &str, [x, y]: [u32; 2]) -> String {
+/// The commands that show, keep and undo; without a review where insta was told to let nothing wait.
+pub fn what_to_do(chapter: &str, [x, y]: [u32; 2], waits: bool) -> String {
     let (width, height) = (SIZE.width, SIZE.height);
-    let snapshots = format!("chapters/{chapter}/snapshots");
-    let kept = |file: &str| folder(chapter).join(file).is_file();
-    let pictures = if kept("image.snap.png") && kept("image.snap.new.png") {
-        format!("\n             {snapshots}/image.snap.png is before, image.snap.new.png beside it is now")
-    } else {
-        String::new()
-    };
+    let trace = format!("cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}");
+    if !waits {
+        // Insta was told to write nothing: INSTA_UPDATE=no, or CI is set.
+        return format!(
+            "\n\
+            to look      {trace}\n\
+            to keep      INSTA_UPDATE=always cargo test --test chapters chapter_{chapter}\n\
+            to go back   undo your edit, which `git diff` shows\n"
+        );
+    }
     format!(
         "\n\
-        to look      cargo run --release -- trace {chapter} --pixel {x},{y} --size {width}x{height}{pictures}\n\
-        to keep      INSTA_UPDATE=always cargo test --test chapters chapter_{chapter}\n             \
-                     or, with cargo-insta: cargo insta accept\n\
-        to go back   undo your edit: `git diff` shows it, \
-                     and if it is in the chapter, `git checkout chapters/{chapter}/main.rs` undoes it\n"
+        to look      cargo run --release -- review {chapter}\n             {trace}\n\
+        to keep      cargo run --release -- review accept {chapter}\n\
+        to go back   undo your edit, which `git diff` shows, then\n             \
+                     cargo run --release -- review reject {chapter}\n"
     )
 }
 
@@ -137,12 +146,21 @@ mod tests {
         let (before, now) = (snapshots(DIGESTS, "a plan"), snapshots(&DIGESTS.replace("aaaa", "bbbb"), "another plan"));
         let line = headline(&before, &now, &[], &["digests", "plan", "image"]);
         assert!(line.starts_with("the first stage whose numbers differ is \"Add light\" (column radiance)"), "{line}");
-        let line = headline(&before, &before, &[], &["image"]);
-        assert!(line.starts_with("all columns of all stages are the same, and the picture differs"), "{line}");
         let line = headline(&before, &snapshots(DIGESTS, "another plan"), &[], &["plan"]);
         assert_eq!(line, "all numbers and pixels are the same; what differs is the wording of plan");
         assert_eq!(headline(&now, &now, &FILES, &["image"]), "no snapshot of it is kept yet");
         assert_eq!(headline(&now, &now, &["plan.snap"], &["plan"]), "of its snapshots plan.snap is missing");
+    }
+
+    #[test]
+    fn what_to_do_names_a_review_only_where_something_waits() {
+        let text = what_to_do("05_pinhole", [3, 4], true);
+        for command in ["review 05_pinhole", "trace 05_pinhole --pixel 3,4 --size 96x54", "review accept 05_pinhole"] {
+            assert!(text.contains(&format!("cargo run --release -- {command}\n")), "{text}");
+        }
+        assert!(text.ends_with("cargo run --release -- review reject 05_pinhole\n"), "{text}");
+        let text = what_to_do("05_pinhole", [3, 4], false);
+        assert!(!text.contains("review") && text.contains("INSTA_UPDATE=always"), "{text}");
     }
 
     #[test]

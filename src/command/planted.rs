@@ -1,0 +1,120 @@
+use super::arguments::ReviewSnapshots;
+use super::find;
+use super::review::{picture, write_page};
+use crate::chapter::Chapter;
+use crate::film::write_whole;
+use crate::naive::planted::{PLANTED, Planted};
+use crate::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast, png_url};
+use crate::{Error, Result};
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::fmt::Write as _;
+use std::io::Write;
+
+/// What a review shows with a bug planted: as a page, a picture, or, of all bugs, a table or a gallery.
+pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+    let all = name == "all";
+    if (asked.gallery && !all) || (asked.picture.is_some() && all) {
+        return Err(Error::Usage("--gallery goes with --plant all, and --picture with the name of one bug".into()));
+    }
+    if !all {
+        let planted = Planted::named(name)?;
+        let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
+        let compared = compared(planted, chapter, Snapshots::of(chapter)?)?;
+        if let Some(which) = asked.picture {
+            let file =
+                asked.output.clone().ok_or_else(|| Error::Usage("--picture needs a file: -o FILE.png".into()))?;
+            let png = picture(&compared, which)?;
+            write_whole(&file, |file| file.write_all(&png))?;
+            writeln!(out, "wrote {}", file.display())?;
+            return Ok(());
+        }
+        writeln!(out, "{}: {}", compared.name, compared.headline())?;
+        let heading = format!("A bug planted on purpose: {}", planted.name);
+        let intro = "The bug lives in this run only: no source and no snapshot has changed.";
+        return write_page(asked, &page(&heading, intro, &[compared])?, out);
+    }
+    let (mut bugs, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
+    for planted in &PLANTED {
+        let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
+        let before = match right.entry(chapter.name) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(place) => place.insert(Snapshots::of(chapter)?).clone(),
+        };
+        bugs.push((planted, compared(planted, chapter, before)?));
+    }
+    if asked.gallery {
+        let file = asked.output.clone().unwrap_or_else(|| "out/review/planted.svg".into());
+        let gallery = gallery(&bugs)?;
+        write_whole(&file, |file| file.write_all(gallery.as_bytes()))?;
+        writeln!(out, "wrote {}", file.display())?;
+        return Ok(());
+    }
+    table(&bugs, out)
+}
+
+fn compared(planted: &Planted, chapter: &Chapter, before: Snapshots) -> Result<Compared> {
+    Ok(Compared {
+        name: chapter.name.into(),
+        title: format!("with {}: {}", planted.name, planted.slip),
+        before,
+        now: planted.snapshots(chapter)?,
+        commands: Vec::new(),
+    })
+}
+
+/// A line a bug: its name, the slip, the stage that the review names, how many pixels show it.
+fn table(all: &[(&Planted, Compared)], out: &mut dyn Write) -> Result {
+    writeln!(out, "{:<22} {:<27} {:<32} pixels that differ", "bug", "slip", "stage named")?;
+    let mut right = 0;
+    for (planted, compared) in all {
+        let named =
+            compared.before.first_difference(&compared.now).map_or("none".into(), |difference| difference.stage);
+        let pixels = compare_pictures(&compared.before.picture, &compared.now.picture);
+        let pixels = pixels.map_or(0, |difference| difference.differing);
+        right += usize::from(named == planted.stage);
+        writeln!(out, "{:<22} {:<27} {named:<32} {pixels:>4}", planted.name, planted.slip)?;
+    }
+    writeln!(out, "{right} of {} bugs named at the stage where they were planted", all.len())?;
+    Ok(())
+}
+
+/// Width of the gallery, and of a picture in it.
+const WIDTH: usize = 720;
+const PICTURE: [usize; 2] = [168, 95];
+/// A bug's room: two pictures and three lines of words.
+const ROOM: [usize; 2] = [366, 158];
+
+/// A drawing of all bugs: what each makes of the picture, the difference, the slip and the stage that the review names.
+fn gallery(all: &[(&Planted, Compared)]) -> Result<String> {
+    let height = all.len().div_ceil(2) * ROOM[1];
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
+         font-family=\"system-ui, sans-serif\" font-size=\"13\" fill=\"currentColor\">\n"
+    );
+    for (index, (planted, compared)) in all.iter().enumerate() {
+        let [x, y] = [index % 2 * ROOM[0], index / 2 * ROOM[1]];
+        let before_now = [&compared.before.picture, &compared.now.picture];
+        let contrast = picture_contrast(before_now[0], before_now[1])?;
+        let (difference, _) = contrast.ok_or_else(|| Error::Usage("two pictures cannot be compared".into()))?;
+        for (place, png) in [&compared.now.picture, &difference].into_iter().enumerate() {
+            let x = x + place * (PICTURE[0] + 8);
+            let _ = writeln!(
+                svg,
+                "<image x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{}\" style=\"image-rendering: pixelated\" href=\"{}\"/>",
+                PICTURE[0],
+                PICTURE[1],
+                png_url(png)
+            );
+        }
+        let named =
+            compared.before.first_difference(&compared.now).map_or("none".into(), |difference| difference.stage);
+        let lines =
+            [(18, "bold", planted.name), (35, "normal", planted.slip), (52, "normal", &*format!("names: {named}"))];
+        for (down, weight, words) in lines {
+            let y = y + PICTURE[1] + down;
+            let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" font-weight=\"{weight}\">{}</text>", escape(words));
+        }
+    }
+    svg.push_str("</svg>\n");
+    Ok(svg)
+}

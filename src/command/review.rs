@@ -1,0 +1,138 @@
+use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
+use super::find;
+use crate::chapter::Chapter;
+use crate::film::write_whole;
+use crate::review::{Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast};
+use crate::scene::Resolution;
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// What a reader types before a command.
+const TYPED: &str = "cargo run --release --";
+
+/// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
+pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+    let folder = asked.chapters.clone().unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters"));
+    match (&asked.action, &asked.plant) {
+        (Some(ReviewAction::Accept { chapter }), _) => {
+            settle(chapters, &folder, chapter.as_deref(), "accepted", Pending::accept, out)
+        }
+        (Some(ReviewAction::Reject { chapter }), _) => {
+            settle(chapters, &folder, chapter.as_deref(), "rejected", Pending::reject, out)
+        }
+        (None, Some(name)) => super::planted::plant(chapters, name, asked, out),
+        (None, None) => show(chapters, &folder, asked, out),
+    }
+}
+
+/// The page of what waits.
+fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+    let mut waiting = pending(folder)?;
+    if let Some(name) = &asked.chapter {
+        let near = |word: &&str| strsim::jaro_winkler(word, name) > 0.85;
+        if let Some(word) = ["accept", "reject"].into_iter().find(near) {
+            return Err(Error::Usage(format!("there is no chapter \"{name}\"; a similar word is `review {word}`")));
+        }
+        let chapter = find::chapter(chapters, name)?;
+        waiting.retain(|pending| pending.chapter == chapter.name);
+    }
+    if waiting.is_empty() {
+        return nothing_waits(asked.chapter.as_deref(), out);
+    }
+    let compared: Vec<Compared> = waiting.iter().map(|pending| compared(chapters, pending)).collect();
+    for chapter in &compared {
+        writeln!(out, "{}: {}", chapter.name, chapter.headline())?;
+    }
+    let heading = match &compared[..] {
+        [one] => format!("One chapter's snapshots wait: {}", one.name),
+        several => format!("The snapshots of {} chapters wait", several.len()),
+    };
+    let intro = "Before is what is kept; now is what the tests computed when they last ran.";
+    write_page(asked, &page(&heading, intro, &compared)?, out)?;
+    writeln!(out, "to keep      {TYPED} review accept CHAPTER   (or all)")?;
+    writeln!(out, "to go back   {TYPED} review reject CHAPTER   (or all)")?;
+    Ok(())
+}
+
+fn nothing_waits(chapter: Option<&str>, out: &mut dyn Write) -> Result {
+    let of = chapter.map_or_else(String::new, |chapter| format!(" of chapter {chapter}"));
+    writeln!(
+        out,
+        "no snapshot{of} waits: one does when `cargo test --test chapters` finds that a chapter computes something else \
+         than what is kept"
+    )?;
+    Ok(())
+}
+
+fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
+    let name = &pending.chapter;
+    let title = chapters.iter().find(|chapter| chapter.name == name).map_or("", |chapter| chapter.title);
+    let (before, now) = (Snapshots::kept(&pending.folder), Snapshots::pending(&pending.folder));
+    let mut commands = vec![
+        ("to keep what is new", format!("{TYPED} review accept {name}")),
+        ("to throw it away", format!("{TYPED} review reject {name}")),
+    ];
+    if let Ok(difference) = compare_pictures(&before.picture, &now.picture).as_ref() {
+        let ([x, y], Resolution { width, height }) = (difference.worst, SNAPSHOT_SIZE);
+        let command = format!("{TYPED} trace {name} --pixel {x},{y} --size {width}x{height}");
+        commands.push(("to follow the worst pixel", command));
+    }
+    Compared { name: name.clone(), title: title.into(), before, now, commands }
+}
+
+/// Writes the page and says where it is.
+pub(super) fn write_page(asked: &ReviewSnapshots, page: &str, out: &mut dyn Write) -> Result {
+    let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join("review").join("index.html"));
+    write_whole(&file, |file| file.write_all(page.as_bytes()))?;
+    writeln!(out, "wrote {}: open it in a browser", file.display())?;
+    Ok(())
+}
+
+/// The picture of one chapter that is asked for.
+pub(super) fn picture(compared: &Compared, picture: Picture) -> Result<Vec<u8>> {
+    match picture {
+        Picture::Before => Ok(compared.before.picture.clone()),
+        Picture::Now => Ok(compared.now.picture.clone()),
+        Picture::Difference => match picture_contrast(&compared.before.picture, &compared.now.picture)? {
+            Some((png, _)) => Ok(png),
+            None => Err(Error::Usage(format!("the pictures of {} cannot be compared", compared.name))),
+        },
+    }
+}
+
+/// Accepts or rejects what waits of one chapter, or of all.
+fn settle(
+    chapters: &[Chapter],
+    folder: &Path,
+    asked: Option<&str>,
+    word: &str,
+    settle: fn(&Pending) -> Result<Vec<PathBuf>>,
+    out: &mut dyn Write,
+) -> Result {
+    let mut waiting = pending(folder)?;
+    match asked {
+        Some("all") => {}
+        Some(name) => {
+            let chapter = find::chapter(chapters, name)?;
+            waiting.retain(|pending| pending.chapter == chapter.name);
+        }
+        None if waiting.len() > 1 => {
+            let names: Vec<&str> = waiting.iter().map(|pending| &*pending.chapter).collect();
+            return Err(Error::Usage(format!(
+                "the snapshots of {} chapters wait: name one of {}, or all",
+                names.len(),
+                names.join(", ")
+            )));
+        }
+        None => {}
+    }
+    if waiting.is_empty() {
+        return nothing_waits(asked.filter(|asked| *asked != "all"), out);
+    }
+    for pending in &waiting {
+        settle(pending)?;
+        writeln!(out, "{word} {} of {}", pending.files.join(", "), pending.chapter)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,109 @@
+//! Slips between surfaces and the picture.
+
+use crate::extract::{BackgroundTable, PlaneTable};
+use crate::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
+use crate::intersect::Surfaces;
+use crate::plan::{Column, Shared};
+use crate::shade::{LightRays, Radiance, ShadowHits};
+use bevy_ecs::prelude::*;
+use glam::{DVec3, Vec3};
+use std::mem::swap;
+
+/// Radiance that does not start at 0.
+pub fn not_dark(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let radiance = &mut *radiance;
+        radiance.r.iter_mut().chain(&mut radiance.g).chain(&mut radiance.b).for_each(|part| *part = 0.05);
+    }
+}
+
+/// The background behind everything, and before it too.
+pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles: Query<&mut Radiance>) {
+    let [red, green, blue] = background.radiance;
+    for mut radiance in &mut tiles {
+        radiance.r.iter_mut().for_each(|part| *part += red);
+        radiance.g.iter_mut().for_each(|part| *part += green);
+        radiance.b.iter_mut().for_each(|part| *part += blue);
+    }
+}
+
+/// Light that falls at a slant counts in full.
+pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+    for (surfaces, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let normal = surfaces.get(rays.path[ray] as usize).normal;
+            let cosine = normal.dot(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
+            rays.r[ray] /= cosine;
+            rays.g[ray] /= cosine;
+            rays.b[ray] /= cosine;
+        }
+    }
+}
+
+/// What stands behind a lamp is in its way too.
+pub fn endless_reach(mut tiles: Query<&mut ShadowHits>) {
+    for mut hits in &mut tiles {
+        hits.t.fill(f64::INFINITY);
+    }
+}
+
+/// No sphere is ever in the way.
+pub fn spheres_ignored() {}
+
+/// A plane behind the ray counts as before it.
+pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
+    for (rays, mut hits) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let origin = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+            let direction = DVec3::from(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
+            for (plane, normal) in planes.normal.iter().enumerate() {
+                let t = ((planes.offset[plane] - normal.dot(origin)) / normal.dot(direction)).abs();
+                if t < hits.t[ray] {
+                    (hits.t[ray], hits.shape[ray]) = (t, planes.shape[plane]);
+                }
+            }
+        }
+    }
+}
+
+/// Light arrives whatever stands in between.
+pub fn shadow_forgotten(mut tiles: Query<(&LightRays, &mut Radiance)>) {
+    for (rays, mut radiance) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let path = rays.path[ray] as usize;
+            radiance.r[path] += rays.r[ray];
+            radiance.g[path] += rays.g[ray];
+            radiance.b[path] += rays.b[ray];
+        }
+    }
+}
+
+/// Blue, green, red for red, green, blue.
+pub fn blue_first(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let Radiance { r, b, .. } = &mut *radiance;
+        swap(r, b);
+    }
+}
+
+/// A view's x painted green and its y red.
+pub fn green_first(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let Radiance { r, g, .. } = &mut *radiance;
+        swap(r, g);
+    }
+}
+
+/// A sample added twice and counted once.
+pub fn added_twice(mut tiles: Query<&mut FilmTile>) {
+    for mut film in &mut tiles {
+        let film = &mut *film;
+        film.r.iter_mut().chain(&mut film.g).chain(&mut film.b).for_each(|sum| *sum *= 2.0);
+    }
+}
+
+/// The curve taken of what has been through it already.
+pub fn gamma_twice(linear: f32, curve: Curve) -> u8 {
+    let once = if linear > 0.0 { srgb_from_linear(f64::from(linear)) as f32 } else { linear };
+    byte_from_linear(once, curve)
+}

@@ -1,0 +1,46 @@
+use super::{Bug, Planted, hits, light, rays};
+use crate::review::DEVELOP;
+use bevy_ecs::prelude::*;
+
+/// A row of the table.
+const fn bug(name: &'static str, stage: &'static str, slip: &'static str, chapter: &'static str, bug: Bug) -> Planted {
+    Planted { name, stage, slip, chapter, bug }
+}
+
+/// The chapter that most bugs are planted in: balls, a ground, a lamp and a background.
+const MOST: &str = "05_pinhole";
+/// Parallel rays, and no lamp.
+const PARALLEL: &str = "04_orthographic";
+/// A column painted for the picture.
+const PAINTED: &str = "02_ray";
+
+/// Every bug, in the order of the stages; at least one at each.
+#[rustfmt::skip]
+pub static PLANTED: [Planted; 26] = [
+    bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
+    bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
+    bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
+    bug("no-aspect", "Centre points on the screen", "aspect left out", MOST, Bug::After(|| rays::no_aspect.into_configs())),
+    bug("whole-angle", "Aim rays from the eye", "tangent of the whole angle", MOST, Bug::After(|| rays::whole_angle.into_configs())),
+    bug("plus-z", "Aim rays from the eye", "looks along +z", MOST, Bug::After(|| rays::plus_z.into_configs())),
+    bug("whole-height", "Start rays on the rectangle", "height for its half", PARALLEL, Bug::After(|| rays::whole_height.into_configs())),
+    bug("transpose", "Turn rays into the world", "matrix transposed", MOST, Bug::After(|| rays::transposed.into_configs())),
+    bug("near-end", "Start with nothing met", "nothing met beyond t = 8", MOST, Bug::After(|| hits::near_end.into_configs())),
+    bug("not-dark", "Start in the dark", "light starts at 0.05", MOST, Bug::After(|| light::not_dark.into_configs())),
+    bug("far-root", "Intersect spheres", "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
+    bug("plane-sign", "Intersect planes", "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
+    bug("zero-is-none", "Classify hits", "shape 0 taken for none", MOST, Bug::After(|| hits::zero_is_none.into_configs())),
+    bug("normal-inward", "Describe sphere surfaces", "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
+    bug("no-epsilon", "Describe sphere surfaces", "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
+    bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
+    bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
+    bug("no-cosine", "Aim at lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
+    bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
+    bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
+    bug("behind-counts", "Look for planes in the way", "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
+    bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
+    bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
+    bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
+    bug("added-twice", "Add to the film", "added twice, counted once", MOST, Bug::After(|| light::added_twice.into_configs())),
+    bug("gamma-twice", DEVELOP, "the curve taken twice", MOST, Bug::Develop(light::gamma_twice)),
+];

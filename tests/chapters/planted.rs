@@ -1,0 +1,74 @@
+//! Every bug planted on purpose is found, and the message names the very stage it was planted at.
+
+use crate::chapters;
+use crate::message::{mismatch, what_to_do};
+use pinhole::naive::planted::{PLANTED, Planted};
+use pinhole::review::{DEVELOP, Snapshots};
+use pinhole::{Asked, Chapter};
+use std::collections::{BTreeMap, BTreeSet};
+
+fn chapter(name: &str) -> Chapter {
+    chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter")
+}
+
+#[test]
+fn the_message_names_the_stage_of_each_planted_bug() {
+    let mut before: BTreeMap<&str, Snapshots> = BTreeMap::new();
+    for planted in &PLANTED {
+        let chapter = chapter(planted.chapter);
+        let before = before.entry(planted.chapter).or_insert_with(|| Snapshots::of(&chapter).expect("renders"));
+        let now = planted.snapshots(&chapter).expect("renders with the bug");
+        let message = format!("{:?}", mismatch(chapter.name, before, &now, &["digests"]));
+        let first = message.lines().next().unwrap_or_default();
+        let expected =
+            format!("{}: the first stage whose numbers differ is \"{}\" (column ", chapter.name, planted.stage);
+        assert!(first.starts_with(&expected), "{}: {first}", planted.name);
+    }
+    eprintln!("planted: {} bugs, each named at its stage", PLANTED.len());
+}
+
+#[test]
+fn every_stage_that_a_chapter_runs_has_a_planted_bug() {
+    let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
+    for chapter in chapters::all() {
+        let plan = pinhole::plan::plan(&chapter.world(&Asked::default()), &chapter.stages()).expect("a plan");
+        stages.extend(plan.stages.iter().map(|stage| stage.name.to_string()));
+    }
+    let planted: BTreeSet<String> = PLANTED.iter().map(|planted| planted.stage.to_string()).collect();
+    assert_eq!(planted, stages, "the stages with a planted bug (src/naive/planted/table.rs), and those there are");
+    let names: BTreeSet<&str> = PLANTED.iter().map(|planted| planted.name).collect();
+    assert_eq!(names.len(), PLANTED.len(), "two bugs have one name");
+    eprintln!("planted: {} stages", stages.len());
+}
+
+#[test]
+fn a_bug_that_cannot_be_planted_is_refused_in_a_sentence() {
+    let told = Planted::named("half-pixle").expect_err("no such bug").to_string();
+    assert!(told.starts_with("there is no bug \"half-pixle\" to be planted; the nearest is half-pixel"), "{told}");
+    let planted = Planted::named("no-cosine").expect("a bug");
+    let told = planted.snapshots(&chapter("01_image")).expect_err("no lights").to_string();
+    assert_eq!(told, "01_image does not run \"Aim at lights\", where no-cosine is planted; 05_pinhole does");
+}
+
+/// The page shows a message with lines left out; what it shows must be what is said.
+#[test]
+fn the_book_shows_the_message_as_it_is() {
+    let planted = Planted::named("no-cosine").expect("a bug");
+    let chapter = chapter(planted.chapter);
+    let (before, now) = (Snapshots::of(&chapter).expect("renders"), planted.snapshots(&chapter).expect("renders"));
+    let message = format!("{:?}", mismatch(chapter.name, &before, &now, &["digests"]));
+    let worst = pinhole::review::compare_pictures(&before.picture, &now.picture).expect("pictures").worst;
+    let said = message + &what_to_do(chapter.name, worst, true);
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/reviewing.md");
+    let page = std::fs::read_to_string(page).expect("the page can be read");
+    let shown = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).expect("the message");
+    let mut lines = 0;
+    for line in shown.lines().filter(|line| !line.is_empty() && line.trim() != "…") {
+        assert!(
+            said.lines().any(|other| other == line),
+            "book/src/reviewing.md shows the line\n{line}\nand said is\n{said}"
+        );
+        lines += 1;
+    }
+    assert!(lines > 10, "{lines} lines of the message are shown");
+}
