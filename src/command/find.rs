@@ -10,7 +10,8 @@ pub fn chapter<'c>(chapters: &'c [Chapter], asked: &str) -> Result<&'c Chapter> 
         chapter.name == asked || rest == asked || (number.is_some() && first.parse().ok() == number)
     };
     if is_scene_file(asked) {
-        let what = format!("{asked} is a scene file, but this command takes a chapter; render, plan and trace take both");
+        let what =
+            format!("{asked} is a scene file, but this command takes a chapter; render, plan and trace take both");
         return Err(Error::Usage(what));
     }
     chapters.iter().find(matches).ok_or_else(|| Error::Usage(no_such_chapter(chapters, asked)))

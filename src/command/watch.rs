@@ -39,8 +39,8 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
             continue;
         }
         last = Some(now);
-        let rendered = Subject::find(chapters, &asked.chapter)
-            .and_then(|subject| render_subject(&subject, &asked.options, out));
+        let rendered =
+            Subject::find(chapters, &asked.chapter).and_then(|subject| render_subject(&subject, &asked.options, out));
         match rendered {
             Err(Error::Print(broken)) => return Err(Error::Print(broken)),
             Err(Error::Interrupted) => break,

@@ -1,7 +1,7 @@
 //! The words of one entity → its components.
 
 use super::found::{found, shown};
-use super::scan::{EntityText, Part, fields};
+use super::scan::{EntityText, Part, check_fields, fields};
 use super::slip::{Slip, byte_at};
 use super::word::{Put, RELATIONS, Word, words};
 use ron::error::{Error, SpannedError};
@@ -9,6 +9,9 @@ use std::ops::Range;
 
 /// The longest name, in letters: a message shows it whole.
 pub const LONGEST_NAME: usize = 100;
+
+const THREE_NUMBERS: &str = "three numbers in round brackets, such as (0.0, 1.0, 0.0)";
+const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0.0, 1.0)";
 
 /// A word of an entity, and where it stands.
 pub struct FilePart {
@@ -133,13 +136,20 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
             let at = fields.iter().rev().find(|own| own.word == *field).map_or(stopped, |own| own.at);
             Slip::new(at, format!("{whose}: {field} is given twice, but a component has one of a kind"))
         }
+        Error::ExpectedComma => {
+            let at = token_at(text, &part.value, stopped);
+            Slip::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
+        }
         code => {
+            if let Err(slip) = check_fields(text, part.value.clone()) {
+                return Slip::new(slip.at, format!("{whose}: {}", slip.what));
+            }
             let field = fields.iter().find(|field| (field.at..=field.value.end).contains(&stopped));
             let (name, range) = field.map_or((part.word, &part.value), |field| (field.word, &field.value));
             let whole = text.get(range.clone()).unwrap_or("");
             let whose = if field.is_some() { whose } else { who.to_string() };
             let at = token_at(text, range, stopped);
-            let expected = expected(code);
+            let expected = expected(code, part.word);
             let stands = found(text, at);
             let instead = if at == range.start { String::new() } else { format!(", and at {stands} it is not") };
             Slip::new(at, format!("{whose}: {name} is {}, but it must be {expected}{instead}", shown(whole)))
@@ -154,7 +164,9 @@ fn token_at(text: &str, value: &Range<usize>, stopped: usize) -> usize {
     if at >= value.end { value.start } else { at.max(value.start) }
 }
 
-fn expected(code: &Error) -> String {
+/// What `ron` waited for.
+fn expected(code: &Error, word: &str) -> String {
+    let example = || Word::find(word).and_then(|word| (word.of_nothing)()).unwrap_or_else(|| "(…)".into());
     match code {
         Error::ExpectedFloat => "a number".into(),
         Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number".into(),
@@ -162,6 +174,17 @@ fn expected(code: &Error) -> String {
         Error::ExpectedBoolean => "true or false".into(),
         Error::ExpectedString => "a text in double quotes".into(),
         Error::NoSuchEnumVariant { expected, .. } => format!("one of {}", expected.join(", ")),
-        other => format!("EXPECTED {other:?}"),
+        Error::ExpectedNamedStructLike("DVec3") | Error::ExpectedStructLike => THREE_NUMBERS.into(),
+        Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { expected, .. } if expected.contains('4') => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
+        Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
+        Error::ExpectedUnit | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {
+            format!("what it is made of in round brackets, such as {}", example())
+        }
+        Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
+        Error::InvalidValueForType { expected, .. } => expected.clone(),
+        Error::InvalidEscape(_) => "a text whose backslashes are escapes of RON, such as \\n or \\\"".into(),
+        _ => "a value as RON has them".into(),
     }
 }

@@ -48,9 +48,9 @@ fn find(
         [one] => return Ok(*one),
         [first, .., last] => {
             let [first, last] = [first, last].map(|&number| place_of(text, entities[number].at).line);
-            let is_called = format!("more than one entity is called that, on lines {first} and {last} among others");
+            let is_called =
+                format!("more than one entity is called that, the first on line {first}, the last on {last}");
             format!("{who}: {} is {}, but {is_called}", part.word, shown(&format!("\"{name}\"")))
-                .replace(" among others", if named[&name].len() > 2 { " among others" } else { "" })
         }
         [] => {
             let likeness = |other: &&String| (strsim::jaro_winkler(other, &name) * 1e6) as u64;
@@ -68,13 +68,13 @@ fn find(
 fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
     for (number, entity) in entities.iter().enumerate() {
         let mut steps = 0;
-        let mut at = number;
+        let (mut at, mut above) = (number, vec![number]);
         while let Some(parent) = entities[at].parent {
             steps += 1;
-            let circle = parent == number;
+            let circle = above.contains(&parent);
             if circle || steps > MOST_PARENTS {
                 let found = if circle {
-                    format!("leads in a circle back to {}", who(entity))
+                    format!("leads in a circle through {}", who(&entities[parent]))
                 } else {
                     format!("has more than {MOST_PARENTS} others above it")
                 };
@@ -83,6 +83,7 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
                 let place = place.map_or(entity.at, |part| part.value.start);
                 return Err(Slip::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));
             }
+            above.push(parent);
             at = parent;
         }
     }

@@ -35,7 +35,8 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Slip> {
     let mut cursor = Cursor { text, at: text.len() - text.trim_start_matches('\u{feff}').len() };
     cursor.skip_space()?;
     if cursor.rest().is_empty() {
-        let what = "there is nothing here, but a scene file is a list of entities, such as [(name: \"ball\", sphere: ())]";
+        let what =
+            "there is nothing here, but a scene file is a list of entities, such as [(name: \"ball\", sphere: ())]";
         return Err(Slip::new(cursor.at, what));
     }
     if !cursor.take('[') {
@@ -67,13 +68,16 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Slip> {
 
 /// The fields of a component's value: those of `(radius: 1.0)`; none where the value has another form.
 pub fn fields(text: &str, value: Range<usize>) -> Vec<Part<'_>> {
-    let Some(inside) = text.get(..value.end) else { return Vec::new() };
+    check_fields(text, value).unwrap_or_default()
+}
+
+/// The same, or the first slip between the brackets.
+pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Slip> {
+    let Some(inside) = text.get(..value.end) else { return Ok(Vec::new()) };
     let mut cursor = Cursor { text: inside, at: value.start };
     cursor.take_word();
-    if cursor.skip_space().is_err() || !cursor.take('(') {
-        return Vec::new();
-    }
-    cursor.parts().unwrap_or_default()
+    cursor.skip_space()?;
+    if cursor.take('(') { cursor.parts() } else { Ok(Vec::new()) }
 }
 
 /// A file that ends too early is told by where the entity that it cuts began.
@@ -141,7 +145,8 @@ impl<'t> Cursor<'t> {
             let rest = self.rest();
             let Some(next) = rest.find(['/', '*']) else {
                 let line = place_of(self.text, began).line;
-                let what = format!("the file ends here, but the comment that begins on line {line} is not closed by `*/`");
+                let what =
+                    format!("the file ends here, but the comment that begins on line {line} is not closed by `*/`");
                 return Err(Slip::new(self.text.len(), what));
             };
             let pair = rest.get(next..next + 2);
@@ -198,6 +203,11 @@ impl<'t> Cursor<'t> {
             let Some(letter) = self.rest().chars().next() else {
                 return Err(self.expected("the rest of a value"));
             };
+            let another =
+                open.is_empty() && start < end && end < began && !matches!(letter, ',' | '(' | ')' | ']' | '}');
+            if another {
+                return Err(self.expected("`,` or `)` before it"));
+            }
             match letter {
                 ',' if open.is_empty() => break,
                 ')' | ']' | '}' => match open.pop() {
