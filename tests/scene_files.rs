@@ -42,7 +42,8 @@ fn typed(words: &[&str]) -> pinhole::Result<String> {
 fn no_scene_file_brings_the_kit_down() {
     let counts = std::cell::RefCell::new(fuzz::Counts::default());
     let bases = fuzz::bases();
-    proptest::proptest!(proptest::test_runner::Config::with_cases(400), |(seed: u64)| {
+    let config = proptest::test_runner::Config { cases: 400, failure_persistence: None, ..Default::default() };
+    proptest::proptest!(config, |(seed: u64)| {
         counts.borrow_mut().add(seed, fuzz::outcome(&fuzz::case(&bases, seed)));
     });
     let counts = counts.into_inner();

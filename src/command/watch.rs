@@ -10,7 +10,7 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-/// How long to wait between two looks at the file.
+/// How long to wait between two looks at the file; a save is over when nothing changed from one to the next.
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// What changes when a file is saved.
@@ -31,10 +31,12 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
         let what = "a scene file is watched, whose name ends in .ron; `export` makes one of a chapter";
         return Err(Error::Usage(format!("cannot watch {}: {what}", asked.chapter)));
     }
-    let mut last = None;
+    let (mut seen, mut last) = (stamp(file), None);
     while !interrupted() {
         let now = stamp(file);
-        if last == Some(now) {
+        let settled = last.is_none() || seen == now;
+        seen = now;
+        if last == Some(now) || !settled {
             thread::sleep(PAUSE);
             continue;
         }

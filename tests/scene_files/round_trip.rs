@@ -1,6 +1,6 @@
 //! Export → load: the same picture and the same digests, bit for bit, and the same text again.
 
-use crate::scenes::{self, Eye, Setup};
+use crate::scenes::{self, Setup};
 use crate::{chapters, parsed, typed};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -16,10 +16,8 @@ fn every_chapter_comes_back_from_its_file_bit_for_bit() {
         let text = scene_text(&before).expect("a chapter's scene can be exported");
         let after = parsed(&text).unwrap_or_else(|problem| panic!("{}: {problem}\n{text}", chapter.name)).world();
         assert_eq!(scene_text(&after).expect("exported again"), text, "{}", chapter.name);
-        let films = [scenes::film_by(&before, &chapter.stages(), &Default::default())]
-            .into_iter()
-            .chain([scenes::film_by(&after, &scenes::offer(), &Default::default())]);
-        let films: Vec<_> = films.map(|film| film.expect("renders")).collect();
+        let films = [(&before, chapter.stages()), (&after, scenes::offer())]
+            .map(|(scene, offer)| scenes::film_by(scene, &offer, &Default::default()).expect("renders"));
         assert!(films[0] == films[1], "{}: another picture", chapter.name);
         let digests = [review::digests(&before, &chapter.stages()), review::digests(&after, &scenes::offer())];
         let [before, after] = digests.map(|digests| digests.expect("digests"));
@@ -117,5 +115,4 @@ fn what_no_file_can_hold_is_refused() {
     });
     assert!(lines.contains(r#"name is "two\nlines", but"#), "{lines}");
     assert_eq!(parsed(&scene_text(&World::new()).expect("empty")).expect("an empty list").len(), 0);
-    let _ = Eye::Perspective;
 }

@@ -148,7 +148,8 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
             let (name, range) = field.map_or((part.word, &part.value), |field| (field.word, &field.value));
             let whole = text.get(range.clone()).unwrap_or("");
             let whose = if field.is_some() { whose } else { who.to_string() };
-            let at = token_at(text, range, stopped);
+            let whole_value = matches!(code, Error::ExpectedDifferentStructName { .. });
+            let at = if whole_value { range.start } else { token_at(text, range, stopped) };
             let expected = expected(code, part.word);
             let stands = found(text, at);
             let instead = if at == range.start { String::new() } else { format!(", and at {stands} it is not") };
@@ -176,7 +177,7 @@ fn expected(code: &Error, word: &str) -> String {
         Error::NoSuchEnumVariant { expected, .. } => format!("one of {}", expected.join(", ")),
         Error::ExpectedNamedStructLike("DVec3") | Error::ExpectedStructLike => THREE_NUMBERS.into(),
         Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
-        Error::ExpectedDifferentLength { expected, .. } if expected.contains('4') => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 4") => FOUR_NUMBERS.into(),
         Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
         Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
         Error::ExpectedUnit | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {
