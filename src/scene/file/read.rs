@@ -55,7 +55,7 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Sl
     if let Some(part) = entity.parts.iter().find(|part| part.word == "name") {
         read.name = Some(read_name(text, part)?);
     }
-    let who = read.name.as_ref().map_or_else(|| "an entity without a name".into(), |name| format!("\"{name}\""));
+    let who = read.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""));
     for part in &entity.parts {
         if read.parts.iter().any(|earlier| earlier.word == part.word) {
             let what = format!("{who} is given `{}` twice, but an entity has one of a kind", part.word);
@@ -118,7 +118,8 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
     let value = text.get(part.value.clone()).unwrap_or("");
     let stopped = part.value.start + byte_at(value, error.span.end.line, error.span.end.col);
     let fields = fields(text, part.value.clone());
-    let whose = format!("{} {who}", part.word.replace('_', " "));
+    let kind = part.word.replace('_', " ");
+    let whose = if who.starts_with('"') { format!("{kind} {who}") } else { format!("unnamed {kind}") };
     match &error.code {
         Error::NoSuchStructField { expected, found, .. } => {
             let at = fields.iter().find(|field| field.word == found).map_or(part.value.start, |field| field.at);
@@ -181,7 +182,7 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
         Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
         Error::ExpectedUnit | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {
-            format!("what it is made of in round brackets, such as {}", example())
+            format!("fields in round brackets, such as {}", example())
         }
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
         Error::InvalidValueForType { expected, .. } => expected.clone(),

@@ -91,5 +91,5 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
 }
 
 fn who(entity: &FileEntity) -> String {
-    entity.name.as_ref().map_or_else(|| "an entity without a name".into(), |name| format!("\"{name}\""))
+    entity.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""))
 }
