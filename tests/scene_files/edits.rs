@@ -22,9 +22,8 @@ fn swap(text: &str, from: &str, to: &str) -> String {
 fn around<'t>(text: &'t str, name: &str) -> [&'t str; 3] {
     let named = text.find(&format!("name: \"{name}\"")).expect("the entity is there");
     let start = text[..named].rfind("    (").expect("it begins");
-    let end = named
-        + text[named..].find("),\n    (").map_or_else(|| text[named..].rfind("),\n]").expect("it ends"), |at| at)
-        + 3;
+    let end =
+        named + text[named..].find("),\n    (").unwrap_or_else(|| text[named..].rfind("),\n]").expect("it ends")) + 3;
     [&text[..start], &text[start..end], &text[end..]]
 }
 
