@@ -16,10 +16,10 @@ const ORDER: [&str; 15] = [
     "film",
     "render",
     "look",
+    "naive",
     "chapter",
     "figure",
     "review",
-    "naive",
     "measure",
     "command",
 ];
