@@ -49,17 +49,8 @@ impl Chapter {
     pub fn world(&self, asked: &Asked) -> World {
         let mut world = World::new();
         (self.scene)(&mut world);
-        let Ok(camera) = camera_entity(&world) else { return world };
-        let mut camera = world.entity_mut(camera);
-        if let Some(resolution) = asked.resolution {
-            camera.insert(resolution);
-        }
-        if let Some(column) = asked.view.clone().or(self.view.map(String::from)) {
-            camera.insert(View { column });
-        }
-        if asked.statistics {
-            camera.insert(Statistics);
-        }
+        let view = asked.view.clone().or(self.view.map(String::from));
+        Asked { view, ..asked.clone() }.put_on_camera(&mut world);
         world
     }
 }
@@ -73,6 +64,23 @@ pub struct Asked {
     pub view: Option<String>,
     /// Whether stages are timed and counted.
     pub statistics: bool,
+}
+
+impl Asked {
+    /// Puts what is asked onto a scene's camera, if it has one.
+    pub fn put_on_camera(&self, world: &mut World) {
+        let Ok(camera) = camera_entity(world) else { return };
+        let mut camera = world.entity_mut(camera);
+        if let Some(resolution) = self.resolution {
+            camera.insert(resolution);
+        }
+        if let Some(column) = self.view.clone() {
+            camera.insert(View { column });
+        }
+        if self.statistics {
+            camera.insert(Statistics);
+        }
+    }
 }
 
 impl IntoIterator for Stage {

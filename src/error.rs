@@ -1,5 +1,5 @@
 use crate::plan::PlanError;
-use crate::scene::Refusal;
+use crate::scene::{FileProblem, Refusal};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -14,6 +14,9 @@ pub enum Error {
     /// The scene cannot be rendered.
     #[error(transparent)]
     Refusal(#[from] Refusal),
+    /// A scene file cannot be used.
+    #[error(transparent)]
+    File(#[from] FileProblem),
     /// No plan can be made.
     #[error(transparent)]
     Plan(#[from] PlanError),

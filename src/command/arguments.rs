@@ -18,7 +18,8 @@ use std::path::PathBuf;
     cargo run --release -- plan 04_orthographic\n  \
     cargo run --release -- trace cover --pixel 480,300\n  \
     cargo run --release -- extremes sphere\n  \
-    cargo run --release -- sweep 05_pinhole"
+    cargo run --release -- sweep 05_pinhole\n  \
+    cargo run --release -- export 05_pinhole"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -29,7 +30,7 @@ pub struct Arguments {
 pub enum Command {
     /// List the chapters
     List,
-    /// Render a chapter's scene, or paint one of its columns
+    /// Render a chapter's scene or a scene file, or paint one of its columns
     Render(RenderChapter),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
@@ -39,6 +40,8 @@ pub enum Command {
     Extremes(TryExtremes),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
+    /// Write a chapter's scene as a scene file, to be edited and rendered
+    Export(ExportScene),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
@@ -129,7 +132,7 @@ pub struct TryExtremes {
 
 #[derive(Args)]
 pub struct SweepChapter {
-    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file (scene.ron)
     pub chapter: String,
 }
 
@@ -152,16 +155,28 @@ pub struct DrawFigure {
 }
 
 #[derive(Args)]
-pub struct RenderChapter {
+pub struct ExportScene {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: String,
+    /// Where to write, ending in .ron; what is there stays (default: printed)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct RenderChapter {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
+    pub chapter: String,
+    /// Render the scene file again whenever it is saved, until Ctrl-C
+    #[arg(long, conflicts_with = "stats")]
+    pub watch: bool,
     #[command(flatten)]
     pub options: RenderOptions,
 }
 
 #[derive(Args)]
 pub struct PlanChapter {
-    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
     pub chapter: String,
     #[command(flatten)]
     pub options: SceneOptions,
@@ -169,7 +184,7 @@ pub struct PlanChapter {
 
 #[derive(Args)]
 pub struct TraceChapter {
-    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
     pub chapter: String,
     /// The pixel, counted from 0 at the top left corner
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]

@@ -1,5 +1,6 @@
 use crate::chapter::Chapter;
 use crate::{Error, Result};
+use std::path::Path;
 
 /// The chapter that a reader names by its stem, its number or its name.
 pub fn chapter<'c>(chapters: &'c [Chapter], asked: &str) -> Result<&'c Chapter> {
@@ -8,7 +9,17 @@ pub fn chapter<'c>(chapters: &'c [Chapter], asked: &str) -> Result<&'c Chapter> 
         let (first, rest) = chapter.name.split_once('_').unwrap_or(("", chapter.name));
         chapter.name == asked || rest == asked || (number.is_some() && first.parse().ok() == number)
     };
+    if is_scene_file(asked) {
+        let what =
+            format!("{asked} is a scene file, but this command takes a chapter; render, plan and trace take both");
+        return Err(Error::Usage(what));
+    }
     chapters.iter().find(matches).ok_or_else(|| Error::Usage(no_such_chapter(chapters, asked)))
+}
+
+/// Whether a reader means a scene file: a path that ends in `.ron`.
+pub fn is_scene_file(asked: &str) -> bool {
+    Path::new(asked).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
 fn no_such_chapter(chapters: &[Chapter], asked: &str) -> String {

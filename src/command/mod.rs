@@ -5,6 +5,7 @@
 mod arguments;
 mod compare;
 mod cost;
+mod export;
 mod extremes;
 mod figure;
 mod find;
@@ -16,8 +17,10 @@ mod planted;
 mod refused;
 mod render;
 mod review;
+mod subject;
 mod sweep;
 mod trace;
+mod watch;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
 
@@ -28,6 +31,7 @@ use clap::Parser;
 use clap::error::ErrorKind;
 use std::io::Write;
 use std::process::ExitCode;
+use subject::Subject;
 
 /// Runs one command line, without the program's name, and writes what a reader sees to `out`.
 ///
@@ -39,15 +43,17 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         None => render::render_cover(chapters, out),
         Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
         Some(Command::List) => list::list(chapters, out),
+        Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
         Some(Command::Render(asked)) => {
-            render::render_chapter(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
+            render::render_subject(&Subject::find(chapters, &asked.chapter)?, &asked.options, out)
         }
-        Some(Command::Plan(asked)) => plan::print_plan(find::chapter(chapters, &asked.chapter)?, &asked.options, out),
+        Some(Command::Plan(asked)) => plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, out),
         Some(Command::Trace(asked)) => {
-            trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
+            trace::print_trace(&Subject::find(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
+        Some(Command::Export(asked)) => export::export(chapters, &asked, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
-        Some(Command::Sweep(asked)) => sweep::print_sweep(find::chapter(chapters, &asked.chapter)?, out),
+        Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, out),
@@ -59,8 +65,8 @@ pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write)
     let words = std::iter::once(chapter.name).chain(arguments.iter().map(String::as_str));
     let Some(arguments) = parsed::<ExampleArguments>(words, out)? else { return Ok(()) };
     match arguments.trace {
-        Some(pixel) => trace::print_trace(chapter, pixel, &arguments.options.scene, out),
-        None => render::render_chapter(chapter, &arguments.options, out),
+        Some(pixel) => trace::print_trace(&Subject::Chapter(chapter), pixel, &arguments.options.scene, out),
+        None => render::render_subject(&Subject::Chapter(chapter), &arguments.options, out),
     }
 }
 

@@ -2,8 +2,9 @@ use super::arguments::RenderOptions;
 use super::find;
 use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
+use super::subject::Subject;
 use crate::chapter::Chapter;
-use crate::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity};
+use crate::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity, validate};
 use crate::film::{Film, check_place, write_exr, write_png};
 use crate::look::RenderStats;
 use crate::plan::Table;
@@ -15,15 +16,15 @@ use std::path::{Path, PathBuf};
 
 /// The main job: the cover, to `out/`.
 pub fn render_cover(chapters: &[Chapter], out: &mut dyn Write) -> Result {
-    render_chapter(find::chapter(chapters, "cover")?, &RenderOptions::default(), out)
+    render_subject(&Subject::Chapter(find::chapter(chapters, "cover")?), &RenderOptions::default(), out)
 }
 
-/// Renders a chapter's scene and says what ran, what was left out, and what to try next.
-pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
-    let files = files(chapter, options)?;
+/// Renders a scene and says what ran, what was left out, and what to try next.
+pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut dyn Write) -> Result {
+    let files = files(subject, options)?;
     files.iter().try_for_each(|file| check_place(file))?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
-    let rendered = render_world(chapter, options, &execution)?;
+    let rendered = render_world(subject, options, &execution)?;
     for file in &files {
         if interrupted() {
             return Err(Error::Interrupted);
@@ -31,42 +32,44 @@ pub fn render_chapter(chapter: &Chapter, options: &RenderOptions, out: &mut dyn 
         write_file(&rendered, file)?;
     }
     if options.stats {
-        let stats = RenderStats::of(chapter.name, &rendered, execution.tile_side);
+        let stats = RenderStats::of(subject.name(), &rendered, execution.tile_side);
         let json = serde_json::to_string_pretty(&stats).map_err(std::io::Error::from)?;
         writeln!(out, "{json}")?;
         return Ok(());
     }
     let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     if !options.quiet {
-        write!(out, "{}", RenderStats::of(chapter.name, &rendered, execution.tile_side))?;
+        write!(out, "{}", RenderStats::of(subject.name(), &rendered, execution.tile_side))?;
     }
     writeln!(out, "wrote {}", names.join(" and "))?;
     warn_of_rejected(&rendered.film, out)?;
-    warn_of_narrow_pixels(chapter, options, out)?;
+    warn_of_narrow_pixels(subject, options, out)?;
     if !options.quiet {
-        write!(out, "{}", try_next(chapter, rendered.film.width, rendered.film.height))?;
+        write!(out, "{}", try_next(subject, rendered.film.width, rendered.film.height))?;
     }
     Ok(())
 }
 
-fn render_world(chapter: &Chapter, options: &RenderOptions, execution: &Execution) -> Result<Rendered> {
-    let scene = chapter.world(&options.scene.asked(!options.quiet));
-    crate::extract::validate(&scene)?;
+fn render_world(subject: &Subject<'_>, options: &RenderOptions, execution: &Execution) -> Result<Rendered> {
+    let asked = options.scene.asked(!options.quiet);
+    let scene = subject.world(&asked);
+    let placed = |error| subject.placed(error, &asked);
+    validate(&scene).map_err(|refusal| placed(refusal.into()))?;
     let image = ImageShape::extract(&scene)?;
     let side = execution.tile_side;
     let tiles = u64::from(image.width.div_ceil(side)) * u64::from(image.height.div_ceil(side));
     let waiting = Waiting::new(tiles, options.quiet || options.stats);
-    let rendered = render(&scene, &chapter.stages(), execution, &waiting);
+    let rendered = render(&scene, &subject.stages(), execution, &waiting).map_err(placed);
     waiting.done();
     rendered
 }
 
 /// Where to write: the file asked for, or both kinds in `out/`.
-fn files(chapter: &Chapter, options: &RenderOptions) -> Result<Vec<PathBuf>> {
+fn files(subject: &Subject<'_>, options: &RenderOptions) -> Result<Vec<PathBuf>> {
     let Some(file) = &options.output else {
         let stem = match &options.scene.view {
-            Some(column) => format!("{}_{}", chapter.name, column.replace(' ', "_")),
-            None => chapter.name.to_string(),
+            Some(column) => format!("{}_{}", subject.stem(), column.replace(' ', "_")),
+            None => subject.stem(),
         };
         return Ok(["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec());
     };
@@ -102,8 +105,8 @@ fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
 }
 
 /// Says where an angle is so wide that pixels near the corners are narrower than f32 rays can be told apart.
-fn warn_of_narrow_pixels(chapter: &Chapter, options: &RenderOptions, out: &mut dyn Write) -> Result {
-    let scene = chapter.world(&options.scene.asked(false));
+fn warn_of_narrow_pixels(subject: &Subject<'_>, options: &RenderOptions, out: &mut dyn Write) -> Result {
+    let scene = subject.world(&options.scene.asked(false));
     let perspective = camera_entity(&scene).is_ok_and(|camera| scene.get::<PerspectiveCamera>(camera).is_some());
     if !perspective {
         return Ok(());

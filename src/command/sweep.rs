@@ -1,19 +1,20 @@
 use super::interrupt::{Waiting, interrupted};
-use crate::chapter::{Asked, Chapter};
+use super::subject::Subject;
+use crate::chapter::Asked;
 use crate::measure::sweep::{Line, SIZE, sweep};
 use crate::{Error, Result};
 use std::io::Write;
 
-/// A line for each thing done to a chapter's scene.
+/// A line for each thing done to a scene.
 ///
 /// Errors: what a render of the scene would be refused for; a line that does not hold.
-pub fn print_sweep(chapter: &Chapter, out: &mut dyn Write) -> Result {
-    let make = || chapter.world(&Asked::default());
-    let lines = sweep(&make, &chapter.stages(), &Waiting::new(0, true))?;
+pub fn print_sweep(subject: &Subject<'_>, out: &mut dyn Write) -> Result {
+    let make = || subject.world(&Asked::default());
+    let lines = sweep(&make, &subject.stages(), &Waiting::new(0, true))?;
     if interrupted() {
         return Err(Error::Interrupted);
     }
-    writeln!(out, "{}, {} x {} pixels where no other size is named", chapter.name, SIZE[0], SIZE[1])?;
+    writeln!(out, "{}, {} x {} pixels where no other size is named", subject.name(), SIZE[0], SIZE[1])?;
     writeln!(out, "{:<39}{:<44}{:<9}asked", "done", "came", "")?;
     for line in &lines {
         writeln!(out, "{line}")?;
@@ -23,7 +24,7 @@ pub fn print_sweep(chapter: &Chapter, out: &mut dyn Write) -> Result {
     match lines.iter().find(|line| !line.held) {
         None => Ok(()),
         Some(Line { done, came, asked, .. }) => {
-            Err(Error::Usage(format!("{} does not hold when {done}: {came}, where {asked} is asked", chapter.name)))
+            Err(Error::Usage(format!("{} does not hold when {done}: {came}, where {asked} is asked", subject.name())))
         }
     }
 }

@@ -1,13 +1,15 @@
 use super::arguments::SceneOptions;
+use super::subject::Subject;
 use crate::Result;
-use crate::chapter::Chapter;
 use crate::look;
 use crate::scene::TracePixel;
 use std::io::Write;
 
 /// A pixel's way to light.
-pub fn print_trace(chapter: &Chapter, pixel: TracePixel, options: &SceneOptions, out: &mut dyn Write) -> Result {
-    let trace = look::trace(&chapter.world(&options.asked(false)), &chapter.stages(), pixel)?;
-    write!(out, "{} {trace}", chapter.name)?;
+pub fn print_trace(subject: &Subject<'_>, pixel: TracePixel, options: &SceneOptions, out: &mut dyn Write) -> Result {
+    let asked = options.asked(false);
+    let traced = look::trace(&subject.world(&asked), &subject.stages(), pixel);
+    let trace = traced.map_err(|error| subject.placed(error, &asked))?;
+    write!(out, "{} {trace}", subject.name())?;
     Ok(())
 }

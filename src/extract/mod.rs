@@ -33,6 +33,7 @@ pub use sphere::SphereTable;
 use crate::plan::{Evidence, Table};
 use crate::scene::{Matte, Refusal, UsesMaterial, View};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeSet;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
@@ -55,9 +56,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
 /// Evidence that a shape made of matte matter is there.
 pub fn matte_evidence(scene: &World) -> Evidence {
     let shapes = shape_entities(scene);
-    Evidence::among::<With<Matte>>(scene, "matte colour", |entity| {
-        shapes.iter().any(|&shape| {
-            shape == entity.id() || scene.get::<UsesMaterial>(shape).is_some_and(|used| used.0 == entity.id())
-        })
-    })
+    let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
+    let reached: BTreeSet<Entity> = used.chain(shapes.iter().copied()).collect();
+    Evidence::among::<With<Matte>>(scene, "matte colour", |entity| reached.contains(&entity.id()))
 }

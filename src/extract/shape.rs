@@ -64,7 +64,7 @@ impl Table for ShapeTable {
             table.row.push(*row);
             *row += 1;
             let material = material_of(scene, &kind_and_name(scene, word, entity), entity)?;
-            let matte = mattes.iter().position(|&matte| matte == material).unwrap_or(0);
+            let matte = mattes.binary_search_by_key(&material.index(), |matte| matte.index()).unwrap_or(0);
             table.matte.push(matte as u32);
             table.name.push(kind_and_name(scene, word, entity));
         }

@@ -51,7 +51,7 @@ impl Snapshots {
         Ok(Self {
             probes: probes(&world, stages)?,
             digests: digests(&world, stages)?,
-            plan: plan_text(chapter, &world, stages)?,
+            plan: plan_text(chapter.name, chapter.title, &world, stages)?,
             picture: png_bytes_by(&rendered.film, curve, |part| develop(part, curve))?,
         })
     }
@@ -89,13 +89,13 @@ fn contents(file: &str) -> String {
     lines.join("\n")
 }
 
-/// The plan of a chapter's scene as the command line prints it.
+/// The plan of a scene, with its name and title, as the command line prints it.
 ///
 /// Errors: what a render would be refused for.
-pub fn plan_text(chapter: &Chapter, scene: &World, stages: &[Stage]) -> Result<String> {
+pub fn plan_text(name: &str, title: &str, scene: &World, stages: &[Stage]) -> Result<String> {
     let (plan, tables) = prepare(scene, stages)?;
     let bytes: usize = tables.iter().map(|table| table.bytes).sum();
-    Ok(format!("plan of {}, {}\n{plan}tables take {bytes} bytes\n", chapter.name, chapter.title))
+    Ok(format!("plan of {name}, {title}\n{plan}tables take {bytes} bytes\n"))
 }
 
 /// The first block of pixels that was developed otherwise, where both pictures have the same size.

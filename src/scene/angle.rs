@@ -1,5 +1,8 @@
+use serde::{Deserialize, Serialize};
+
 /// An angle in degrees, so that no call site has to say or guess its unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Degrees(pub f64);
 
 impl Degrees {

@@ -1,10 +1,12 @@
 use super::Rgb;
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The radiance that a ray which meets nothing brings back; black where a scene has none.
 ///
 /// At most one entity may carry it.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Background {
     /// Linear Rec. 709 radiance, each part finite and at least 0.
     pub colour: Rgb,

@@ -1,8 +1,9 @@
 use super::{Degrees, Placement, Resolution};
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Across what a camera's field of view is measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FovAxis {
     /// From the bottom edge to the top edge.
     #[default]
@@ -20,7 +21,8 @@ pub enum FovAxis {
 /// A pinhole camera: every ray starts at the eye and passes through a point of the image plane before it.
 ///
 /// A larger angle sees more and shows each thing smaller.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[require(Placement, Resolution)]
 pub struct PerspectiveCamera {
     /// The full angle, strictly between 0° and 180°.
@@ -38,7 +40,8 @@ impl Default for PerspectiveCamera {
 /// A camera of parallel rays, each starting on the rectangle that the image is.
 ///
 /// A larger view height sees more; distance changes no thing's size.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[require(Placement, Resolution)]
 pub struct OrthographicCamera {
     /// The height of the rectangle in scene units, above 0.

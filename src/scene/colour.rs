@@ -1,9 +1,11 @@
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Red, green and blue in linear Rec. 709: twice the number is twice the light.
 ///
 /// What it measures (a reflectance, a radiance, an intensity) is said by the field that holds it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 3]", into = "[f64; 3]")]
 pub struct Rgb {
     /// Red.
     pub r: f64,
@@ -35,5 +37,17 @@ impl Rgb {
     /// The three parts as a vector, for arithmetic.
     pub const fn to_vec(self) -> DVec3 {
         DVec3::new(self.r, self.g, self.b)
+    }
+}
+
+impl From<[f64; 3]> for Rgb {
+    fn from([r, g, b]: [f64; 3]) -> Self {
+        Self::new(r, g, b)
+    }
+}
+
+impl From<Rgb> for [f64; 3] {
+    fn from(colour: Rgb) -> Self {
+        colour.to_array()
     }
 }

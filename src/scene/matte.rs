@@ -1,10 +1,12 @@
 use super::Rgb;
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A matte (Lambertian) surface: it sends the light it gets equally in all directions.
 ///
 /// Put it on the shape itself, or on an entity of its own that shapes share through [`UsesMaterial`].
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Matte {
     /// The share of the light that is sent on, linear Rec. 709, each part from 0 to 1.
     pub colour: Rgb,

@@ -1,9 +1,11 @@
 use super::Placement;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// An endless plane through the entity's position.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct Plane {
     /// Perpendicular to the plane, in the entity's space; any length but 0.

@@ -1,10 +1,12 @@
 use super::{Placement, Rgb};
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A light without size at the entity's position, equally bright in all directions.
 ///
 /// A surface at distance d that faces it receives intensity / d².
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct PointLight {
     /// Radiant intensity, linear Rec. 709, each part finite and at least 0.

@@ -1,8 +1,10 @@
 use super::Placement;
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A sphere about the entity's position; an ellipsoid where its placement scales it unevenly.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct Sphere {
     /// In scene units, above 0.

@@ -1,0 +1,47 @@
+use super::arguments::ExportScene;
+use super::find::is_scene_file;
+use super::subject::Subject;
+use crate::chapter::{Asked, Chapter};
+use crate::film::write_whole;
+use crate::scene::scene_text;
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// Writes a scene as a scene file; prints it where no file is named.
+///
+/// A chapter that shows a column exports the `view` that asks for it, so that the file shows the same picture.
+///
+/// Errors: a file of that name is there already, for it may have been edited.
+pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
+    let subject = Subject::find(chapters, &asked.chapter)?;
+    let scene = scene_text(&subject.world(&Asked::default()))?;
+    let Some(file) = &asked.output else {
+        write!(out, "{}{scene}", head("scene.ron"))?;
+        return Ok(());
+    };
+    let shown = file.display();
+    if !is_scene_file(&shown.to_string()) {
+        return Err(Error::Usage(format!("cannot write {shown}: the name must end in .ron")));
+    }
+    if file.is_file() {
+        let what = "it is there already and may have been edited; move it away, or choose another name";
+        return Err(Error::Usage(format!("cannot write {shown}: {what}")));
+    }
+    let text = format!("{}{scene}", head(&shown.to_string()));
+    write_whole(file, |file| file.write_all(text.as_bytes()))?;
+    writeln!(out, "wrote {shown}")?;
+    Ok(())
+}
+
+/// The comment at the head of a file: what it is, and how it is used.
+fn head(file: &str) -> String {
+    let stem = Path::new(file).file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
+    let file: String = file.chars().filter(|letter| !letter.is_control()).collect();
+    format!(
+        "// A scene for pinhole: a list of entities, and of each what it is made of. What is left out has its default.\n\
+         // cargo run --release -- render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\
+         // cargo run --release -- render {file} --watch    renders it again at every save\n\
+         // cargo run --release -- plan {file}              says which stages it needs, and why\n"
+    )
+}

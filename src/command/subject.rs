@@ -1,0 +1,109 @@
+use super::find;
+use crate::chapter::{Asked, Chapter};
+use crate::extract::validate;
+use crate::plan::{PlanError, Stage};
+use crate::scene::{FileProblem, SceneFile};
+use crate::{Error, Result, intersect, rays, shade};
+use bevy_ecs::prelude::*;
+use std::path::Path;
+
+/// What a reader names: a chapter, or a scene file.
+pub enum Subject<'c> {
+    /// A chapter, with the stages that it offers.
+    Chapter(&'c Chapter),
+    /// A scene file, for which every stage of the kit is on offer.
+    File {
+        /// The scene.
+        file: SceneFile,
+        /// The path as it was typed.
+        typed: String,
+    },
+}
+
+impl<'c> Subject<'c> {
+    /// The scene file that a path ending in `.ron` names, or the chapter that any other word does.
+    pub fn find(chapters: &'c [Chapter], asked: &str) -> Result<Self> {
+        if find::is_scene_file(asked) {
+            Ok(Self::File { file: SceneFile::open(Path::new(asked))?, typed: asked.into() })
+        } else {
+            Ok(Self::Chapter(find::chapter(chapters, asked)?))
+        }
+    }
+
+    /// What a reader types to name it again.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Chapter(chapter) => chapter.name,
+            Self::File { typed, .. } => typed,
+        }
+    }
+
+    /// What its pictures are called.
+    pub fn stem(&self) -> String {
+        match self {
+            Self::Chapter(chapter) => chapter.name.into(),
+            Self::File { file, .. } => {
+                file.path.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned())
+            }
+        }
+    }
+
+    /// What it is about, in a few words.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Chapter(chapter) => chapter.title,
+            Self::File { .. } => "a scene file",
+        }
+    }
+
+    /// The stages on offer.
+    pub fn offer(&self) -> Vec<Stage> {
+        match self {
+            Self::Chapter(chapter) => chapter.offer.clone(),
+            Self::File { .. } => every_stage().offer,
+        }
+    }
+
+    /// The stages on offer, with those that every chapter has.
+    pub fn stages(&self) -> Vec<Stage> {
+        match self {
+            Self::Chapter(chapter) => chapter.stages(),
+            Self::File { .. } => every_stage().stages(),
+        }
+    }
+
+    /// The scene, with what a reader asks of it.
+    pub fn world(&self, asked: &Asked) -> World {
+        match self {
+            Self::Chapter(chapter) => chapter.world(asked),
+            Self::File { file, .. } => {
+                let mut world = file.world();
+                asked.put_on_camera(&mut world);
+                world
+            }
+        }
+    }
+
+    /// The same error with file, line and column, where it is the file that is at fault.
+    pub fn placed(&self, error: Error, asked: &Asked) -> Error {
+        let Self::File { file, .. } = self else { return error };
+        let place = match &error {
+            Error::Refusal(refusal) if asked.resolution.is_some() && refusal.field == "resolution" => return error,
+            Error::Refusal(_) => file.place_of(|world| {
+                asked.put_on_camera(world);
+                validate(world).err()
+            }),
+            Error::Plan(PlanError::NoSuchView { .. }) if asked.view.is_none() => file.place_of_word("view"),
+            _ => return error,
+        };
+        FileProblem { path: file.path.clone(), place, what: error.to_string() }.into()
+    }
+}
+
+/// What a scene file is offered: all that the chapters teach.
+fn every_stage() -> Chapter {
+    Chapter::new("scene", "a scene file", |_| ())
+        .offer(rays::stages())
+        .offer(intersect::stages())
+        .offer(shade::stages())
+}

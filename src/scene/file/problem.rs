@@ -1,0 +1,41 @@
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Where something stands in a text file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlaceInFile {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column in letters, from 1.
+    pub column: usize,
+}
+
+/// Why a scene file cannot be used, in one sentence that begins with file, line and column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileProblem {
+    /// The file as it was named.
+    pub path: PathBuf,
+    /// Where, if the problem stands somewhere in it.
+    pub place: Option<PlaceInFile>,
+    /// What is wrong, and what would be accepted.
+    pub what: String,
+}
+
+impl FileProblem {
+    /// A problem of the whole file.
+    pub fn of(path: &Path, what: impl Into<String>) -> Self {
+        Self { path: path.into(), place: None, what: what.into() }
+    }
+}
+
+impl fmt::Display for FileProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.path.display())?;
+        if let Some(PlaceInFile { line, column }) = self.place {
+            write!(f, "{line}:{column}:")?;
+        }
+        write!(f, " {}", self.what)
+    }
+}
+
+impl std::error::Error for FileProblem {}

@@ -1,0 +1,192 @@
+//! The words of one entity → its components.
+
+use super::found::{found, shown};
+use super::scan::{EntityText, Part, check_fields, fields};
+use super::slip::{Slip, byte_at};
+use super::word::{Put, RELATIONS, Word, words};
+use ron::error::{Error, SpannedError};
+use std::ops::Range;
+
+/// The longest name, in letters: a message shows it whole.
+pub const LONGEST_NAME: usize = 100;
+
+const THREE_NUMBERS: &str = "three numbers in round brackets, such as (0.0, 1.0, 0.0)";
+const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0.0, 1.0)";
+
+/// A word of an entity, and where it stands.
+pub struct FilePart {
+    /// The word.
+    pub word: String,
+    /// Bytes before it.
+    pub at: usize,
+    /// The bytes of its value.
+    pub value: Range<usize>,
+}
+
+/// An entity that was read.
+pub struct FileEntity {
+    /// Bytes before its opening bracket.
+    pub at: usize,
+    /// Its name.
+    pub name: Option<String>,
+    /// The number of its parent in the file.
+    pub parent: Option<usize>,
+    /// The number of the entity whose material it uses.
+    pub material: Option<usize>,
+    /// Whether it takes no part.
+    pub disabled: bool,
+    /// Its components, each to be put onto an entity.
+    pub components: Vec<Put>,
+    /// Its words.
+    pub parts: Vec<FilePart>,
+}
+
+/// Reads an entity's words; whom it refers to is found out later, by [`resolve`](super::refer::resolve).
+pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Slip> {
+    let mut read = FileEntity {
+        at: entity.at,
+        name: None,
+        parent: None,
+        material: None,
+        disabled: false,
+        components: Vec::new(),
+        parts: Vec::new(),
+    };
+    if let Some(part) = entity.parts.iter().find(|part| part.word == "name") {
+        read.name = Some(read_name(text, part)?);
+    }
+    let who = read.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""));
+    for part in &entity.parts {
+        if read.parts.iter().any(|earlier| earlier.word == part.word) {
+            let what = format!("{who} is given `{}` twice, but an entity has one of a kind", part.word);
+            return Err(Slip::new(part.at, what));
+        }
+        match (part.word, Word::find(part.word)) {
+            (_, Some(word)) => {
+                let value = text.get(part.value.clone()).unwrap_or("");
+                let put = (word.read)(value).map_err(|error| value_slip(text, part, &who, &error))?;
+                read.components.push(put);
+            }
+            ("name" | "parent" | "material", None) => {}
+            ("disabled", None) => read.disabled = read_simply(text, part, &who)?,
+            (unknown, None) => return Err(Slip::new(part.at, unknown_word(unknown, &who))),
+        }
+        read.parts.push(FilePart { word: part.word.into(), at: part.at, value: part.value.clone() });
+    }
+    Ok(read)
+}
+
+fn read_name(text: &str, part: &Part<'_>) -> Result<String, Slip> {
+    let name: String = read_simply(text, part, "an entity")?;
+    if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
+        let what = format!(
+            "an entity's name is {}, but a name is one line of at most {LONGEST_NAME} letters",
+            shown(text.get(part.value.clone()).unwrap_or(""))
+        );
+        return Err(Slip::new(part.value.start, what));
+    }
+    Ok(name)
+}
+
+/// The value of a word that is no component.
+pub fn read_simply<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, who: &str) -> Result<V, Slip> {
+    let value = text.get(part.value.clone()).unwrap_or("");
+    ron::from_str(value).map_err(|error| value_slip(text, part, who, &error))
+}
+
+fn unknown_word(unknown: &str, who: &str) -> String {
+    let known = words().chain(RELATIONS);
+    let likeness = |word: &&str| (strsim::jaro_winkler(word, &snake_case(unknown)) * 1e6) as u64;
+    let nearest = known.max_by_key(likeness).unwrap_or("sphere");
+    format!("{who} has a component `{}`, but there is none of that name; the nearest is `{nearest}`", shown(unknown))
+}
+
+/// A type's name as a file would have it: `PointLight` → `point_light`.
+fn snake_case(word: &str) -> String {
+    let mut snake = String::new();
+    for letter in word.chars() {
+        if letter.is_uppercase() && !snake.is_empty() {
+            snake.push('_');
+        }
+        snake.extend(letter.to_lowercase());
+    }
+    snake
+}
+
+/// What `ron` found wrong with a value, in the words of this kit.
+fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> Slip {
+    let value = text.get(part.value.clone()).unwrap_or("");
+    let stopped = part.value.start + byte_at(value, error.span.end.line, error.span.end.col);
+    let fields = fields(text, part.value.clone());
+    let kind = part.word.replace('_', " ");
+    let whose = if who.starts_with('"') { format!("{kind} {who}") } else { format!("unnamed {kind}") };
+    match &error.code {
+        Error::NoSuchStructField { expected, found, .. } => {
+            let at = fields.iter().find(|field| field.word == found).map_or(part.value.start, |field| field.at);
+            let words: Vec<String> = expected.iter().map(|field| format!("`{field}`")).collect();
+            let fields = match &words[..] {
+                [one] => format!("its field is {one}"),
+                _ => format!("its fields are {}", words.join(", ")),
+            };
+            Slip::new(at, format!("{whose}: a field `{}` is given, but {fields}", shown(found)))
+        }
+        Error::MissingStructField { field, .. } => {
+            Slip::new(part.value.start, format!("{whose}: {field} is missing, but it must be given"))
+        }
+        Error::DuplicateStructField { field, .. } => {
+            let at = fields.iter().rev().find(|own| own.word == *field).map_or(stopped, |own| own.at);
+            Slip::new(at, format!("{whose}: {field} is given twice, but a component has one of a kind"))
+        }
+        Error::ExpectedComma => {
+            let at = token_at(text, &part.value, stopped);
+            Slip::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
+        }
+        code => {
+            if let Err(slip) = check_fields(text, part.value.clone()) {
+                return Slip::new(slip.at, format!("{whose}: {}", slip.what));
+            }
+            let field = fields.iter().find(|field| (field.at..=field.value.end).contains(&stopped));
+            let (name, range) = field.map_or((part.word, &part.value), |field| (field.word, &field.value));
+            let whole = text.get(range.clone()).unwrap_or("");
+            let whose = if field.is_some() { whose } else { who.to_string() };
+            let whole_value = matches!(code, Error::ExpectedDifferentStructName { .. });
+            let at = if whole_value { range.start } else { token_at(text, range, stopped) };
+            let expected = expected(code, part.word);
+            let stands = found(text, at);
+            let instead = if at == range.start { String::new() } else { format!(", and at {stands} it is not") };
+            Slip::new(at, format!("{whose}: {name} is {}, but it must be {expected}{instead}", shown(whole)))
+        }
+    }
+}
+
+/// Where the token begins at which a reader stopped: it may stop before the white space that leads up to it.
+fn token_at(text: &str, value: &Range<usize>, stopped: usize) -> usize {
+    let rest = text.get(stopped..value.end).unwrap_or("");
+    let at = stopped + rest.len() - rest.trim_start().len();
+    if at >= value.end { value.start } else { at.max(value.start) }
+}
+
+/// What `ron` waited for.
+fn expected(code: &Error, word: &str) -> String {
+    let example = || Word::find(word).and_then(|word| (word.of_nothing)()).unwrap_or_else(|| "(…)".into());
+    match code {
+        Error::ExpectedFloat => "a number".into(),
+        Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number".into(),
+        Error::IntegerOutOfBounds => format!("a whole number from 0 to {}", u32::MAX),
+        Error::ExpectedBoolean => "true or false".into(),
+        Error::ExpectedString => "a text in double quotes".into(),
+        Error::NoSuchEnumVariant { expected, .. } => format!("one of {}", expected.join(", ")),
+        Error::ExpectedNamedStructLike("DVec3") | Error::ExpectedStructLike => THREE_NUMBERS.into(),
+        Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 4") => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
+        Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
+        Error::ExpectedUnit | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {
+            format!("fields in round brackets, such as {}", example())
+        }
+        Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
+        Error::InvalidValueForType { expected, .. } => expected.clone(),
+        Error::InvalidEscape(_) => "a text whose backslashes are escapes of RON, such as \\n or \\\"".into(),
+        _ => "a value as RON has them".into(),
+    }
+}

@@ -1,0 +1,95 @@
+//! Names → the entities that are meant.
+
+use super::found::shown;
+use super::read::{FileEntity, FilePart, read_simply};
+use super::scan::Part;
+use super::slip::{Slip, place_of};
+use std::collections::HashMap;
+
+/// The most parents above one another.
+const MOST_PARENTS: usize = 64;
+
+/// Finds every parent and every material by name, and follows parents to the root.
+pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Slip> {
+    let mut named: HashMap<String, Vec<usize>> = HashMap::new();
+    for (number, entity) in entities.iter().enumerate() {
+        if let Some(name) = &entity.name {
+            named.entry(name.clone()).or_default().push(number);
+        }
+    }
+    for number in 0..entities.len() {
+        for (word, noun) in [("parent", "a parent"), ("material", "the owner of its material")] {
+            let entity = &entities[number];
+            let Some(part) = entity.parts.iter().find(|part| part.word == word) else { continue };
+            let other = find(text, entities, &named, number, part)?;
+            if other == number {
+                let what = format!("{}: {word} is this entity itself, but {noun} must be another", who(entity));
+                return Err(Slip::new(part.value.start, what));
+            }
+            match word {
+                "parent" => entities[number].parent = Some(other),
+                _ => entities[number].material = Some(other),
+            }
+        }
+    }
+    check_parents(entities)
+}
+
+fn find(
+    text: &str,
+    entities: &[FileEntity],
+    named: &HashMap<String, Vec<usize>>,
+    number: usize,
+    part: &FilePart,
+) -> Result<usize, Slip> {
+    let who = who(&entities[number]);
+    let name: String = read_simply(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
+    let what = match named.get(&name).map_or([].as_slice(), |found| found) {
+        [one] => return Ok(*one),
+        [first, .., last] => {
+            let [first, last] = [first, last].map(|&number| place_of(text, entities[number].at).line);
+            let is_called =
+                format!("more than one entity is called that, the first on line {first}, the last on {last}");
+            format!("{who}: {} is {}, but {is_called}", part.word, shown(&format!("\"{name}\"")))
+        }
+        [] => {
+            let likeness = |other: &&String| (strsim::jaro_winkler(other, &name) * 1e6) as u64;
+            let mut others: Vec<&String> = named.keys().collect();
+            others.sort();
+            let nearest = others.into_iter().max_by_key(likeness);
+            let nearest = nearest.map_or(String::new(), |nearest| format!("; the nearest is \"{nearest}\""));
+            let missing = format!("no entity has that name{nearest}");
+            format!("{who}: {} is {}, but {missing}", part.word, shown(&format!("\"{name}\"")))
+        }
+    };
+    Err(Slip::new(part.value.start, what))
+}
+
+fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
+    for (number, entity) in entities.iter().enumerate() {
+        let mut steps = 0;
+        let (mut at, mut above) = (number, vec![number]);
+        while let Some(parent) = entities[at].parent {
+            steps += 1;
+            let circle = above.contains(&parent);
+            if circle || steps > MOST_PARENTS {
+                let found = if circle {
+                    format!("leads in a circle through {}", who(&entities[parent]))
+                } else {
+                    format!("has more than {MOST_PARENTS} others above it")
+                };
+                let accepted = format!("parents must lead to an entity without one in at most {MOST_PARENTS} steps");
+                let place = entity.parts.iter().find(|part| part.word == "parent");
+                let place = place.map_or(entity.at, |part| part.value.start);
+                return Err(Slip::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));
+            }
+            above.push(parent);
+            at = parent;
+        }
+    }
+    Ok(())
+}
+
+fn who(entity: &FileEntity) -> String {
+    entity.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""))
+}

@@ -1,0 +1,91 @@
+use crate::scene::{
+    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution, Sphere,
+    Statistics, View,
+};
+use bevy_ecs::prelude::*;
+use ron::error::SpannedError;
+use ron::ser::PrettyConfig;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::any::TypeId;
+
+// ANCHOR: words
+/// Every component that a scene file may hold, and its word there; a new one joins with a line.
+///
+/// A file is written in this order.
+const WORDS: &[Word] = &[
+    Word::of::<PerspectiveCamera>("perspective_camera"),
+    Word::of::<OrthographicCamera>("orthographic_camera"),
+    Word::of::<Sphere>("sphere"),
+    Word::of::<Plane>("plane"),
+    Word::of::<PointLight>("point_light"),
+    Word::of::<LookAt>("look_at"),
+    Word::of::<Placement>("placement"),
+    Word::of::<Resolution>("resolution"),
+    Word::of::<Matte>("matte"),
+    Word::of::<Background>("background"),
+    Word::of::<View>("view"),
+    Word::of::<Statistics>("statistics"),
+];
+// ANCHOR_END: words
+
+/// The words that are no component of their own type in a file: a name, and three ways to stand to other entities.
+pub const RELATIONS: [&str; 4] = ["name", "parent", "material", "disabled"];
+
+/// The words of components, in the order in which a file is written.
+pub fn words() -> impl Iterator<Item = &'static str> {
+    WORDS.iter().map(|word| word.word)
+}
+
+/// Puts a component that was read onto an entity.
+pub type Put = Box<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
+
+/// A component and its word in files.
+pub struct Word {
+    /// Such as `point_light`.
+    pub word: &'static str,
+    /// The component's type.
+    pub kind: fn() -> TypeId,
+    /// Reads the component from the text after the word's colon.
+    pub read: fn(&str) -> Result<Put, SpannedError>,
+    /// The text after the colon, if the entity carries the component.
+    pub write: fn(&EntityRef<'_>) -> Option<Result<String, ron::Error>>,
+    /// What `write` would say of a component that is read from `()`, if it can be.
+    pub of_nothing: fn() -> Option<String>,
+}
+
+impl Word {
+    const fn of<C: Component + Clone + Serialize + DeserializeOwned>(word: &'static str) -> Self {
+        Self { word, kind: TypeId::of::<C>, read: read::<C>, write: write::<C>, of_nothing: of_nothing::<C> }
+    }
+
+    /// The word as a file has it.
+    pub fn find(word: &str) -> Option<&'static Self> {
+        WORDS.iter().find(|own| own.word == word)
+    }
+
+    /// All, in order.
+    pub fn all() -> &'static [Self] {
+        WORDS
+    }
+}
+
+fn read<C: Component + Clone + DeserializeOwned>(text: &str) -> Result<Put, SpannedError> {
+    let component: C = ron::from_str(text)?;
+    Ok(Box::new(move |entity| {
+        entity.insert(component.clone());
+    }))
+}
+
+fn write<C: Component + Serialize>(entity: &EntityRef<'_>) -> Option<Result<String, ron::Error>> {
+    entity.get::<C>().map(text_of)
+}
+
+fn of_nothing<C: Serialize + DeserializeOwned>() -> Option<String> {
+    let component: C = ron::from_str("()").ok()?;
+    text_of(&component).ok()
+}
+
+fn text_of<C: Serialize>(component: &C) -> Result<String, ron::Error> {
+    ron::ser::to_string_pretty(component, PrettyConfig::new().compact_structs(true).compact_arrays(true))
+}

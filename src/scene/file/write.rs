@@ -1,0 +1,122 @@
+use super::read::LONGEST_NAME;
+use super::word::Word;
+use crate::scene::{ChildOf, Disabled, Name, Refusal, UsedByShapes, UsesMaterial, called};
+use bevy_ecs::component::ComponentId;
+use bevy_ecs::prelude::*;
+use bevy_ecs::resource::IsResource;
+use std::any::TypeId;
+use std::collections::{BTreeSet, HashMap};
+
+/// The longest line that holds an entity whole.
+const WIDTH: usize = 120;
+
+/// A scene as the text of a file, in spawn order, the same for the same scene.
+///
+/// A component that another on its entity brings along is left out where it is as it would come along.
+///
+/// Errors: an entity that a file cannot hold: a component without a word, a name that is no line of text, a parent or
+/// a material that has no name of its own.
+pub fn scene_text(scene: &World) -> Result<String, Refusal> {
+    let mut entities: Vec<EntityRef<'_>> = scene
+        .archetypes()
+        .iter()
+        .flat_map(|archetype| archetype.entities())
+        .filter_map(|entity| scene.get_entity(entity.id()).ok())
+        .filter(|entity| !entity.contains::<IsResource>())
+        .collect();
+    entities.sort_by_key(|entity| entity.id().index());
+    let mut carriers: HashMap<&str, usize> = HashMap::new();
+    for name in entities.iter().filter_map(|entity| entity.get::<Name>()) {
+        *carriers.entry(name.as_str()).or_default() += 1;
+    }
+    let mut text = String::from("[\n");
+    for entity in &entities {
+        let parts = parts(scene, entity, &carriers)?;
+        let line = format!("    ({}),\n", parts.join(", "));
+        if line.chars().count() <= WIDTH + 1 {
+            text.push_str(&line);
+        } else {
+            text.push_str(&format!("    (\n        {},\n    ),\n", parts.join(",\n        ")));
+        }
+    }
+    text.push_str("]\n");
+    Ok(text)
+}
+
+/// An entity's words with their values.
+fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>) -> Result<Vec<String>, Refusal> {
+    let who = called(scene, entity.id());
+    let mut parts = Vec::new();
+    if let Some(name) = entity.get::<Name>() {
+        if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
+            let value = format!("{:?}", name.as_str());
+            let accepted = format!("in a scene file a name is one line of at most {LONGEST_NAME} letters");
+            return Err(Refusal::new("an entity", "name", value, accepted));
+        }
+        parts.push(format!("name: {}", quoted(name)?));
+    }
+    let refer = |word: &'static str, other: Entity| match scene.get::<Name>(other) {
+        Some(name) if carriers.get(name.as_str()) == Some(&1) => Ok(format!("{word}: {}", quoted(name)?)),
+        _ => {
+            let accepted = "in a scene file it is meant by name, so it must have one that no other has";
+            Err(Refusal::new(who.clone(), word, called(scene, other), accepted))
+        }
+    };
+    if let Some(parent) = entity.get::<ChildOf>() {
+        parts.push(refer("parent", parent.parent())?);
+    }
+    if let Some(material) = entity.get::<UsesMaterial>() {
+        parts.push(refer("material", material.0)?);
+    }
+    check_components(scene, entity, &who)?;
+    let brought = brought_along(scene, entity);
+    for word in Word::all() {
+        let Some(text) = (word.write)(entity) else { continue };
+        let text = text.map_err(|error| unwritable(&who, word.word, &error))?;
+        let comes_along = scene.components().get_id((word.kind)()).is_some_and(|id| brought.contains(&id));
+        if !(comes_along && (word.of_nothing)().as_ref() == Some(&text)) {
+            parts.push(format!("{}: {text}", word.word));
+        }
+    }
+    if entity.contains::<Disabled>() {
+        parts.push("disabled: true".into());
+    }
+    Ok(parts)
+}
+
+/// Components without a word would be lost.
+fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<(), Refusal> {
+    let relations = [
+        TypeId::of::<Name>(),
+        TypeId::of::<ChildOf>(),
+        TypeId::of::<Children>(),
+        TypeId::of::<UsesMaterial>(),
+        TypeId::of::<UsedByShapes>(),
+        TypeId::of::<Disabled>(),
+    ];
+    for &id in entity.archetype().components() {
+        let Some(info) = scene.components().get_info(id) else { continue };
+        let has_word = info
+            .type_id()
+            .is_some_and(|kind| relations.contains(&kind) || Word::all().iter().any(|word| (word.kind)() == kind));
+        if !has_word {
+            let accepted = "it has no word in scene files, where every component needs one";
+            return Err(Refusal::new(who, "component", info.name().shortname(), accepted));
+        }
+    }
+    Ok(())
+}
+
+/// The components that others on the entity require.
+fn brought_along(scene: &World, entity: &EntityRef<'_>) -> BTreeSet<ComponentId> {
+    let infos = entity.archetype().components().iter().filter_map(|&id| scene.components().get_info(id));
+    infos.flat_map(|info| info.required_components().iter_ids()).collect()
+}
+
+fn quoted(text: &str) -> Result<String, Refusal> {
+    ron::to_string(text).map_err(|error| unwritable(text, "name", &error))
+}
+
+fn unwritable(who: &str, field: &'static str, error: &ron::Error) -> Refusal {
+    Refusal::new(who, field, error, "it must be possible to write it as RON")
+}

@@ -1,0 +1,53 @@
+//! Scenes as files: what is written comes back bit for bit, and what is wrong is told by file, line and column.
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
+mod scenes;
+
+#[path = "scene_files/bad_cases.rs"]
+mod bad_cases;
+#[path = "scene_files/bad_files.rs"]
+mod bad_files;
+#[path = "scene_files/bad_places.rs"]
+mod bad_places;
+#[path = "scene_files/edits.rs"]
+mod edits;
+#[path = "scene_files/fuzz.rs"]
+mod fuzz;
+#[path = "scene_files/list.rs"]
+mod list;
+#[path = "scene_files/round_trip.rs"]
+mod round_trip;
+#[path = "scene_files/watch.rs"]
+mod watch;
+
+use pinhole::scene::{FileProblem, SceneFile};
+use std::path::Path;
+
+/// A scene file of this text.
+fn parsed(text: &str) -> Result<SceneFile, FileProblem> {
+    SceneFile::parse(Path::new("scene.ron"), text.into())
+}
+
+/// What a command line prints.
+fn typed(words: &[&str]) -> pinhole::Result<String> {
+    let words: Vec<String> = words.iter().map(|word| word.to_string()).collect();
+    let mut out = Vec::new();
+    pinhole::command::run(&chapters::all(), &words, &mut out)?;
+    Ok(String::from_utf8(out).expect("text"))
+}
+
+/// Few cases of the very code that `cargo bench --bench fuzz` runs a million times.
+#[test]
+fn no_scene_file_brings_the_kit_down() {
+    let counts = std::cell::RefCell::new(fuzz::Counts::default());
+    let bases = fuzz::bases();
+    let config = proptest::test_runner::Config { cases: 400, failure_persistence: None, ..Default::default() };
+    proptest::proptest!(config, |(seed: u64)| {
+        counts.borrow_mut().add(seed, fuzz::outcome(&fuzz::case(&bases, seed)));
+    });
+    let counts = counts.into_inner();
+    eprintln!("fuzzed scene files: {counts}");
+    assert!(counts.slow.is_empty() && counts.panics.is_empty(), "{counts}");
+    assert!(counts.rendered > 20 && counts.slips > 20 && counts.refused > 5, "the cases are all of a kind: {counts}");
+}

@@ -1,0 +1,116 @@
+//! A chapter exported and edited as a person would: what must change changes, and nothing else does.
+
+use crate::{scenes, typed};
+use pinhole::Asked;
+use pinhole::scene::{Resolution, SceneFile};
+use std::path::Path;
+
+/// Where a picture may differ, in parts of its width and height: x from, x to, y from, y to.
+type Region = [f64; 4];
+const NOWHERE: Region = [1.0, 0.0, 1.0, 0.0];
+const ANYWHERE: Region = [0.0, 1.0, 0.0, 1.0];
+const FAR_RIGHT: Region = [0.6, 1.0, 0.0, 1.0];
+
+type Edit = (&'static str, Region, fn(&str) -> String);
+
+fn swap(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "{from} stands once in\n{text}");
+    text.replace(from, to)
+}
+
+/// The lines of the entity of this name, with what comes before and after it.
+fn around<'t>(text: &'t str, name: &str) -> [&'t str; 3] {
+    let named = text.find(&format!("name: \"{name}\"")).expect("the entity is there");
+    let start = text[..named].rfind("    (").expect("it begins");
+    let end =
+        named + text[named..].find("),\n    (").unwrap_or_else(|| text[named..].rfind("),\n]").expect("it ends")) + 3;
+    [&text[..start], &text[start..end], &text[end..]]
+}
+
+fn add(text: &str, entity: &str) -> String {
+    format!("{}    {entity},\n]\n", text.trim_end().strip_suffix(']').expect("a list"))
+}
+
+const EDITS: [Edit; 20] = [
+    ("nothing", NOWHERE, |t| t.into()),
+    ("the far ball moved", FAR_RIGHT, |t| swap(t, "(2.3, 0.8, -2.0)", "(2.3, 1.4, -2.0)")),
+    ("the far ball in another colour", FAR_RIGHT, |t| swap(t, "(0.25, 0.5, 0.75)", "(0.75, 0.5, 0.25)")),
+    ("the far ball larger", FAR_RIGHT, |t| {
+        let [before, ball, after] = around(t, "far ball");
+        format!("{before}{}{after}", swap(ball, "radius: 0.8", "radius: 0.9"))
+    }),
+    ("the far ball away", FAR_RIGHT, |t| {
+        let [before, _, after] = around(t, "far ball");
+        format!("{before}{after}")
+    }),
+    ("the far ball disabled", FAR_RIGHT, |t| swap(t, "name: \"far ball\"", "name: \"far ball\", disabled: true")),
+    ("a ball added far right", FAR_RIGHT, |t| {
+        add(t, "(name: \"new\", sphere: (radius: 0.3), placement: (position: (2.6, 0.3, 0.5)), matte: ())")
+    }),
+    ("a ball added behind the eye", NOWHERE, |t| {
+        add(t, "(name: \"new\", sphere: (), placement: (position: (0, 0, 50)), matte: ())")
+    }),
+    ("renamed", NOWHERE, |t| swap(t, "\"far ball\"", "\"marble, blue\"")),
+    ("names taken away", NOWHERE, |t| {
+        let lines = t.lines().filter(|line| !line.trim_start().starts_with("name:"));
+        lines.collect::<Vec<_>>().join("\n").replace("(name: \"ground\", ", "(").replace("(name: \"night\", ", "(")
+    }),
+    ("comments", NOWHERE, |t| format!("/* mine */ {}// the end", t.replace("),\n    (", "), // one /* \" */\n    ("))),
+    ("words in another order", NOWHERE, |t| {
+        swap(
+            t,
+            "        name: \"far ball\",\n        sphere: (radius: 0.8),",
+            "        sphere: (radius: 0.8),\n        name: \"far ball\",",
+        )
+    }),
+    ("fields in another order", NOWHERE, |t| {
+        swap(t, "eye: (0.0, 2.6, 6.0), target: (0.0, 0.8, 0.0)", "target: (0.0, 0.8, 0.0), eye: (0.0, 2.6, 6.0)")
+    }),
+    ("numbers written otherwise", NOWHERE, |t| t.replace("0.0,", "0,").replace("95.0", "9.5e1").replace("0.25", ".25")),
+    ("all on one line", NOWHERE, |t| t.lines().filter(|line| !line.starts_with("//")).map(str::trim).collect()),
+    ("a smaller angle", ANYWHERE, |t| swap(t, "fov: 40.0", "fov: 35.0")),
+    ("the angle across the other axis", ANYWHERE, |t| swap(t, "Vertical", "Horizontal")),
+    ("no shadows", ANYWHERE, |t| swap(t, "casts_shadows: true", "casts_shadows: false")),
+    ("a shared material", FAR_RIGHT, |t| {
+        add(
+            &swap(t, "matte: (colour: (0.25, 0.5, 0.75))", "material: \"gold\""),
+            "(name: \"gold\", matte: (colour: (0.9, 0.7, 0.2)))",
+        )
+    }),
+    ("the far ball on a parent", FAR_RIGHT, |t| {
+        let t = swap(t, "name: \"far ball\",", "name: \"far ball\", parent: \"lift\",");
+        add(&t, "(name: \"lift\", placement: (position: (0, 0.5, 0)))")
+    }),
+];
+
+const SIZE: Resolution = Resolution { width: 96, height: 54 };
+
+fn film(text: &str, what: &str) -> scenes::FilmBits {
+    let file =
+        SceneFile::parse(Path::new("scene.ron"), text.into()).unwrap_or_else(|slip| panic!("{what}: {slip}\n{text}"));
+    let mut world = file.world();
+    Asked { resolution: Some(SIZE), ..Asked::default() }.put_on_camera(&mut world);
+    scenes::film(&world)
+}
+
+#[test]
+fn twenty_edits_change_what_they_must_and_nothing_else() {
+    let text = typed(&["export", "05_pinhole"]).expect("exported");
+    let before = film(&text, "the chapter");
+    for (what, [x0, x1, y0, y1], edit) in EDITS {
+        let after = film(&edit(&text), what);
+        let mut changed = 0;
+        for (at, (one, other)) in before.pixels.iter().zip(&after.pixels).enumerate() {
+            if one == other {
+                continue;
+            }
+            changed += 1;
+            let (x, y) = (at % SIZE.width as usize, at / SIZE.width as usize);
+            let [u, v] = [x as f64 / f64::from(SIZE.width), y as f64 / f64::from(SIZE.height)];
+            assert!(x0 <= u && u <= x1 && y0 <= v && v <= y1, "{what}: pixel {x},{y} changed too");
+        }
+        assert_eq!(changed > 0, x0 < x1, "{what}: {changed} pixels changed");
+        eprintln!("{changed:>5} pixels: {what}");
+    }
+    eprintln!("edits: {} rendered", EDITS.len());
+}

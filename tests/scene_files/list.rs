@@ -1,0 +1,47 @@
+//! The list of words is complete: no component of a scene is lost in a file.
+
+use pinhole::scene::{scene_text, words};
+use std::fs;
+use std::path::Path;
+
+/// Components that a file holds in another way than by a word for their type.
+const OTHERWISE: [(&str, &str); 2] =
+    [("UsesMaterial", "by `material` and a name"), ("UsedByShapes", "kept by bevy_ecs, the other end of UsesMaterial")];
+
+#[test]
+fn every_component_of_a_scene_has_a_word() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene");
+    let mut components = Vec::new();
+    for entry in fs::read_dir(folder).expect("a readable folder") {
+        let path = entry.expect("an entry").path();
+        let Ok(text) = fs::read_to_string(&path) else { continue };
+        for after in text.split("#[derive(").skip(1) {
+            let (derived, rest) = after.split_once(')').expect("a closed derive");
+            if derived.split(',').any(|word| word.trim() == "Component") {
+                let (_, named) = rest.split_once("pub struct ").expect("a component is a struct");
+                components.push(named.chars().take_while(|letter| letter.is_alphanumeric()).collect::<String>());
+            }
+        }
+    }
+    let list = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/file/word.rs")).expect("kept");
+    for component in &components {
+        let listed = list.contains(&format!("Word::of::<{component}>("));
+        let otherwise = OTHERWISE.iter().any(|(name, _)| name == component);
+        assert!(listed != otherwise, "{component} has no word in src/scene/file/word.rs, or is held otherwise too");
+    }
+    assert_eq!(components.len(), words().count() + OTHERWISE.len(), "{components:?}");
+    eprintln!("words: {} components, {} of them held otherwise", components.len(), OTHERWISE.len());
+}
+
+#[test]
+fn a_component_without_a_word_is_not_lost_in_silence() {
+    #[derive(bevy_ecs::prelude::Component)]
+    struct Wobble;
+    let mut world = bevy_ecs::world::World::new();
+    world.spawn((pinhole::scene::Name::new("jelly"), pinhole::scene::Sphere::default(), Wobble));
+    let told = scene_text(&world).expect_err("refused").to_string();
+    assert_eq!(
+        told,
+        "\"jelly\": component is Wobble, but it has no word in scene files, where every component needs one"
+    );
+}
