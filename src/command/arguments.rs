@@ -38,6 +38,8 @@ pub enum Command {
     Extremes(TryExtremes),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
+    /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
+    Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
 }
@@ -53,6 +55,12 @@ pub struct TryExtremes {
     /// How many rays each case tries
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub rays: u64,
+}
+
+#[derive(Args)]
+pub struct CheckExercise {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: Option<String>,
 }
 
 #[derive(Args)]

@@ -3,6 +3,7 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod check;
 mod cost;
 mod extremes;
 mod figure;
@@ -43,6 +44,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }
         Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
+        Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
     }
 }
