@@ -40,7 +40,7 @@ fn question() -> Question<Input, Vector> {
             Mistake::new("the normal is not of length 1", |input| {
                 (inverse_transpose(input) * DVec3::from(input.1)).into()
             }),
-            Mistake::new("the inverse is not transposed", |input| {
+            Mistake::new("the inverse is not transposed, or the columns are taken for rows", |input| {
                 (matrix(input).inverse() * DVec3::from(input.1)).normalize().into()
             }),
             Mistake::new(
@@ -54,9 +54,6 @@ fn question() -> Question<Input, Vector> {
                 "the normal points inward: nothing may turn it, for the inverse transpose keeps its side",
                 |input| (-(inverse_transpose(input) * DVec3::from(input.1)).normalize()).into(),
             ),
-            Mistake::new("the columns are taken for rows", |input| {
-                (matrix(input).inverse() * DVec3::from(input.1)).normalize().into()
-            }),
         ],
         hints: &[
             "the normal must stay at a right angle to everything that lies in the surface: n · v = 0 must become \

@@ -43,6 +43,7 @@ fn question() -> Question<Input, Vector> {
         allowed: 0.0,
         measured: "in a part",
         mistakes: vec![
+            Mistake::new("the direction is handed back as it is; no axis is turned", |&(v, ..)| v),
             Mistake::new(
                 "z is turned the wrong way about: ours points back, so theirs turns where it points ahead",
                 |input| {

@@ -32,7 +32,7 @@ fn question() -> Question<Input, f64> {
             degrees(camera.tan_half_vertical.to_f64())
         },
         apart: |yours, right| relative(&[*yours], &[*right]),
-        allowed: 1e-12,
+        allowed: 1e-10,
         measured: "of the angle",
         mistakes: vec![
             Mistake::new("the angle is handed back as it is, whatever it is measured across", |&(angle, ..)| angle),

@@ -62,25 +62,15 @@ fn question() -> Question<Input, Answer> {
                     hit_f64_plain(single(o), single(d), c.into(), r)
                 },
             ),
-            Mistake::new(
-                "the nearer root is a difference, s − h, that cancels close to the surface",
-                |&(o, d, c, r)| {
-                    let (d, f) = (DVec3::from(d), DVec3::from(c) - DVec3::from(o));
-                    let (dd, s) = (d.length_squared(), f.dot(d) / d.length_squared());
-                    let discriminant = r * r - (f - s * d).length_squared();
-                    let half_chord = (discriminant >= 0.0).then(|| (discriminant / dd).sqrt())?;
-                    [s - half_chord, s + half_chord].into_iter().find(|&t| t > 0.0)
-                },
-            ),
         ],
         hints: &[
             "put O + tR into |x − C| = r: a quadratic equation in t; its smallest root above 0 is asked for",
             "with f = C − O the ray is nearest to the centre at s = f·R / R·R; what is left across it, f − sR, decides \
              whether it meets the sphere, and nothing of the size of the distance is squared",
-            "h = √((r² − |f − sR|²) / R·R) and c = f·f − r²; the roots are s − h and s + h: from inside (c < 0) take \
-             s + h, from outside c / (R·R (s + h)), which is s − h without its cancellation",
-            "where c > 0 and s ≤ 0 nothing is met; where c ≤ 0 and s < 0, s + h cancels, and c / (R·R (s − h)) is the \
-             same root",
+            "with h = √((r² − |f − sR|²) / R·R) the roots are s − h and s + h; there are none where the number under the \
+             root is below 0",
+            "so: s − h if that is above 0, else s + h if that is, else None; f is the difference of the two points, and \
+             s is divided by R·R because R may have any length",
         ],
     }
 }
@@ -104,7 +94,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("from a point of the sphere, inward", [([0.0, 0.0, -2.0], ahead, ball, 1.0)]));
     asked.extend(probes("the centre, 1e5 radii away", aimed(|at| ray_aim::centre(303, at, 1.0, 1e5), 20)));
     asked.extend(probes("a silhouette 1e3 radii away", aimed(|at| ray_aim::silhouette(304, at, 1e3), 60)));
-    asked.extend(probes("a silhouette 1e7 radii away", aimed(|at| ray_aim::silhouette(305, at, 1e7), 60)));
+    asked.extend(probes("a silhouette 1e7 radii away", aimed(|at| ray_aim::silhouette(305, at, 1e7), 300)));
     asked
         .extend(probes("the ground of a planet, 1e8 in radius, from 0.01 above", aimed(|at| below(at, 1e8, 1e-2), 30)));
     asked

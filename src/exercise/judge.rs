@@ -1,5 +1,5 @@
 use super::answers::{Answer, answers};
-use super::question::{Mistake, Question};
+use super::question::Question;
 use super::shown::Shown;
 use std::sync::Arc;
 use std::time::Duration;
@@ -99,11 +99,7 @@ where
             apart: apart(first),
             wrong: wrong.len(),
             always_the_same: always_the_same(&given) && !always_the_same(&right),
-            looks_like: question
-                .mistakes
-                .iter()
-                .find(|mistake| fits(mistake, &question, &given, &wrong))
-                .map(|m| m.told),
+            looks_like: looks_like(&question, &given, &right, first),
         }),
         (None, Some(ended)) => ended,
         (None, None) => Outcome::Right((0..given.len()).map(apart).fold(0.0, f64::max)),
@@ -118,13 +114,32 @@ where
     }
 }
 
-/// Whether a mistake explains the first wrong answer and nine in ten of all.
-fn fits<I, A: Shown>(mistake: &Mistake<I, A>, question: &Question<I, A>, given: &[A], wrong: &[usize]) -> bool {
-    let explains = |&&at: &&usize| {
-        let made = (mistake.makes)(&question.probes[at].input);
-        question.same(&given[at], &made) || given[at].shown() == made.shown()
-    };
-    wrong.first().is_some_and(|first| explains(&first)) && wrong.iter().filter(explains).count() * 10 >= wrong.len() * 9
+/// What is said of the mistake that explains the first wrong answer and those about it best.
+fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], first: usize) -> Option<&'static str> {
+    let about = question.probes[first].about;
+    let near = first + question.probes[first..given.len()].iter().take_while(|probe| probe.about == about).count();
+    let judged = question.mistakes.iter().map(|mistake| {
+        let made: Vec<A> = question.probes[..given.len()].iter().map(|probe| (mistake.makes)(&probe.input)).collect();
+        let agrees = |at: usize| question.same(&given[at], &made[at]) || given[at].shown() == made[at].shown();
+        // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
+        let speaks = |at: &usize| !question.same(&made[*at], &right[*at]) || !question.same(&given[*at], &right[*at]);
+        let share = |end: usize| {
+            let (mut agreed, mut spoken) = (0, 0);
+            for at in (0..end).filter(speaks) {
+                agreed += usize::from(agrees(at));
+                spoken += 1;
+            }
+            agreed as f64 / f64::from(spoken.max(1))
+        };
+        (agrees(first) && share(near) >= 0.9, share(given.len()), mistake.told)
+    });
+    let mut best: Option<(f64, &'static str)> = None;
+    for (explains, share, told) in judged {
+        if explains && best.is_none_or(|(most, _)| share > most) {
+            best = Some((share, told));
+        }
+    }
+    best.map(|(_, told)| told)
 }
 
 /// Enough answers to say so, and no two that differ.

@@ -44,18 +44,17 @@ fn question() -> Question<Input, f64> {
                     if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) }
                 },
             ),
-            Mistake::new("the light thins out with the distance, not with its square", |input| {
-                sent(input, cosine(input).max(0.0), distance(input))
-            }),
+            Mistake::new(
+                "the light thins out with the distance once, not twice: either it is not squared, or the way to the light was \
+             not of length 1 when its cosine was taken",
+                |input| sent(input, cosine(input).max(0.0), distance(input)),
+            ),
             Mistake::new("the light does not thin out with the distance", |input| {
                 sent(input, cosine(input).max(0.0), 1.0)
             }),
             Mistake::new("the share is colour / π; the π is missing", |input| PI * radiance(input, cosine(input))),
             Mistake::new("the cosine is missing: light at a slant spreads over a larger area", |input| {
                 if cosine(input) > 0.0 { radiance(input, 1.0) } else { 0.0 }
-            }),
-            Mistake::new("the way to the light is not brought to length 1 before the cosine is taken", |input| {
-                radiance(input, cosine(input) * distance(input))
             }),
             Mistake::new("the direction leads from the light to the surface; the other way is meant", |input| {
                 radiance(input, -cosine(input))

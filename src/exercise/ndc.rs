@@ -33,26 +33,13 @@ fn question() -> Question<Input, Pixel> {
                 Some([inside(x, w), inside(y, h)])
             }),
             Mistake::new(
-                "just below 1, or at 1, the product rounds up to the size, and there is no such pixel",
-                |input| {
-                    let &([x, y], w, h) = input;
-                    ((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y))
-                        .then(|| [(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
-                },
+                "nothing is outside: a cast to u32 turns what is below 0 or no number into 0",
+                |&([x, y], w, h)| Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32]),
             ),
-            Mistake::new("just below 1 the product rounds up to the size, and there is no such pixel", |input| {
-                let &([x, y], w, h) = input;
-                ((0.0..1.0).contains(&x) && (0.0..1.0).contains(&y))
-                    .then(|| [(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
+            Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |&([x, y], w, h)| {
+                let pixel = |n: f64, size| (0.0..=1.0).contains(&n).then(|| (n * f64::from(size)) as u32);
+                Some([pixel(x, w)?, pixel(y, h)?])
             }),
-            Mistake::new(
-                "just below 1 the product rounds up to the size, which is taken for outside",
-                |&([x, y], w, h)| {
-                    let pixel =
-                        |n: f64, size: u32| (n >= 0.0).then(|| (n * f64::from(size)) as u32).filter(|&i| i < size);
-                    Some([pixel(x, w)?, pixel(y, h)?])
-                },
-            ),
             Mistake::new("1 counts as inside; the lower and right edges belong to no pixel", |&([x, y], w, h)| {
                 let pixel = |n: f64, size| if n == 1.0 { Some(size - 1) } else { holder(n, size) };
                 Some([pixel(x, w)?, pixel(y, h)?])
@@ -78,8 +65,7 @@ fn question() -> Question<Input, Pixel> {
             "undo the division by the size, then ask in which unit square the raster point lies",
             "the whole part of x · width is the pixel, but what is below 0, at 1, above it, or no number is outside; \
              decide that before anything is cast to u32, for a cast turns −0.2 and NaN into 0",
-            "inside means 0 ≤ x and x < 1, and so for y; the pixel is (x · width) as u32, and at most width − 1, for \
-             just below 1 the product rounds up",
+            "inside means 0 ≤ x and x < 1, and so for y; the pixel is (x · width) as u32 and (y · height) as u32",
         ],
     }
 }

@@ -27,7 +27,6 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("03_hit", Attempt::NearestSphereT(|o, d, c, r| Some(school(o, d, c, r)?.1).filter(|&t| t > 0.0)), "farther root"),
     ("03_hit", Attempt::NearestSphereT(both_roots), "b² − ac"),
     ("03_hit", Attempt::NearestSphereT(unit_assumed), "length 1"),
-    ("03_hit", Attempt::NearestSphereT(cancelling), "cancels"),
     ("04_orthographic", Attempt::OrthographicRay(|[x, y], h| ([x * h, y * h, 0.0], AHEAD)), "twice as far"),
     ("04_orthographic", Attempt::OrthographicRay(|[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])), "−z"),
     (
@@ -42,11 +41,11 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     (
         "05_pinhole",
         Attempt::PerspectiveDirection(|[x, y], t| normalised([x * t.tan(), y * t.tan(), -1.0])),
-        "of the tangent",
+        "taken of the tangent",
     ),
     ("06_ndc", Attempt::PixelFromNdc(|[x, y], w, h| Some([(x * w as f64) as u32, (y * h as f64) as u32])), "outside"),
     ("06_ndc", Attempt::PixelFromNdc(clamped), "belongs to none"),
-    ("06_ndc", Attempt::PixelFromNdc(no_clamp), "rounds up to the size"),
+    ("06_ndc", Attempt::PixelFromNdc(one_too_many), "does not have"),
     ("06_ndc", Attempt::PixelFromNdc(closed), "1 counts as inside"),
     ("06_ndc", Attempt::PixelFromNdc(less_one), "size less 1"),
     ("06_ndc", Attempt::PixelFromNdc(rounded), "nearest"),
@@ -83,7 +82,7 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(without_pi), "π is missing"),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(not_a_number), "no number"),
-    ("11_conventions", Attempt::OursFromTheirs(|v, _, _, _| v), "turned"),
+    ("11_conventions", Attempt::OursFromTheirs(|v, _, _, _| v), "as it is"),
     ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "wrong way"),
     ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, _| [s(r, x), s(u, y), z]), "z is never"),
     ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], _, u, a| [x, s(u, y), s(!a, z)]), "x is never"),
@@ -152,23 +151,14 @@ fn unit_assumed(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Opti
     [s - h, s + h].into_iter().find(|&t| t > 0.0)
 }
 
-fn cancelling(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Option<f64> {
-    let f = minus(centre, o);
-    let s = dot(f, d) / dot(d, d);
-    let across = minus(f, d.map(|part| part * s));
-    let h = (radius * radius - dot(across, across)) / dot(d, d);
-    let h = (h >= 0.0).then(|| h.sqrt())?;
-    [s - h, s + h].into_iter().find(|&t| t > 0.0)
-}
-
 fn clamped([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
     let along = |n: f64, size: u32| ((n * f64::from(size)).floor().max(0.0) as u32).min(size - 1);
     Some([along(x, width), along(y, height)])
 }
 
-fn no_clamp([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
-    let inside = |n: f64| (0.0..1.0).contains(&n);
-    (inside(x) && inside(y)).then(|| [(x * f64::from(width)) as u32, (y * f64::from(height)) as u32])
+fn one_too_many([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let outside = x < 0.0 || y < 0.0 || x > 1.0 || y > 1.0 || x.is_nan() || y.is_nan();
+    (!outside).then(|| [(x * f64::from(width)) as u32, (y * f64::from(height)) as u32])
 }
 
 fn closed([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
