@@ -30,16 +30,7 @@ fn every_page_keeps_the_rules() {
 
 #[test]
 fn every_anchor_is_in_the_book() {
-    let pages = pages();
-    // A page that is still being written will include its exercise with the rest.
-    let waiting = |problem: &Problem| {
-        let page = problem.file.strip_prefix("chapters/").and_then(|file| file.strip_suffix("/exercise.rs"));
-        let page = page.and_then(|stem| pages.iter().find(|page| page.name.strip_suffix(".md") == Some(stem)));
-        page.is_some_and(|page| page.text.contains("(being written)"))
-    };
-    let mut orphans = check::listing::orphans(root(), &["src", "chapters", "tests"], &pages);
-    orphans.retain(|problem| !waiting(problem));
-    none(&orphans);
+    none(&check::listing::orphans(root(), &["src", "chapters", "tests"], &pages()));
 }
 
 #[test]
