@@ -94,7 +94,7 @@ fn bad_numbers() {
 #[test]
 fn scenes_at_the_edge_are_accepted() {
     type Edge = (&'static str, fn(&mut World));
-    let edges: [Edge; 14] = [
+    let edges: [Edge; 16] = [
         ("fov 179.99", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(179.99))),
         ("fov 0.01", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(0.01))),
         ("1 × 1", |w| put(w, "main", Resolution { width: 1, height: 1 })),
@@ -107,6 +107,8 @@ fn scenes_at_the_edge_are_accepted() {
         ("radius 1e17", |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e17)),
         ("radius 1e-17", |w| edit::<Sphere>(w, "ball", |s| s.radius = 1e-17)),
         ("a mirrored sphere", |w| edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(-2.0, 2.0, 2.0))),
+        ("a mirrored egg", |w| edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, -2.0, 1.0))),
+        ("a needle", |w| edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1e-3, 9e3, 1e-3))),
         ("a plane stretched unevenly", |w| edit::<Placement>(w, "floor", |p| p.scale = DVec3::new(1.0, 2.0, 3.0))),
         ("a long normal", |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::new(0.0, 1e300, 1e299))),
         ("black and white", |w| edit::<Matte>(w, "ball", |m| m.colour = Rgb::new(0.0, 1.0, 0.0))),

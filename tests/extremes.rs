@@ -38,6 +38,11 @@ fn cameras_hold() {
 }
 
 #[test]
+fn transforms_hold() {
+    holds(Group::Transform, 2048);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

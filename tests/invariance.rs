@@ -9,7 +9,9 @@ use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{PointLight, Statistics};
-use scenes::{EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, ties, turned};
+use scenes::{
+    EYES, Eye, FilmBits, Setup, digest, film, film_by, full, named, offer, one_world, stretched, ties, turned,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -23,6 +25,7 @@ fn pictures() -> Vec<(&'static str, World)> {
     vec![
         ("perspective", turned(Setup::default())),
         ("orthographic", turned(Setup { eye: Eye::Orthographic, ..Setup::default() })),
+        ("stretched", stretched(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -138,7 +141,7 @@ fn every_order_that_the_schedule_allows() {
             }
         }
         // Two kinds of shape and two columns to start, so each order-free set that runs has two orders.
-        let least = if matches!(name, "perspective" | "orthographic") { 16 } else { 8 };
+        let least = if matches!(name, "perspective" | "orthographic" | "stretched") { 16 } else { 8 };
         assert_eq!(orders.len(), least, "{name}: not every order that is allowed was seen in {SEEDS} seeds");
         eprintln!("orders of {name}: {SEEDS} seeds × 4 renders, {} different orders, all equal", orders.len());
     }
@@ -216,7 +219,7 @@ fn an_empty_bounce_and_statistics() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned] {
+        for scene in [full, turned, stretched] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -226,7 +229,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 2 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 3 scenes, all equal");
 }
 
 #[test]
@@ -236,13 +239,15 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        let expected = film(&full(setup));
-        for axes in 1..8_u32 {
-            for sign in [far, -far] {
-                let by = DVec3::from([0, 1, 2].map(|axis| if axes >> axis & 1 == 1 { sign } else { 0.0 }));
-                let film = film(&full(Setup { shift: setup.shift + by, ..setup }));
-                film.assert_is(&expected, &format!("{eye:?}, moved by {by}"));
-                tried += 1;
+        for scene in [full, stretched] {
+            let expected = film(&scene(setup));
+            for axes in 1..8_u32 {
+                for sign in [far, -far] {
+                    let by = DVec3::from([0, 1, 2].map(|axis| if axes >> axis & 1 == 1 { sign } else { 0.0 }));
+                    let film = film(&scene(Setup { shift: setup.shift + by, ..setup }));
+                    film.assert_is(&expected, &format!("{eye:?}, moved by {by}"));
+                    tried += 1;
+                }
             }
         }
     }

@@ -13,6 +13,7 @@ use bevy_ecs::query::ComponentAccessKind;
 use bevy_ecs::schedule::Schedule;
 use bevy_ecs::system::SystemAccess;
 use bevy_ecs::world::EntityRef;
+use glam::DVec3;
 use pinhole::Error;
 use pinhole::extract::ImageShape;
 use pinhole::film::FilmTile;
@@ -22,13 +23,14 @@ use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world,
-    singles_and_pairs, toggled,
+    singles_and_pairs, stretched, toggled,
 };
 use std::collections::BTreeSet;
 
 /// Whether a combination cannot make a picture: its view asks for what nothing in it writes.
 fn pictureless(on: &[Toggle]) -> bool {
-    on.contains(&Toggle::View) && !on.contains(&Toggle::Sphere) && !on.contains(&Toggle::Plane)
+    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane];
+    on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
 
 fn plan_of(scene: &World) -> Plan {
@@ -207,9 +209,10 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         }
     }
     type Change = fn(&mut EntityWorldMut<'_>);
-    let changes: [(&str, Change, Change); 7] = [
+    let changes: [(&str, Change, Change); 8] = [
         ("a light", add::<PointLight>, take::<PointLight>),
         ("a sphere", add::<(Sphere, Matte)>, take::<(Sphere, Matte)>),
+        ("an ellipsoid", add_ellipsoid, take::<(Sphere, Matte, Placement)>),
         ("a plane", add::<(Plane, Matte)>, take::<(Plane, Matte)>),
         ("a background", add::<Background>, take::<Background>),
         ("a view", add_view, take::<View>),
@@ -243,19 +246,25 @@ fn take<B: Bundle>(entity: &mut EntityWorldMut<'_>) {
     entity.remove::<B>();
 }
 
+fn add_ellipsoid(entity: &mut EntityWorldMut<'_>) {
+    let placement = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..Placement::default() };
+    entity.insert((Sphere::default(), Matte::default(), placement));
+}
+
 fn add_view(entity: &mut EntityWorldMut<'_>) {
     entity.insert(View { column: "raster".into() });
 }
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 4] = [
+    let kinds: [(&str, &[&str]); 5] = [
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
+        ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
         ("lamp", &["Aim at lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
-    let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Shadow, Toggle::Background];
+    let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
     for (name, stages) in kinds {
         let mut scene = toggled(&on);
         let entity = named(&mut scene, name);
@@ -288,7 +297,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
-    eprintln!("disabled: 5 entities, 11 stages; unused: 1 matte in 2 scenes");
+    eprintln!("disabled: 6 entities, 14 stages; unused: 1 matte in 2 scenes");
 }
 
 fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {
@@ -301,17 +310,23 @@ fn reasons_name_the_first_three() {
     for number in 1..=4 {
         let at = Placement::at(f64::from(number), 1.0, 0.0);
         scene.spawn((Name::new(format!("ball {number}")), Sphere { radius: 0.25 }, Matte::default(), at));
+        let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..at };
+        scene.spawn((Name::new(format!("egg {number}")), Sphere { radius: 0.125 }, Matte::default(), egg));
         scene.spawn((Name::new(format!("pane {number}")), Plane::default(), Matte::default(), at));
         let at = Placement::at(f64::from(number), 3.0, 1.0);
         scene.spawn((Name::new(format!("lamp {number}")), PointLight::default(), at));
     }
-    let (balls, panes, lamps) = (three("ball"), three("pane"), three("lamp"));
-    let mattes = "\"ball 1\", \"pane 1\", \"ball 2\", …".to_string();
-    let expected: [(&str, Vec<&String>); 13] = [
-        ("Start with nothing met", vec![&balls, &panes]),
+    let (balls, eggs, panes, lamps) = (three("ball"), three("egg"), three("pane"), three("lamp"));
+    let mattes = "\"ball 1\", \"egg 1\", \"pane 1\", …".to_string();
+    let spheres = "\"ball 1\", \"egg 1\", \"ball 2\", …".to_string();
+    let expected: [(&str, Vec<&String>); 16] = [
+        ("Start with nothing met", vec![&spheres, &panes]),
+        ("Intersect ellipsoids", vec![&eggs]),
+        ("Describe ellipsoid surfaces", vec![&eggs]),
+        ("Look for ellipsoids in the way", vec![&eggs, &lamps]),
         ("Intersect spheres", vec![&balls]),
         ("Intersect planes", vec![&panes]),
-        ("Classify hits", vec![&balls, &panes]),
+        ("Classify hits", vec![&spheres, &panes]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
         ("Aim at lights", vec![&lamps, &mattes]),

@@ -1,6 +1,6 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light that a point of a surface sees or does not.
+//! Does the light reach the point that a ray has hit? Another ray, from the point to the light, asks what is in the way.
+//! Two lamps of different colours: where one is hidden, the other colours the shadow.
+//! New here: the way to the light, stage by stage; the box that chapter 05 left closed.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -16,7 +16,13 @@ pub fn chapter() -> Chapter {
     Chapter::new("10_light_and_shadow", "does light get there", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(shade::start_stage())
+        .offer(shade::background_stage())
+        .offer(shade::aim_stage())
+        .offer(shade::start_shadow_stage())
+        .offer(shade::sphere_shadow_stage())
+        .offer(shade::plane_shadow_stage())
+        .offer(shade::light_stage())
 }
 // ANCHOR_END: chapter
 
@@ -24,19 +30,23 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(36.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 1.8, 6.0].into(), target: [0.0, 0.75, 0.0].into(), ..LookAt::default() },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
+    for (name, radius, place, grey) in [
+        ("large ball", 1.0, Placement::at(-0.3, 1.025, 0.0), 0.75),
+        ("small ball", 0.35, Placement::at(1.3, 0.15625, 0.9), 0.7),
+        ("pebble", 0.2, Placement::at(-1.45, 2.175, 1.0), 0.7),
     ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
+        world.spawn((Name::new(name), Sphere { radius }, place, Matte { colour: Rgb::grey(grey) }));
     }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
-    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
+    let slope = Plane { normal: [0.0, 40.0, 9.0].into() };
+    world.spawn((Name::new("slope"), slope, Matte { colour: Rgb::grey(0.6) }));
+    for (name, place, intensity) in [
+        ("warm lamp", Placement::at(-4.0, 4.6, 3.4), Rgb::new(105.0, 68.0, 34.0)),
+        ("cool lamp", Placement::at(3.6, 3.6, 2.4), Rgb::new(16.0, 30.0, 54.0)),
+    ] {
+        world.spawn((Name::new(name), PointLight { intensity, ..PointLight::default() }, place));
+    }
 }
 // ANCHOR_END: scene

@@ -46,7 +46,7 @@ pub enum Command {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// sphere, plane, shadow or camera (default: all)
+    /// sphere, plane, shadow, camera or transform (default: all)
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text

@@ -21,7 +21,7 @@ pub fn check(yours: fn([Vector; 3], Vector) -> Vector, patience: Duration) -> Re
 fn question() -> Question<Input, Vector> {
     Question {
         function: "normal_world_from_object",
-        kit_has: ("src/extract/plane.rs", "world_from_normal"),
+        kit_has: ("src/extract/pose.rs", "normal_world_from_object"),
         probes: asked(),
         tell: |(columns, normal)| format!("columns {}, normal {}", columns.shown(), normal.shown()),
         kit: |&(columns, normal)| {

@@ -9,6 +9,7 @@
 mod background;
 mod camera;
 mod check;
+mod ellipsoid;
 mod matte;
 mod plane;
 mod point_light;
@@ -18,10 +19,14 @@ mod sphere;
 
 pub use background::BackgroundTable;
 pub use camera::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, camera_entity, eye, tan_half};
+pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use matte::MatteTable;
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
-pub use pose::{look_at_axes, world_from_entity};
+pub use pose::{
+    Pose, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
+    world_from_entity,
+};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 
@@ -39,6 +44,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     ShapeTable::extract(scene)?;
     MatteTable::extract(scene)?;
     SphereTable::extract(scene)?;
+    EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     BackgroundTable::extract(scene)?;

@@ -1,5 +1,6 @@
 use super::check::{finite_point, kind_and_name, triple};
-use super::{eye, shape_entities, world_from_entity};
+use super::pose::{normal_world_from_object, pose};
+use super::{eye, shape_entities};
 use crate::plan::Table;
 use crate::scene::{Plane, Refusal};
 use bevy_ecs::prelude::*;
@@ -26,16 +27,15 @@ impl Table for PlaneTable {
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
             let Some(plane) = scene.get::<Plane>(entity) else { continue };
             let who = kind_and_name(scene, "plane", entity);
-            let pose = world_from_entity(scene, &who, entity)?;
+            let pose = pose(scene, &who, entity)?;
             let largest = plane.normal.abs().max_element();
             if !(largest > 0.0 && plane.normal.is_finite()) {
                 let accepted = "it must be a finite direction other than 0";
                 return Err(Refusal::new(who, "normal", triple(plane.normal), accepted));
             }
-            let world_from_normal = pose.matrix3.inverse().transpose();
-            let along = world_from_normal * (plane.normal / largest);
+            let along = normal_world_from_object(pose.entity_from_world, plane.normal / largest);
             let normal = (along / along.abs().max_element()).normalize().as_vec3().as_dvec3();
-            let point = finite_point(&who, "position", pose.translation - eye)?;
+            let point = finite_point(&who, "position", pose.world_from_entity.translation - eye)?;
             table.normal.push(normal);
             table.offset.push(normal.dot(point));
             table.shape.push(shape as u32);

@@ -9,11 +9,28 @@ const UNIT_TOLERANCE: f64 = 1e-6;
 const LEAST_SINE: f64 = 1e-6;
 const ONE_OF_THE_TWO: &str = "a LookAt already says where it stands and looks: give one of the two";
 
+/// Where an entity's own space lies in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Takes a point of the entity's space to the world.
+    pub world_from_entity: DAffine3,
+    /// The linear part turned round, made of each placement's own inverse.
+    ///
+    /// An inverse taken of the whole map would lose twice the digits by which the map stretches one way more than
+    /// another.
+    pub entity_from_world: DMat3,
+}
+
 /// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
 ///
 /// `who` is how a refusal calls the entity, such as `sphere "ball"`.
 pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
-    let mut world_from_entity = parent_from_entity(scene, who, entity)?;
+    Ok(pose(scene, who, entity)?.world_from_entity)
+}
+
+/// The same map with its inverse.
+pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
+    let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
     let (mut child, mut seen) = (entity, vec![entity]);
     while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
         if seen.contains(&parent) {
@@ -22,7 +39,9 @@ pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAf
         }
         seen.push(parent);
         let parent_name = format!("{who}'s parent {}", called(scene, parent));
-        world_from_entity = parent_from_entity(scene, &parent_name, parent)? * world_from_entity;
+        let above = parent_from_entity(scene, &parent_name, parent)?;
+        world_from_entity = above.world_from_entity * world_from_entity;
+        entity_from_world *= above.entity_from_world;
         child = parent;
     }
     let determinant = world_from_entity.matrix3.determinant();
@@ -30,10 +49,11 @@ pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAf
         let value = format!("a map of determinant {}", number(determinant));
         return Err(Refusal::new(who, "placement", value, "it must be finite and invertible"));
     }
-    Ok(world_from_entity)
+    Ok(Pose { world_from_entity, entity_from_world })
 }
 
-fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
+/// The same up to the entity's parent only.
+fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
     let look_at = scene.get::<LookAt>(entity);
     let position = finite_point(who, "position", placement.position)?;
@@ -62,8 +82,41 @@ fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffin
         }
         Some(look) => (look_at_axes(who, look)?, look.eye),
     };
-    Ok(DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin })
+    Ok(Pose {
+        world_from_entity: DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin },
+        entity_from_world: DMat3::from_diagonal(1.0 / scale) * axes.transpose(),
+    })
 }
+
+// ANCHOR: point_object_from_world
+/// A point: its offset from where the object's origin stands, turned and scaled back.
+#[inline(always)]
+pub fn point_object_from_world(object_from_world: DMat3, origin: DVec3, point: DVec3) -> DVec3 {
+    object_from_world * (point - origin)
+}
+// ANCHOR_END: point_object_from_world
+
+// ANCHOR: direction_object_from_world
+/// A direction: a difference of two points, so the origin falls out.
+///
+/// Its length changes; a ray whose direction keeps that length has the same t in both spaces.
+#[inline(always)]
+pub fn direction_object_from_world(object_from_world: DMat3, direction: DVec3) -> DVec3 {
+    object_from_world * direction
+}
+// ANCHOR_END: direction_object_from_world
+
+// ANCHOR: normal_world_from_object
+/// A normal: what keeps n · v = 0 for every direction v along the surface.
+///
+/// With v in the world and A v in the object, n · (A v) = (Aᵀn) · v, so the transpose of the map *into* the object takes
+/// the normal *out* of it: the inverse transpose of the way that points go.
+/// Outward stays outward, also where the map mirrors; the length changes.
+#[inline(always)]
+pub fn normal_world_from_object(object_from_world: DMat3, normal: DVec3) -> DVec3 {
+    object_from_world.transpose() * normal
+}
+// ANCHOR_END: normal_world_from_object
 
 fn quadruple(q: DQuat) -> String {
     format!("({}, {}, {}, {})", number(q.x), number(q.y), number(q.z), number(q.w))

@@ -1,5 +1,6 @@
 use super::check::kind_and_name;
 use super::matte::matte_entities;
+use super::unevenly_scaled;
 use crate::plan::{Table, entities};
 use crate::scene::{Disabled, Matte, Plane, Refusal, Sphere, UsesMaterial, called};
 use bevy_ecs::prelude::*;
@@ -11,6 +12,8 @@ pub enum ShapeKind {
     Sphere,
     /// A row of the plane table.
     Plane,
+    /// A row of the ellipsoid table.
+    Ellipsoid,
 }
 
 /// All shapes in spawn order; a shape's number here is the one that hits carry.
@@ -41,7 +44,7 @@ impl Table for ShapeTable {
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let mattes = matte_entities(scene);
         let mut table = Self::default();
-        let (mut spheres, mut planes) = (0, 0);
+        let (mut spheres, mut planes, mut ellipsoids) = (0, 0, 0);
         for entity in shape_entities(scene) {
             let (kind, row, word) = match (scene.get::<Sphere>(entity), scene.get::<Plane>(entity)) {
                 (Some(_), Some(_)) => {
@@ -53,6 +56,7 @@ impl Table for ShapeTable {
                         "an entity may be one shape only",
                     ));
                 }
+                (Some(_), None) if unevenly_scaled(scene, entity) => (ShapeKind::Ellipsoid, &mut ellipsoids, "sphere"),
                 (Some(_), None) => (ShapeKind::Sphere, &mut spheres, "sphere"),
                 _ => (ShapeKind::Plane, &mut planes, "plane"),
             };

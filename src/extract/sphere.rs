@@ -1,14 +1,13 @@
-use super::check::{finite_point, kind_and_name, number, positive_length, triple};
+use super::check::{finite_point, kind_and_name, number, positive_length};
+use super::ellipsoid::even_scale;
 use super::{eye, shape_entities, world_from_entity};
 use crate::plan::Table;
 use crate::scene::{Refusal, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// How far the three scales of a sphere may differ, relative to the first, and still be rounding.
-const EVEN_TOLERANCE: f64 = 1e-9;
-
-/// Spheres in render space, in spawn order.
+/// Spheres in render space, in spawn order; those that their placement scales unevenly are
+/// [ellipsoids](super::EllipsoidTable).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SphereTable {
     /// Centre, x.
@@ -41,7 +40,7 @@ impl Table for SphereTable {
             let who = kind_and_name(scene, "sphere", entity);
             let pose = world_from_entity(scene, &who, entity)?;
             positive_length(&who, "radius", sphere.radius)?;
-            let scale = even_scale(&who, pose.matrix3)?;
+            let Some(scale) = even_scale(pose.matrix3) else { continue };
             let centre = finite_point(&who, "position", pose.translation - eye)?;
             table.x.push(centre.x);
             table.y.push(centre.y);
@@ -58,18 +57,5 @@ impl Table for SphereTable {
 
     fn bytes(&self) -> usize {
         self.x.len() * (4 * size_of::<f64>() + size_of::<u32>())
-    }
-}
-
-/// The one factor by which a map stretches every direction, mirrored or not.
-fn even_scale(who: &str, world_from_entity: glam::DMat3) -> Result<f64, Refusal> {
-    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
-    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
-    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
-    let uneven = (lengths - lengths.x).abs().max_element();
-    if uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x {
-        Ok(lengths.x)
-    } else {
-        Err(Refusal::new(who, "scale", triple(lengths), "a sphere must be scaled by the same factor in all directions"))
     }
 }

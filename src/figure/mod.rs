@@ -6,12 +6,18 @@
 //! down, [`WIDTH`](pen::WIDTH) wide).
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
 
+mod acne;
 mod grid;
 mod hit;
 mod label;
+mod look_at;
+mod normals;
+mod occluders;
+mod offset;
 mod orthographic;
 mod patch;
 mod pen;
+mod picture;
 mod pinhole;
 mod pixel_ray;
 mod props;
@@ -30,6 +36,7 @@ pub use grid::{Grid, drawn_distance};
 pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
 pub use patch::Patch;
 pub use pen::{Fill, Pen};
+pub use picture::Picture;
 pub use pinhole::chosen_rays;
 pub use pixel_ray::{Onward, PixelRay};
 pub use scenery::{Scenery, Strand};
@@ -55,7 +62,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 5] {
+pub fn figures() -> [Figure; 9] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -72,6 +79,30 @@ pub fn figures() -> [Figure; 5] {
             chapter: "05_pinhole",
             about: "a pinhole camera: rays from the eye through pixel centres",
             draw: pinhole::draw,
+        },
+        Figure {
+            name: "09_camera_to_world",
+            chapter: "09_camera_to_world",
+            about: "the camera's axes, made of eye, target and up",
+            draw: look_at::draw,
+        },
+        Figure {
+            name: "09_normals",
+            chapter: "09_camera_to_world",
+            about: "spheres scaled unevenly, lit by wrong normals and by right ones",
+            draw: normals::draw,
+        },
+        Figure {
+            name: "10_light_and_shadow",
+            chapter: "10_light_and_shadow",
+            about: "a hit, its error, and where its shadow ray starts",
+            draw: offset::draw,
+        },
+        Figure {
+            name: "10_acne",
+            chapter: "10_light_and_shadow",
+            about: "shadow rays that start where textbooks have them, in three sizes of one scene",
+            draw: acne::draw,
         },
     ]
 }
@@ -96,12 +127,13 @@ pub fn draw(chapters: &[Chapter], name: &str) -> Result<Drawing> {
 impl Figure {
     /// The words at a figure's foot: scene, resolution, what else a reader has to know, and the command.
     pub fn foot(&self, subject: &Subject, note: &str) -> String {
-        let (width, height) = (subject.image.width, subject.image.height);
+        self.stamp([subject.image.width, subject.image.height], note)
+    }
+
+    /// The same by the resolution alone.
+    fn stamp(&self, [width, height]: [u32; 2], note: &str) -> String {
         let note = if note.is_empty() { String::new() } else { format!(" · {note}") };
-        format!(
-            "scene {}, {width} × {height} pixels{note} · cargo run --release -- figure {}",
-            subject.chapter, self.name
-        )
+        format!("scene {}, {width} × {height} pixels{note} · cargo run --release -- figure {}", self.chapter, self.name)
     }
 
     /// Why a chapter's scene does not suit the figure.

@@ -147,7 +147,7 @@ fn circle(centre: DVec2, radius: f64) -> Vec<DVec2> {
 }
 
 /// The convex outline of points, counter-clockwise, by walking them from left to right and back.
-fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+pub(super) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let walk = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut chain: Vec<DVec2> = Vec::new();

@@ -1,5 +1,5 @@
 use crate::film::{Curve, FilmTile, byte_from_linear};
-use crate::intersect::{Hits, NO_SHAPE};
+use crate::intersect::{Hits, NO_SHAPE, Surface, Surfaces};
 use crate::rays::{Tile, WorldRays};
 use crate::shade::{LightRays, ShadowHits};
 use bevy_ecs::world::EntityRef;
@@ -16,6 +16,8 @@ pub struct PixelRay {
     pub direction: DVec3,
     /// The distance and the shape it meets; none where nothing is met.
     pub hit: Option<(f64, u32)>,
+    /// The surface it meets; none where nothing is met or no stage describes surfaces.
+    pub surface: Option<Surface>,
     /// The colour that the kit rendered, as a screen shows it.
     pub colour: String,
     /// From the surface on to each light that it faces: where it starts, the light, and what stands in between.
@@ -64,6 +66,7 @@ pub fn pixel_rays(tile: &EntityRef<'_>, lights: &[DVec3]) -> Vec<PixelRay> {
             origin: world.point_at(row, 0.0),
             direction: world.direction_of(row),
             hit,
+            surface: hit.and_then(|_| tile.get::<Surfaces>()).map(|surfaces| surfaces.get(row)),
             colour: screen_colour(film.mean(row)),
             onward: onward(tile, row as u32, lights),
         }

@@ -96,6 +96,7 @@ mod tests {
             origin: DVec3::X,
             direction: DVec3::NEG_Z,
             hit: None,
+            surface: None,
             colour: String::new(),
             onward: Vec::new(),
         };

@@ -81,6 +81,16 @@ impl Svg {
         self.circle(centre, radius, Some(&Fill::new(format!("url(#{id})"), 1.0)), None);
     }
 
+    /// A picture of pixels within a rectangle, as an address that holds the file.
+    pub(super) fn image(&mut self, low: DVec2, size: DVec2, address: &str) {
+        let [x, y, width, height] = [low.x, low.y, size.x, size.y].map(number);
+        let _ = writeln!(
+            self.body,
+            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             style=\"image-rendering: pixelated\" href=\"{address}\"/>"
+        );
+    }
+
     /// A dot that marks a point.
     pub fn dot(&mut self, centre: DVec2, radius: f64, colour: &str) {
         self.circle(centre, radius, Some(&Fill::new(colour, 1.0)), None);

@@ -15,7 +15,9 @@ pub fn chapter(name: &'static str) -> Chapter {
 
 /// All chapters that figures show.
 pub fn chapters() -> Vec<Chapter> {
-    ["02_ray", "03_hit", "04_orthographic", "05_pinhole"].map(chapter).to_vec()
+    ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "09_camera_to_world", "10_light_and_shadow"]
+        .map(chapter)
+        .to_vec()
 }
 
 fn central(world: &mut World) {
@@ -36,5 +38,7 @@ fn things(world: &mut World) {
     let (red, gold) = (Rgb::new(0.85, 0.35, 0.2), Rgb::new(0.9, 0.75, 0.3));
     world.spawn((Sphere { radius: 0.8 }, Placement::at(-1.0, 0.8, 0.5), Matte { colour: red }));
     world.spawn((Sphere { radius: 0.7 }, Placement::at(0.5, 0.7, -1.5), Matte { colour: gold }));
+    let egg = Placement { scale: [0.6, 1.0, 0.4].into(), ..Placement::at(0.9, 0.3, 1.4) };
+    world.spawn((Sphere { radius: 0.3 }, egg, Matte { colour: gold }));
     world.spawn((Plane::default(), Matte { colour: Rgb::grey(0.6) }));
 }

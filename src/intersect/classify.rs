@@ -13,6 +13,14 @@ column! {
 }
 
 column! {
+    /// The rows that hit an ellipsoid, ascending.
+    pub struct EllipsoidRows("ellipsoid rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
     /// The rows that hit a plane, ascending.
     pub struct PlaneRows("plane rows", "rows of the tile", "rows", Ray) {
         /// A row of the hits.
@@ -36,14 +44,18 @@ pub fn classify_hits(
     mut tiles: Query<(
         &Hits,
         Option<&mut SphereRows>,
+        Option<&mut EllipsoidRows>,
         Option<&mut PlaneRows>,
         Option<&mut MatteRows>,
         Option<&mut Surfaces>,
     )>,
 ) {
-    for (hits, spheres, planes, mattes, surfaces) in &mut tiles {
+    for (hits, spheres, ellipsoids, planes, mattes, surfaces) in &mut tiles {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
+        }
+        if let Some(mut list) = ellipsoids {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Ellipsoid);
         }
         if let Some(mut list) = planes {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Plane);
@@ -84,6 +96,12 @@ impl SphereRows {
     }
 }
 
+impl EllipsoidRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl PlaneRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -101,6 +119,7 @@ pub fn classify_stage() -> Stage {
     Stage::new("Classify hits", TileSystems::Classify, classify_hits)
         .reads::<Hits>()
         .writes::<SphereRows>()
+        .writes::<EllipsoidRows>()
         .writes::<PlaneRows>()
         .writes::<MatteRows>()
         .writes::<Surfaces>()

@@ -6,22 +6,31 @@
 //! equal distances the lowest shape number wins, so the order of the kinds does not matter.
 
 mod classify;
+mod ellipsoid;
 mod hits;
 mod plane;
 mod sphere;
 mod surface;
 mod wide;
 
-pub use classify::{MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use classify::{EllipsoidRows, MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use ellipsoid::{
+    ellipsoid_evidence, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage, ellipsoid_t, ellipsoid_verdict,
+    intersect_ellipsoids,
+};
 pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
-pub use sphere::{Verdict, intersect_spheres, nearness, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict};
+pub use sphere::{
+    Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,
+};
 pub use surface::{Surface, Surfaces, offset_bound, offset_origin, sum_of_parts};
-pub use wide::wide_sphere_t;
+pub use wide::{wide_ellipsoid_point, wide_ellipsoid_t, wide_sphere_t};
 
 use crate::plan::Stage;
 
 /// Intersection of camera rays, every kind of shape, up to the surface that was hit.
 pub fn stages() -> Vec<Stage> {
-    vec![start_stage(), sphere_stage(), plane_stage(), classify_stage(), sphere_surface_stage(), plane_surface_stage()]
+    let mut stages = vec![start_stage(), sphere_stage(), ellipsoid_stage(), plane_stage(), classify_stage()];
+    stages.extend([sphere_surface_stage(), ellipsoid_surface_stage(), plane_surface_stage()]);
+    stages
 }

@@ -2,7 +2,7 @@ use super::classify::SphereRows;
 use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
 use super::wide::wide_sphere_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{ShapeTable, SphereTable};
+use crate::extract::{ShapeTable, SphereTable, unevenly_scaled};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
@@ -11,9 +11,9 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 /// Rays tested together before it is asked whether any of them came near.
-const LANES: usize = 16;
+pub(super) const LANES: usize = 16;
 /// u, half the spacing of f32 numbers from 1 on.
-const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
+pub(super) const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
 /// What the quick method says of a ray and a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,20 +95,10 @@ pub fn intersect_spheres<R: RayColumn, H: HitColumn>(
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
-    let [ox, oy, oz] = rays.origin.map(|lane| &lane[..rows]);
-    let [dx, dy, dz] = rays.direction.map(|lane| &lane[..rows]);
     let mut start = 0;
     while start < rows {
         let end = rows.min(start + LANES);
-        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, row) in (start..end).enumerate() {
-            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
-        }
-        let mut inverse = [1.0_f64; LANES];
-        for (lane, inverse) in inverse.iter_mut().enumerate() {
-            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
-        }
+        let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
         for sphere in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
             let mut nearest = [f64::NEG_INFINITY; LANES];
@@ -124,9 +114,34 @@ fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: 
     }
 }
 
+/// Rays tested together, in f64: origins, directions, 1 / R·R; lanes beyond the last row hold a ray of no meaning.
+pub(super) struct RayBlock {
+    pub o: [[f64; LANES]; 3],
+    pub d: [[f64; LANES]; 3],
+    pub inverse: [f64; LANES],
+}
+
+impl RayBlock {
+    #[inline(always)]
+    pub fn of(rays: RayLanes<'_>, start: usize, end: usize) -> Self {
+        let [ox, oy, oz] = rays.origin.map(|lane| &lane[..end]);
+        let [dx, dy, dz] = rays.direction.map(|lane| &lane[..end]);
+        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
+        for (lane, row) in (start..end).enumerate() {
+            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        }
+        let mut inverse = [1.0_f64; LANES];
+        for (lane, inverse) in inverse.iter_mut().enumerate() {
+            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
+        }
+        Self { o, d, inverse }
+    }
+}
+
 /// Three lanes' numbers as a vector.
 #[inline(always)]
-fn vector(lanes: &[[f64; LANES]; 3], lane: usize) -> DVec3 {
+pub(super) fn vector(lanes: &[[f64; LANES]; 3], lane: usize) -> DVec3 {
     DVec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
 }
 
@@ -200,7 +215,7 @@ pub fn sphere_surface_stage() -> Stage {
         .when(sphere_evidence)
 }
 
-/// Evidence that the scene holds a sphere.
+/// Evidence that the scene holds a sphere that stays one.
 pub fn sphere_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Sphere>(scene, "sphere")
+    Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere))
 }

@@ -2,6 +2,7 @@
 //!
 //! No fused multiply-add is used, so every machine gives the same bits.
 
+use crate::extract::Ellipsoid;
 use glam::DVec3;
 
 /// A number as the unevaluated sum of two f64.
@@ -18,12 +19,17 @@ pub fn wide_sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64
     let f = [0, 1, 2].map(|axis| two_sum(centre[axis], -origin[axis]));
     let (a, b) = (dot(d, d), dot(f, d));
     let c = add(dot(f, f), negated(two_product(radius, radius)));
-    let discriminant = add(multiply(b, b), negated(multiply(a, c))).0;
+    smallest_root(a.0, b.0, c.0, add(multiply(b, b), negated(multiply(a, c))).0)
+}
+// ANCHOR_END: wide_sphere_t
+
+/// The smallest t > 0 with at² − 2bt + c = 0, or infinity, where the discriminant is b² − ac.
+fn smallest_root(a: f64, b: f64, c: f64, discriminant: f64) -> f64 {
     if discriminant < 0.0 {
         return f64::INFINITY;
     }
-    let larger = b.0 + discriminant.sqrt().copysign(b.0);
-    let (outer, inner) = (larger / a.0, c.0 / larger);
+    let larger = b + discriminant.sqrt().copysign(b);
+    let (outer, inner) = (larger / a, c / larger);
     let (near, far) = (outer.min(inner), outer.max(inner));
     if near > 0.0 {
         near
@@ -33,7 +39,49 @@ pub fn wide_sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64
         f64::INFINITY
     }
 }
-// ANCHOR_END: wide_sphere_t
+
+/// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity, to about 100 bits before rounding.
+///
+/// b² − ac is the same as q·q − |p × q|², which cancels nothing but what the ray itself makes small.
+#[cold]
+#[inline(never)]
+pub fn wide_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
+    let p = to_unit(ellipsoid, from_centre(origin, ellipsoid));
+    let q = to_unit(ellipsoid, direction.to_array().map(|part| (part, 0.0)));
+    let area = |i: usize, j: usize| add(multiply(p[i], q[j]), negated(multiply(p[j], q[i])));
+    let across = [area(1, 2), area(2, 0), area(0, 1)];
+    let (a, b, c) = (dot(q, q), dot(p, q), add(dot(p, p), (-1.0, 0.0)));
+    smallest_root(a.0, -b.0, c.0, add(a, negated(dot(across, across))).0)
+}
+
+/// How much further than t the ray meets the ellipsoid, to the last bits, and the point there in the space of the unit
+/// sphere.
+///
+/// The residual at t is taken to about 100 bits, and the root of the quadratic next to it is added.
+#[cold]
+#[inline(never)]
+pub fn wide_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid) -> (f64, DVec3) {
+    let from_centre = from_centre(origin, ellipsoid);
+    let g = to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], two_product(t, direction[axis]))));
+    let residual = add(dot(g, g), (-1.0, 0.0)).0;
+    let (near, q) = (DVec3::from(g.map(|part| part.0)), ellipsoid.unit_from_world * direction);
+    let slope = near.dot(q);
+    let root = (slope * slope - q.dot(q) * residual).max(0.0).sqrt();
+    let steepest = slope + root.copysign(slope);
+    let further = if steepest == 0.0 { 0.0 } else { -residual / steepest };
+    (further, near + further * q)
+}
+
+/// O − C, exactly.
+fn from_centre(origin: DVec3, ellipsoid: &Ellipsoid) -> [Wide; 3] {
+    [0, 1, 2].map(|axis| two_sum(origin[axis], -ellipsoid.centre[axis]))
+}
+
+/// A vector of render space in the space where the ellipsoid is the unit sphere.
+fn to_unit(ellipsoid: &Ellipsoid, v: [Wide; 3]) -> [Wide; 3] {
+    let row = |row| ellipsoid.unit_from_world.row(row).to_array().map(|part| (part, 0.0));
+    [0, 1, 2].map(|axis| dot(row(axis), v))
+}
 
 /// a + b without any error (Knuth, *The Art of Computer Programming* vol. 2, 4.2.2).
 fn two_sum(a: f64, b: f64) -> Wide {

@@ -9,6 +9,7 @@ pub mod exact_angle;
 pub mod exact_vector;
 pub mod extremes;
 pub mod oracle_camera;
+pub mod oracle_ellipsoid;
 pub mod oracle_plane;
 pub mod oracle_sphere;
 pub mod ray_aim;

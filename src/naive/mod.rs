@@ -4,6 +4,8 @@
 //! textbook would. No render ever uses anything from here.
 
 pub mod camera;
+pub mod ellipsoid;
+pub mod euler;
 pub mod plane;
 pub mod shadow;
 pub mod sphere;

@@ -11,6 +11,7 @@ pub struct ShadowStart {
     pub t_min: f32,
 }
 
+// ANCHOR: naive_starts
 /// The hit point itself.
 ///
 /// The point is rounded, so about half of all points lie behind their own surface, which then
@@ -29,6 +30,7 @@ pub fn start_at_hit(position: Vec3) -> ShadowStart {
 pub fn start_after_constant(position: Vec3) -> ShadowStart {
     ShadowStart { origin: position, t_min: 1e-3 }
 }
+// ANCHOR_END: naive_starts
 
 // ANCHOR: naive_shadow_origin
 /// The hit point moved off its surface by 1e-4 along the unit normal.
@@ -42,6 +44,7 @@ pub fn start_off_surface(position: Vec3, normal: Vec3) -> ShadowStart {
 }
 // ANCHOR_END: naive_shadow_origin
 
+// ANCHOR: naive_reach
 /// How far a shadow ray looks: without end.
 ///
 /// The wall behind a lamp then keeps its light away from everything before the wall.
@@ -58,6 +61,7 @@ pub fn reach_without_end(_distance: f64) -> f32 {
 pub fn reach_to_light(distance: f64) -> f32 {
     distance as f32
 }
+// ANCHOR_END: naive_reach
 
 #[cfg(test)]
 mod tests {

@@ -166,10 +166,15 @@ fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> R
 }
 
 /// What became of the stages that could have written a column, in words.
+///
+/// Kinds of which the scene holds nothing, not even disabled, are passed over where another kind has something to say.
 fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
+    let could = |stage: &Stage| stage.writes.iter().any(|own| own.name == column);
+    let holds_none = |row: &PlanRow| row.reason.starts_with("0 ") && !row.reason.contains('"');
+    let none_to_tell = !decided.iter().any(|(stage, row)| could(stage) && !holds_none(row));
     let writers: Vec<String> = decided
         .iter()
-        .filter(|(stage, _)| stage.writes.iter().any(|own| own.name == column))
+        .filter(|(stage, row)| could(stage) && (none_to_tell || !holds_none(row)))
         .map(|(stage, row)| format!("\"{}\" is left out here ({})", stage.name, row.reason))
         .collect();
     if writers.is_empty() { "no stage on offer writes it".into() } else { writers.join(" and ") }

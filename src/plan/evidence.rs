@@ -29,13 +29,25 @@ impl Evidence {
     pub fn among<F: QueryFilter>(scene: &World, noun: &str, reachable: impl Fn(EntityRef<'_>) -> bool) -> Self {
         let enabled = entities::<F>(scene);
         let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
-        let declared = declared::<F>(scene);
+        Self::told(scene, noun, &found, &enabled, &declared::<F>(scene))
+    }
+
+    /// Needed if any enabled entity that passes the filter is of a kind; those of another kind count for nothing.
+    pub fn of_kind<F: QueryFilter>(scene: &World, noun: &str, is_of_kind: impl Fn(Entity) -> bool) -> Self {
+        let mut declared = declared::<F>(scene);
+        declared.retain(|&entity| is_of_kind(entity));
+        let mut found = entities::<F>(scene);
+        found.retain(|&entity| is_of_kind(entity));
+        Self::told(scene, noun, &found, &found, &declared)
+    }
+
+    fn told(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
         let mut reason = counted(found.len(), noun);
         if !found.is_empty() {
-            reason = format!("{reason}: {}", first_three(scene, &found));
+            reason = format!("{reason}: {}", first_three(scene, found));
         } else if !declared.is_empty() {
             let why = if enabled.is_empty() { "disabled" } else { "unused" };
-            reason = format!("{reason} ({} declared: {}, {why})", declared.len(), first_three(scene, &declared));
+            reason = format!("{reason} ({} declared: {}, {why})", declared.len(), first_three(scene, declared));
         }
         Self { needed: !found.is_empty(), reason, count: found.len() }
     }

@@ -81,11 +81,13 @@ fn aim(surface: &Surface, light: DVec3) -> Aimed {
 }
 // ANCHOR_END: aim
 
+// ANCHOR: shadow_reach
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
 #[inline(always)]
 pub fn shadow_reach(distance: f64) -> f32 {
     (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
 }
+// ANCHOR_END: shadow_reach
 
 /// Fills a tile's light rays.
 pub fn aim_at_lights(

@@ -14,14 +14,17 @@ pub use background::{add_background, background_stage};
 pub use flat::{flat_stage, shade_flat};
 pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance, shadow_reach};
 pub use radiance::{Radiance, start_radiance, start_stage};
-pub use shadow::{ShadowHits, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows};
+pub use shadow::{
+    ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+};
 
 use crate::plan::Stage;
 
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), background_stage(), flat_stage()];
-    stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), plane_shadow_stage(), light_stage()]);
+    stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), ellipsoid_shadow_stage()]);
+    stages.extend([plane_shadow_stage(), light_stage()]);
     stages
 }
 

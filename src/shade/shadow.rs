@@ -1,8 +1,10 @@
 use super::LightRays;
-use crate::extract::{PlaneTable, SphereTable, matte_evidence};
-use crate::intersect::{HitColumn, NO_SHAPE, intersect_planes, intersect_spheres};
+use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, matte_evidence};
+use crate::intersect::{
+    HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres, sphere_evidence,
+};
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{Plane, PointLight, Sphere};
+use crate::scene::{Plane, PointLight};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -52,6 +54,7 @@ pub fn start_shadow_stage() -> Stage {
         .when(shadow_evidence)
 }
 
+// ANCHOR: sphere_shadow_stage
 /// The stage that intersects shadow rays with spheres.
 pub fn sphere_shadow_stage() -> Stage {
     Stage::new("Look for spheres in the way", TileSystems::Occlude, intersect_spheres::<LightRays, ShadowHits>)
@@ -59,7 +62,19 @@ pub fn sphere_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<SphereTable>()
-        .when(|scene| Evidence::of::<Sphere>(scene, "sphere").and(shadow_evidence(scene)))
+        .when(|scene| sphere_evidence(scene).and(shadow_evidence(scene)))
+}
+// ANCHOR_END: sphere_shadow_stage
+
+/// The stage that intersects shadow rays with ellipsoids.
+pub fn ellipsoid_shadow_stage() -> Stage {
+    let intersect = intersect_ellipsoids::<LightRays, ShadowHits>;
+    Stage::new("Look for ellipsoids in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<EllipsoidTable>()
+        .when(|scene| ellipsoid_evidence(scene).and(shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with planes.

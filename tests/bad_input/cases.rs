@@ -173,7 +173,27 @@ pub const SHAPES: &[Case] = &[
         edit::<Sphere>(w, "ball", |s| s.radius = 1e17);
         edit::<Placement>(w, "ball", |p| p.scale = DVec3::splat(1e3));
     }),
-    ("an uneven sphere", &["\"ball\"", "scale", "(1, 2, 1)"], |w| {
+    ("a sphere stretched too far", &["\"ball\"", "scale", "(1, -200000000, 1)", "1e7 times"], |w| {
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, -2e8, 1.0));
+    }),
+    ("a sphere flattened by its parent", &["\"ball\"", "scale", "1.0e8 times as long"], |w| {
+        let parent = w.spawn(Placement { scale: DVec3::new(1.0, 1e-8, 1.0), ..Placement::default() }).id();
+        edit::<Placement>(w, "ball", |p| p.orientation = DQuat::from_xyzw(0.5, 0.5, 0.5, 0.5));
+        child_of(w, "ball", parent);
+    }),
+    ("half axes out of reach", &["\"ball\"", "longest half axis", "is 1e20,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = 1e17);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1e3, 1.0, 1.0));
+    }),
+    ("half axes too short", &["\"ball\"", "shortest half axis", "it must be a length"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = 1e-17);
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, 1.0, 1e-3));
+    }),
+    ("a flat sphere", &["\"ball\"", "scale", "(1, 0, 1)", "invertible"], |w| {
+        edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, 0.0, 1.0));
+    }),
+    ("radius −1, scaled unevenly", &["\"ball\"", "radius", "is -1,"], |w| {
+        edit::<Sphere>(w, "ball", |s| s.radius = -1.0);
         edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1.0, 2.0, 1.0));
     }),
     ("normal 0", &["\"floor\"", "normal", "(0, 0, 0)"], |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::ZERO)),

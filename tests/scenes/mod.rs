@@ -124,6 +124,41 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
 }
 
+/// Spheres that their placements stretch: an egg, a mirrored and turned pancake, a needle, one that a parent shears, and
+/// two that are the same; no sphere among them stays one.
+///
+/// All places lie on the grid of [`full`], so that it may be moved exactly; nothing but the scale is in scene units.
+pub fn stretched(setup: Setup) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: setup.point(0.23, 1.03, 4.9), target: setup.point(0.01, 0.77, 0.02), up: DVec3::Y };
+    setup.camera(&mut world, look);
+    let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
+    let sphere = Sphere { radius: 0.5 * setup.scale };
+    let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+    let placed = |[x, y, z]: [f64; 3], scale: [f64; 3], orientation| Placement {
+        position: setup.point(x, y, z),
+        orientation,
+        scale: DVec3::from(scale),
+    };
+    let upright = DQuat::IDENTITY;
+    let egg = placed([-1.27, 1.02, 0.53], [1.0, 1.5, 1.0], upright);
+    let pancake = placed([0.29, 0.5, 1.09], [-2.0, 0.25, 1.5], tilt);
+    let needle = placed([1.2, 1.31, 0.33], [0.01, 3.0, 0.01], tilt);
+    let ground = placed([0.0, 0.017, 0.0], [1.0, 3.0, -2.0], upright);
+    world.spawn((Name::new("ground"), Plane::default(), ground, matte(0.6, 0.6, 0.6)));
+    world.spawn((Name::new("egg"), sphere, egg, matte(0.9, 0.7, 0.2)));
+    world.spawn((Name::new("pancake"), sphere, pancake, matte(0.2, 0.5, 0.9)));
+    world.spawn((Name::new("double"), sphere, pancake, matte(0.9, 0.1, 0.1)));
+    world.spawn((Name::new("needle"), sphere, needle, matte(0.5, 0.9, 0.5)));
+    let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 1.0], upright))).id();
+    let turned = Placement { orientation: tilt, ..Placement::default() };
+    world.spawn((Name::new("sheared"), sphere, turned, matte(0.7, 0.2, 0.9), ChildOf(group)));
+    world.spawn((Name::new("lamp"), setup.light(60.0, true), placed([2.51, 4.02, 3.03], [1.0; 3], upright)));
+    world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
+    world
+}
+
 /// How many pixels of [`ties`] see a ball and the pane at the very same distance.
 pub const TIED_PIXELS: usize = 8;
 
@@ -158,6 +193,7 @@ pub enum Toggle {
     SecondLight,
     Plane,
     Sphere,
+    Ellipsoid,
     Shadow,
     Orthographic,
     Background,
@@ -166,11 +202,12 @@ pub enum Toggle {
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 9] = [
+pub const TOGGLES: [Toggle; 10] = [
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
     Toggle::Sphere,
+    Toggle::Ellipsoid,
     Toggle::Shadow,
     Toggle::Orthographic,
     Toggle::Background,
@@ -202,6 +239,11 @@ pub fn toggled(on: &[Toggle]) -> World {
     if has(Toggle::Sphere) {
         let ball = (Sphere { radius: 0.75 }, Placement::at(0.0, 0.75, 0.0));
         world.spawn((Name::new("ball"), ball, Matte { colour: Rgb::new(0.8, 0.3, 0.2) }));
+    }
+    if has(Toggle::Ellipsoid) {
+        let scale = DVec3::new(0.5, 1.5, 1.0);
+        let egg = (Sphere { radius: 0.5 }, Placement { scale, ..Placement::at(1.2, 0.75, 0.3) });
+        world.spawn((Name::new("egg"), egg, Matte { colour: Rgb::new(0.9, 0.8, 0.6) }));
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));

@@ -1,12 +1,15 @@
 //! How far the columns of a frame are off, at a grid of its pixels.
 
 use crate::Result;
-use crate::extract::{CameraAxes, PlaneTable, ShapeKind, ShapeTable, SphereTable, camera_entity};
+use crate::extract::{
+    CameraAxes, Ellipsoid, EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable, camera_entity,
+};
 use crate::film::film_stage;
 use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::exact_vector::ExactVector;
 use crate::measure::oracle_camera::{ExactCamera, ExactPoint};
+use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess};
 use crate::measure::oracle_plane::{Plane, plane_hit};
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::plan::{Stage, Table};
@@ -69,6 +72,7 @@ struct Exact {
 enum ExactShape {
     Sphere(Sphere),
     Plane(Plane),
+    Ellipsoid(Ellipsoid),
 }
 
 impl Exact {
@@ -79,7 +83,7 @@ impl Exact {
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
         let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
-        let planes = PlaneTable::extract(scene)?;
+        let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
         let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
             (ShapeKind::Sphere, row) => {
                 ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
@@ -87,6 +91,7 @@ impl Exact {
             (ShapeKind::Plane, row) => {
                 ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
             }
+            (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
         };
         let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
         Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
@@ -98,8 +103,8 @@ impl Exact {
 struct Worst {
     points: [Option<f64>; 4],
     world: Option<[f64; 2]>,
-    hits: [OfKind; 2],
-    surfaces: [Option<f64>; 2],
+    hits: [OfKind; 3],
+    surfaces: [Option<f64>; 3],
 }
 
 /// The worst error of one kind of shape's hits.
@@ -192,6 +197,7 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
         let t = match shape {
             ExactShape::Sphere(sphere) => sphere_hit(origin, direction, *sphere),
             ExactShape::Plane(plane) => plane_hit(origin, direction, *plane),
+            ExactShape::Ellipsoid(ellipsoid) => ellipsoid_hit(origin, direction, ellipsoid),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
             nearest = Some((number, t));
@@ -200,9 +206,13 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
     nearest
 }
 
-/// 0 for a sphere, 1 for a plane.
+/// 0 for a sphere, 1 for a plane, 2 for an ellipsoid.
 fn kind(shape: &ExactShape) -> usize {
-    usize::from(matches!(shape, ExactShape::Plane(_)))
+    match shape {
+        ExactShape::Sphere(_) => 0,
+        ExactShape::Plane(_) => 1,
+        ExactShape::Ellipsoid(_) => 2,
+    }
 }
 
 fn probe_hit(rays: &WorldRays, hits: &Hits, row: usize, exact: &Exact, worst: &mut Worst) {
@@ -235,6 +245,12 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let above = &ExactVector::of(*normal).dot(&point) - &Dyadic::of(*offset);
             above.to_f64().abs() / (U * position.as_dvec3().length())
         }
+        ExactShape::Ellipsoid(ellipsoid) => {
+            // The step to the surface along the gradient 2 AᵀA (x − C) of |A (x − C)|² − 1.
+            let (map, place) = (ellipsoid.unit_from_world, position.as_dvec3());
+            let gradient = 2.0 * (map.transpose() * (map * (place - ellipsoid.centre))).length();
+            excess(place, ellipsoid).to_f64().abs() / gradient / (U * place.length())
+        }
     };
     note(&mut worst.surfaces[kind(shape)], off);
 }
@@ -252,15 +268,18 @@ impl Worst {
         }
         let world = self.world.map(|[pixels, radians]| format!("{pixels:.1e} px, {radians:.1e} rad"));
         words.extend(world.map(|world| (rays::world_stage().name, world)));
-        let hit_stages = [intersect::sphere_stage().name, intersect::plane_stage().name];
+        let hit_stages = [intersect::sphere_stage(), intersect::plane_stage(), intersect::ellipsoid_stage()];
+        let hit_stages = hit_stages.map(|stage| stage.name);
         for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
             let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
-        let [sphere, plane] = self.surfaces;
+        let [sphere, plane, ellipsoid] = self.surfaces;
         let of_sphere = sphere.map(|worst| format!("{worst:.2} u of |c| + r off it"));
+        let of_ellipsoid = ellipsoid.map(|worst| format!("{worst:.2} u of |p| off it"));
         let of_plane = plane.map(|worst| format!("{worst:.2} u of |p| off it"));
         words.extend(of_sphere.map(|error| (intersect::sphere_surface_stage().name, error)));
+        words.extend(of_ellipsoid.map(|error| (intersect::ellipsoid_surface_stage().name, error)));
         words.extend(of_plane.map(|error| (intersect::plane_surface_stage().name, error)));
         words
     }

@@ -16,6 +16,10 @@ mod print;
 mod shadow;
 mod shadow_stages;
 mod sphere;
+mod transform;
+mod transform_aim;
+mod transform_placement;
+mod transform_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial};
 
@@ -35,11 +39,13 @@ pub enum Group {
     Shadow,
     /// Cameras: raster → NDC → screen → camera → world.
     Camera,
+    /// Scaled spheres, their normals, placements through parents.
+    Transform,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 4] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera];
+    pub const ALL: [Self; 5] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -48,6 +54,7 @@ impl Group {
             Self::Plane => plane::trials(),
             Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
             Self::Camera => [camera::trials(), camera_table::trials()].into_iter().flatten().collect(),
+            Self::Transform => transform::trials(),
         }
     }
 }
@@ -59,6 +66,7 @@ impl fmt::Display for Group {
             Self::Plane => "plane",
             Self::Shadow => "shadow",
             Self::Camera => "camera",
+            Self::Transform => "transform",
         })
     }
 }
@@ -67,7 +75,7 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        Self::ALL.into_iter().find(known).ok_or_else(|| "it must be sphere, plane, shadow or camera".into())
+        Self::ALL.into_iter().find(known).ok_or_else(|| "it must be sphere, plane, shadow, camera or transform".into())
     }
 }
 

@@ -11,6 +11,7 @@ impl Group {
             Self::Plane => ["rays against planes", "hits", "misjudged"],
             Self::Shadow => ["shadow rays", "starts", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
+            Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
         }
     }
 

@@ -1,7 +1,7 @@
 //! From a ray to the shadow ray that leaves its hit, through the kit's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
-use crate::extract::{MatteTable, PointLightTable, ShapeKind, ShapeTable};
+use crate::extract::{EllipsoidTable, MatteTable, PointLightTable, ShapeKind, ShapeTable};
 use crate::intersect::{self, Hits, MatteRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
@@ -42,6 +42,12 @@ impl ShadowStages {
         Self::of(&to_surface, shade::plane_shadow_stage())
     }
 
+    /// The stages for ellipsoids, a light still to be placed.
+    pub fn of_ellipsoids() -> Self {
+        let of_hits = [intersect::ellipsoid_stage(), intersect::classify_stage(), intersect::ellipsoid_surface_stage()];
+        Self::of(&of_hits, shade::ellipsoid_shadow_stage())
+    }
+
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light = [shade::aim_stage(), shade::start_shadow_stage(), shadow_stage];
@@ -65,6 +71,13 @@ impl ShadowStages {
         self.shapes(ShapeKind::Plane, planes.len());
         self.to_surface.share(plane_table(planes));
         self.to_light.share(plane_table(planes));
+    }
+
+    /// The scene's ellipsoids; an ellipsoid's place is its number.
+    pub fn ellipsoids(&mut self, table: EllipsoidTable) {
+        self.shapes(ShapeKind::Ellipsoid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
     }
 
     fn shapes(&mut self, kind: ShapeKind, count: usize) {

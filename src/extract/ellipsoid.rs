@@ -1,0 +1,173 @@
+use super::check::{finite_point, kind_and_name, positive_length, triple};
+use super::{eye, pose, shape_entities};
+use crate::plan::Table;
+use crate::scene::{ChildOf, Placement, Refusal, Sphere};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+
+/// How far the three scales of a sphere may differ, relative to the first, and still be rounding.
+const EVEN_TOLERANCE: f64 = 1e-9;
+/// How many times as long one way as another an ellipsoid may be: the extremes hold up to here.
+const LARGEST_RATIO: f64 = 1e7;
+/// By how much its bounding sphere is taken larger, so that no rounding of the map reaches beyond it.
+const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+
+/// A sphere that its placement scales unevenly: the points x of render space with |A (x − C)| = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipsoid {
+    /// C, from the eye.
+    pub centre: DVec3,
+    /// A: render space to the space in which it is the unit sphere, per scene unit.
+    pub unit_from_world: DMat3,
+    /// ‖A‖, the root of the sum of its squares: the most by which A stretches, or a little more.
+    pub norm: f64,
+    /// No point is farther from the centre than this.
+    pub reach: f64,
+}
+
+impl Ellipsoid {
+    /// The ellipsoid of a map whose longest half axis has about this length, or less.
+    pub fn new(centre: DVec3, unit_from_world: DMat3, longest: f64) -> Self {
+        let squares: f64 = unit_from_world.to_cols_array().iter().map(|part| part * part).sum();
+        Self { centre, unit_from_world, norm: squares.sqrt(), reach: longest * REACH_MARGIN }
+    }
+}
+
+/// Ellipsoids in render space, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EllipsoidTable {
+    /// The ellipsoids.
+    pub ellipsoid: Vec<Ellipsoid>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for EllipsoidTable {
+    const NAME: &'static str = "ellipsoids";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(sphere) = scene.get::<Sphere>(entity) else { continue };
+            if unevenly_scaled(scene, entity) {
+                table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
+                table.shape.push(shape as u32);
+            }
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.ellipsoid.len() * (size_of::<Ellipsoid>() + size_of::<u32>())
+    }
+}
+
+fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<Ellipsoid, Refusal> {
+    let who = kind_and_name(scene, "sphere", entity);
+    let pose = pose(scene, &who, entity)?;
+    positive_length(&who, "radius", radius)?;
+    let centre = finite_point(&who, "position", pose.world_from_entity.translation - eye)?;
+    let unit_from_world = pose.entity_from_world * (1.0 / radius);
+    let longest = radius * stretch(pose.world_from_entity.matrix3);
+    let shortest = 1.0 / stretch(unit_from_world.transpose());
+    positive_length(&who, "longest half axis", longest)?;
+    positive_length(&who, "shortest half axis", shortest)?;
+    let ratio = longest / shortest;
+    if !(ratio <= LARGEST_RATIO) {
+        let own = scene.get::<Placement>(entity).copied().unwrap_or_default().scale;
+        let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
+        let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));
+        let accepted = format!("a sphere may be at most {LARGEST_RATIO:e} times as long one way as another");
+        return Err(Refusal::new(who, "scale", value, accepted));
+    }
+    Ok(Ellipsoid::new(centre, unit_from_world, longest))
+}
+
+/// The most by which a map makes a vector longer: exact where its columns are at right angles, else up to √3 times as
+/// much (the largest sum of a row of MᵀM bounds its eigenvalues).
+fn stretch(map: DMat3) -> f64 {
+    let products = map.transpose() * map;
+    [0, 1, 2].map(|row| products.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max).sqrt()
+}
+
+/// Whether the entity's placement and its parents' together scale unevenly, so that a sphere becomes an ellipsoid.
+///
+/// A placement that is refused counts as even: extraction will say what is wrong with it.
+pub fn unevenly_scaled(scene: &World, entity: Entity) -> bool {
+    let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
+    let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
+    !even_alone && pose(scene, "", entity).is_ok_and(|pose| even_scale(pose.world_from_entity.matrix3).is_none())
+}
+
+/// The one factor by which a map stretches every direction, mirrored or not; none where it stretches unevenly.
+pub(super) fn even_scale(world_from_entity: DMat3) -> Option<f64> {
+    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
+    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    let uneven = (lengths - lengths.x).abs().max_element();
+    let even = uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x;
+    even.then_some(lengths.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{ShapeKind, ShapeTable, SphereTable};
+    use crate::scene::{Matte, PerspectiveCamera};
+    use glam::DQuat;
+
+    fn scene(scales: &[DVec3]) -> (World, Vec<Entity>) {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 9.0)));
+        let orientation = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+        let spawn = |&scale: &DVec3| {
+            let placement = Placement { scale, orientation, position: DVec3::new(1.0, 2.0, 3.0) };
+            world.spawn((Sphere { radius: 2.0 }, Matte::default(), placement)).id()
+        };
+        let spheres = scales.iter().map(spawn).collect();
+        (world, spheres)
+    }
+
+    #[test]
+    fn a_sphere_is_in_one_table_or_the_other() {
+        let uneven = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
+        let even = [DVec3::ONE, DVec3::new(1.0, 1.0, 1.0 + 1e-12), DVec3::new(-2.0, 2.0, 2.0), DVec3::splat(-1e-9)];
+        let (world, spheres) = scene(&[&uneven[..], &even].concat());
+        let (shapes, ellipsoids) = (ShapeTable::extract(&world), EllipsoidTable::extract(&world));
+        let (shapes, ellipsoids) = (shapes.expect("shapes"), ellipsoids.expect("ellipsoids"));
+        let spheres_left = SphereTable::extract(&world).expect("spheres");
+        assert_eq!(ellipsoids.shape, [0, 1, 2]);
+        assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
+        for (number, &sphere) in spheres.iter().enumerate() {
+            let kind = if unevenly_scaled(&world, sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            assert_eq!(shapes.kind[number], kind, "sphere {number}");
+        }
+    }
+
+    #[test]
+    fn the_map_takes_poles_to_the_unit_sphere() {
+        let scale = DVec3::new(-1e-3, 3.0, 1e3);
+        let (world, spheres) = scene(&[scale]);
+        let table = EllipsoidTable::extract(&world).expect("ellipsoids");
+        let pose = pose(&world, "", spheres[0]).expect("a pose");
+        let Ellipsoid { centre, unit_from_world, reach, .. } = table.ellipsoid[0];
+        assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let pole = pose.world_from_entity.matrix3 * (axis * 2.0);
+            assert!((unit_from_world * pole - axis).length() < 1e-7, "{axis}: {}", unit_from_world * pole);
+            assert!(pole.length() <= reach);
+        }
+        assert!(reach < 2e3 * 1.0001);
+    }
+
+    #[test]
+    fn what_is_longer_one_way_than_ten_million_times_another_is_refused() {
+        let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
+        assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
+        for ratio in [2e7, 1e-8] {
+            let refusal = table(ratio).expect_err("refused").to_string();
+            assert!(refusal.contains("scale is (1, 1, ") && refusal.contains("1e7 times"), "{refusal}");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+use super::Figure;
+use super::label::Label;
+use super::occluders::Occluders;
+use super::pen::WIDTH;
+use super::picture::Picture;
+use super::sketch::Frame;
+use super::svg::{Drawing, Svg};
+use crate::Result;
+use crate::chapter::{Asked, Chapter};
+use crate::extract::{EllipsoidTable, MatteTable, PointLightTable, normal_world_from_object};
+use crate::film::FilmTile;
+use crate::intersect::{Hits, Surface, Surfaces, offset_origin};
+use crate::naive::ellipsoid::normal_as_direction;
+use crate::plan::Table;
+use crate::rays::WorldRays;
+use crate::render::inspect;
+use crate::scene::Resolution;
+use crate::shade::{reflected_radiance, shadow_reach};
+use glam::DVec2;
+
+/// Pixels of each of the two pictures.
+const SIZE: [u32; 2] = [320, 180];
+const GAP: f64 = 10.0;
+const HEAD: f64 = 32.0;
+
+/// A chapter's ellipsoids lit by normals that were transformed like directions, beside the right ones.
+pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let across = (WIDTH - 3.0 * GAP) / 2.0;
+    let panel = DVec2::new(across, across * f64::from(SIZE[1]) / f64::from(SIZE[0]));
+    let mut svg = Svg::new(figure.name, HEAD + panel.y + 64.0);
+    let (right, naive, worst) = pictures(chapter, figure)?;
+    let off = format!("the worst normal is off by {worst:.0}°");
+    let told = [
+        ("transformed like a direction", &naive, off.as_str()),
+        ("by the inverse transpose", &right, "as the kit renders"),
+    ];
+    for (column, (title, picture, below)) in told.into_iter().enumerate() {
+        let low = DVec2::new(GAP + column as f64 * (across + GAP), HEAD);
+        picture.paint(&mut svg, Frame { low, high: low + panel })?;
+        let middle = DVec2::X * (across / 2.0);
+        svg.label(Label::near(low + middle - DVec2::Y * 6.0, title, DVec2::NEG_Y, 0.0).title(1.0));
+        svg.label(Label::near(low + middle + DVec2::Y * (panel.y + 5.0), below, DVec2::Y, 0.0).title(0.92));
+    }
+    Ok(svg.finish(figure.about, &figure.stamp(SIZE, "")))
+}
+
+/// What the kit renders, the same with naive normals, and by how many degrees the worst of these is off.
+fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Picture, Picture, f64)> {
+    let [width, height] = SIZE;
+    let scene = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
+    let inspection = inspect(&scene, &chapter.stages(), width.max(height))?;
+    let tile = inspection.tiles.first().map(|&tile| inspection.world.entity(tile));
+    let columns = tile.as_ref().and_then(|tile| {
+        Some(((tile.get::<WorldRays>()?, tile.get::<Hits>()?), tile.get::<Surfaces>()?, tile.get::<FilmTile>()?))
+    });
+    let lacks = || figure.unsuited("a lit sphere that is scaled unevenly");
+    let ((rays, hits), surfaces, film) = columns.ok_or_else(lacks)?;
+    let (lights, mattes) = (PointLightTable::extract(&scene)?, MatteTable::extract(&scene)?);
+    let (ellipsoids, occluders) = (EllipsoidTable::extract(&scene)?, Occluders::of(&scene)?);
+    let right: Vec<[f32; 3]> = (0..film.count.len()).map(|row| film.mean(row)).collect();
+    let (mut naive, mut worst, mut met) = (right.clone(), 0.0_f64, false);
+    for row in 0..right.len() {
+        let Some(number) = ellipsoids.shape.iter().position(|&shape| shape == hits.shape[row]) else { continue };
+        let ellipsoid = &ellipsoids.ellipsoid[number];
+        let surface = surfaces.get(row);
+        let point = rays.point_at(row, hits.t[row]);
+        let (map, from_centre) = (ellipsoid.unit_from_world, point - ellipsoid.centre);
+        // The unit sphere's own normal, taken out of it as a direction is.
+        let turned = normal_as_direction(map.inverse(), map * from_centre);
+        let wrong =
+            Surface { normal: Surface::facing(rays.direction_of(row), point, turned, 0.0, 0).normal, ..surface };
+        let outward = normal_world_from_object(map, map * from_centre).normalize();
+        worst = worst.max(libm::acos(turned.dot(outward).clamp(-1.0, 1.0)).to_degrees());
+        naive[row] = lit(&wrong, &lights, &mattes, &occluders);
+        met = true;
+    }
+    let picture = |pixels| Picture { width, height, pixels };
+    if met { Ok((picture(right), picture(naive), worst)) } else { Err(lacks()) }
+}
+
+/// What all lights together make of a surface.
+fn lit(surface: &Surface, lights: &PointLightTable, mattes: &MatteTable, occluders: &Occluders) -> [f32; 3] {
+    let origin = offset_origin(surface.position, surface.normal, surface.bound).as_dvec3();
+    let mut sum = [0.0_f32; 3];
+    for (&light, &intensity) in lights.position.iter().zip(&lights.intensity) {
+        let to_light = light - origin;
+        let distance = to_light.length();
+        let direction = to_light / distance;
+        let cosine = surface.normal.as_dvec3().dot(direction);
+        if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_reach(distance))) {
+            let colour = mattes.colour[surface.matte as usize];
+            let brings = reflected_radiance(colour, intensity, cosine, distance * distance);
+            sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::{figures, trial};
+
+    #[test]
+    fn naive_normals_change_the_scaled_sphere_and_the_right_ones_are_shaded_as_the_kit_does() {
+        let figure = figures().into_iter().find(|figure| figure.name == "09_normals").expect("the figure");
+        let (right, naive, worst) = pictures(&trial::chapter("09_camera_to_world"), &figure).expect("pictures");
+        let differ = right.pixels.iter().zip(&naive.pixels).filter(|(right, naive)| right != naive).count();
+        eprintln!("{differ} of {} pixels differ, the worst normal by {worst:.1} degrees", right.pixels.len());
+        assert!(differ > 100 && differ < right.pixels.len() / 4 && worst > 20.0 && worst < 90.0);
+    }
+}

@@ -1,0 +1,34 @@
+use crate::Result;
+use crate::extract::{EllipsoidTable, PlaneTable, SphereTable};
+use crate::intersect::{ellipsoid_t, plane_t, sphere_t};
+use crate::plan::Table;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// A scene's shapes, for figures that send rays of their own; the intersection is the kit's.
+pub struct Occluders {
+    spheres: SphereTable,
+    ellipsoids: EllipsoidTable,
+    planes: PlaneTable,
+}
+
+impl Occluders {
+    /// The shapes of a scene, in render space.
+    pub fn of(scene: &World) -> Result<Self> {
+        Ok(Self {
+            spheres: SphereTable::extract(scene)?,
+            ellipsoids: EllipsoidTable::extract(scene)?,
+            planes: PlaneTable::extract(scene)?,
+        })
+    }
+
+    /// Whether anything is met before `reach`.
+    pub fn block(&self, origin: DVec3, direction: DVec3, reach: f64) -> bool {
+        let spheres = (0..self.spheres.radius.len())
+            .map(|row| sphere_t(origin, direction, self.spheres.centre(row), self.spheres.radius[row]));
+        let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
+        let planes = self.planes.normal.iter().zip(&self.planes.offset);
+        let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
+        spheres.chain(ellipsoids).chain(planes).any(|t| t < reach)
+    }
+}

@@ -1,0 +1,265 @@
+use super::classify::EllipsoidRows;
+use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
+use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
+use super::wide::{wide_ellipsoid_point, wide_ellipsoid_t};
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{
+    Ellipsoid, EllipsoidTable, ShapeTable, direction_object_from_world, normal_world_from_object,
+    point_object_from_world, unevenly_scaled,
+};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Sphere;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+/// 2⁻⁵³, the rounding unit of f64.
+const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
+
+// ANCHOR: ellipsoid_verdict
+/// Where O + tR meets an ellipsoid, in f64: the ray is taken to the space where the ellipsoid is the unit sphere.
+///
+/// p = A (O − C) and q = A R are transformed as a point and as a direction are, and q keeps the length that A gives it:
+/// then p + tq is A (O + tR − C) for the same t.
+/// The discriminant is 1 − |p − (p·q / q·q) q|², the part of p across the ray, as a sphere's is.
+#[inline(always)]
+pub fn ellipsoid_verdict(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> Verdict {
+    let p = point_object_from_world(ellipsoid.unit_from_world, ellipsoid.centre, origin);
+    let q = direction_object_from_world(ellipsoid.unit_from_world, direction);
+    let (qq, pp) = (q.dot(q), p.dot(p));
+    let s = -p.dot(q) / qq;
+    let across = p + s * q;
+    let ll = across.dot(across);
+    let (discriminant, c) = (1.0 - ll, pp - 1.0);
+    let half_chord = (discriminant.max(0.0) / qq).sqrt();
+
+    let (outside, ahead) = (c > 0.0, s > 0.0);
+    let sum = if ahead { s + half_chord } else { s - half_chord };
+    let root = if ahead & !outside { sum } else { c / (qq * sum) };
+    let misses = (discriminant < 0.0) | (outside & !ahead);
+    let t = if misses { f64::INFINITY } else { root };
+
+    let error = mapping_error(ellipsoid, origin, s.abs(), direction);
+    let error_of_discriminant = 2.0 * error * (1.0 + ll + error);
+    let error_of_c = 2.0 * error * (1.0 + pp.sqrt() + error);
+    let unsure_of_hit = (error_of_c >= 0.5 * UNIT_ROUNDOFF * c.abs())
+        | (error_of_discriminant >= UNIT_ROUNDOFF * qq * root * half_chord);
+    let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error_of_discriminant } else { c <= error_of_c };
+    Verdict { t, doubtful: if misses { unsure_of_miss } else { unsure_of_hit } }
+}
+
+/// How far rounding can have moved p + sq, in the space of the unit sphere; and what sums of about 1 lose.
+///
+/// With ε = 2⁻⁵³ and ‖A‖ the root of the sum of A's squares: O − C is rounded by ε of itself and each part of A (O − C) by
+/// 3ε of what it sums, so p is off by 4ε‖A‖|O − C| and sq by 3ε‖A‖|sR|; the product sq and the sum by ε each of what they
+/// are, which is no more than ‖A‖|O − C|.
+/// That is 6ε‖A‖|O − C| + 3ε‖A‖|sR|; an error of s itself moves along the ray only and enters squared.
+/// Eight times leaves room for that, and for the rounding of the squares.
+/// So |p + sq|² is off by twice its length times this, and by this squared; 2|l| ≤ 1 + |l|².
+#[inline(always)]
+fn mapping_error(ellipsoid: &Ellipsoid, origin: DVec3, s: f64, direction: DVec3) -> f64 {
+    let lengths = sum_of_parts(origin - ellipsoid.centre) + s * sum_of_parts(direction);
+    8.0 * EPSILON * (1.0 + ellipsoid.norm * lengths)
+}
+
+/// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity; right also where f64 alone would leave a doubt.
+#[inline(always)]
+pub fn ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
+    let verdict = ellipsoid_verdict(origin, direction, ellipsoid);
+    if verdict.doubtful { wide_ellipsoid_t(origin, direction, ellipsoid) } else { verdict.t }
+}
+// ANCHOR_END: ellipsoid_verdict
+
+/// Narrows hits by all ellipsoids, for any column of rays.
+pub fn intersect_ellipsoids<R: RayColumn, H: HitColumn>(
+    ellipsoids: Res<Shared<EllipsoidTable>>,
+    mut tiles: Query<(&R, &mut H)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        ellipsoid_rows(rays.ray_lanes(), &ellipsoids, t, shape);
+    }
+}
+
+/// An ellipsoid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn ellipsoid_rows(rays: RayLanes<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
+        for (ellipsoid, &number) in ellipsoids.ellipsoid.iter().zip(&ellipsoids.shape) {
+            let mut nearest = [f64::NEG_INFINITY; LANES];
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = ellipsoid.centre - vector(&o, lane);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], ellipsoid.reach);
+            }
+            if nearest.iter().any(|&nearness| nearness >= 0.0) {
+                narrow(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);
+            }
+        }
+        start = end;
+    }
+}
+
+#[inline(always)]
+fn narrow(
+    o: &[[f64; LANES]; 3],
+    d: &[[f64; LANES]; 3],
+    ellipsoid: &Ellipsoid,
+    number: u32,
+    t: &mut [f64],
+    shape: &mut [u32],
+) {
+    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
+    for lane in 0..LANES {
+        let verdict = ellipsoid_verdict(vector(o, lane), vector(d, lane), ellipsoid);
+        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
+    }
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if doubtful[lane] {
+            found[lane] = wide_ellipsoid_t(vector(o, lane), vector(d, lane), ellipsoid);
+        }
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
+        }
+    }
+}
+
+// ANCHOR: ellipsoid_surface
+/// The surface where O + tR meets an ellipsoid.
+///
+/// In the space of the unit sphere the normal at g is g itself; it goes out to the world by Aᵀ, and |Aᵀg| is the number of
+/// steps of the unit space that one scene unit along the normal makes.
+///
+/// The bound.
+/// Let g be where the computed t leads, exactly, and m = Aᵀg / |Aᵀg|.
+/// The ellipsoid touches the plane with normal m through the point that g / |g| stands for, and lies wholly behind it;
+/// g's own point lies behind that plane by |g| (1 − |g|) / |Aᵀg|, which is half of (1 − |g|²) / |Aᵀg|.
+/// So a start that is moved along m by more than this, and by what rounding takes, is off the surface for certain, be the
+/// surface as sharply bent as it likes: nothing but this distance to a plane counts.
+/// The residual |g|² − 1 is measured, up to twice the error of g; both are taken twice over.
+/// Where that error would turn the normal by more than u or reach farther than u of the shortest half axis, g is found
+/// again in twice as many digits.
+#[inline(always)]
+pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid, matte: u32) -> Surface {
+    let map = ellipsoid.unit_from_world;
+    let mut point = origin + t * direction;
+    let mut g = map * ((origin - ellipsoid.centre) + t * direction);
+    let mut across = normal_world_from_object(map, g);
+    let mut error = mapping_error(ellipsoid, origin, t, direction);
+    if error * ellipsoid.norm >= UNIT_ROUNDOFF * across.length() {
+        let (further, exact) = wide_ellipsoid_point(origin, direction, t, ellipsoid);
+        point += further * direction;
+        (g, error) = (exact, 8.0 * EPSILON);
+        across = normal_world_from_object(map, g);
+    }
+    let steps = across.length();
+    let behind = ((g.dot(g) - 1.0).abs() + 2.0 * error) / steps;
+    let bound = offset_bound(point, origin, 0.0) + behind as f32;
+    // The side is told where g and q are known best: along a limb of the unit space.
+    let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
+    let normal = if away { -across / steps } else { across / steps };
+    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
+}
+// ANCHOR_END: ellipsoid_surface
+
+/// Fills the surface of every row that hit an ellipsoid.
+pub fn fill_ellipsoid_surfaces(
+    ellipsoids: Res<Shared<EllipsoidTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>,
+) {
+    for (rays, hits, list, mut surfaces) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let shape = hits.shape[row] as usize;
+            let ellipsoid = &ellipsoids.ellipsoid[shapes.row[shape] as usize];
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let surface = ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.matte[shape]);
+            surfaces.set(row, surface);
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn ellipsoid_stage() -> Stage {
+    Stage::new("Intersect ellipsoids", TileSystems::Intersect, intersect_ellipsoids::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<EllipsoidTable>()
+        .when(ellipsoid_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn ellipsoid_surface_stage() -> Stage {
+    Stage::new("Describe ellipsoid surfaces", TileSystems::Surface, fill_ellipsoid_surfaces)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<EllipsoidRows>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .table::<EllipsoidTable>()
+        .table::<ShapeTable>()
+        .when(ellipsoid_evidence)
+}
+
+/// Evidence that the scene holds a sphere that its placement scales unevenly.
+pub fn ellipsoid_evidence(scene: &World) -> Evidence {
+    let uneven = |sphere| unevenly_scaled(scene, sphere);
+    Evidence::of_kind::<With<Sphere>>(scene, "unevenly scaled sphere", uneven)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat3, Vec3};
+
+    /// Half axes 1, 2, 4 along x, y, z, ten units ahead.
+    fn egg() -> Ellipsoid {
+        let unit_from_world = DMat3::from_diagonal(DVec3::new(1.0, 0.5, 0.25));
+        Ellipsoid::new(DVec3::new(0.0, 0.0, -10.0), unit_from_world, 4.0)
+    }
+
+    #[test]
+    fn poles_are_met_where_the_half_axes_end() {
+        let t = |origin, direction| ellipsoid_t(origin, direction, &egg());
+        assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z), 6.0);
+        assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z * 2.0), 3.0);
+        assert_eq!(t(DVec3::new(0.0, 5.0, -10.0), DVec3::NEG_Y), 3.0);
+        assert_eq!(t(DVec3::new(0.0, 0.0, -10.0), DVec3::X), 1.0);
+        assert_eq!(t(DVec3::X, DVec3::NEG_Z), 10.0);
+        assert_eq!(t(DVec3::X * (1.0 + f64::EPSILON), DVec3::NEG_Z), f64::INFINITY);
+        assert_eq!(t(DVec3::ZERO, DVec3::Z), f64::INFINITY);
+    }
+
+    #[test]
+    fn normals_are_outward_also_where_the_map_mirrors() {
+        let origin = DVec3::new(0.3, 0.7, 0.0);
+        let at = |ellipsoid: &Ellipsoid| {
+            let t = ellipsoid_t(origin, DVec3::NEG_Z, ellipsoid);
+            ellipsoid_surface(origin, DVec3::NEG_Z, t, ellipsoid, 7)
+        };
+        let (plain, mirror) = (egg(), DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)));
+        let mirrored = Ellipsoid { unit_from_world: mirror * plain.unit_from_world, ..plain };
+        assert_eq!(at(&plain), at(&mirrored));
+        let surface = at(&plain);
+        let from_centre = surface.position.as_dvec3() - plain.centre;
+        let gradient = from_centre / DVec3::new(1.0, 4.0, 16.0);
+        assert!(gradient.normalize().as_vec3().distance(surface.normal) < 1e-7 && surface.matte == 7);
+        assert!((surface.normal.length() - 1.0).abs() < 1e-6 && surface.bound > 0.0 && surface.bound < 1e-4);
+        assert!(surface.normal.dot(Vec3::Z) > 0.0);
+    }
+
+    #[test]
+    fn where_f64_is_in_doubt_the_wide_point_lies_on_the_surface() {
+        let long = Ellipsoid::new(DVec3::new(0.0, 3e9, -4e9), DMat3::from_diagonal(DVec3::new(1.0, 1e-4, 1.0)), 1e4);
+        let direction = DVec3::new(0.0, 0.6, -0.8);
+        let t = ellipsoid_t(DVec3::ZERO, direction, &long);
+        let (_, g) = wide_ellipsoid_point(DVec3::ZERO, direction, t, &long);
+        assert!((g.length() - 1.0).abs() < 1e-15, "{g}");
+    }
+}
