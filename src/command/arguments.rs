@@ -17,7 +17,8 @@ use std::path::PathBuf;
     cargo run --release -- render cover --view surface\n  \
     cargo run --release -- plan 04_orthographic\n  \
     cargo run --release -- trace cover --pixel 480,300\n  \
-    cargo run --release -- extremes sphere"
+    cargo run --release -- extremes sphere\n  \
+    cargo run --release -- check"
 )]
 pub struct Arguments {
     #[command(subcommand)]

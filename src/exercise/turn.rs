@@ -25,8 +25,9 @@ pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result 
     }
     report.print(tries.wrong as usize, out)?;
     let number = name.split('_').next().unwrap_or(name);
-    if !tries.done || report.is_stub() {
-        writeln!(out, "write it in chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?;
+    match report.outcome {
+        Outcome::Right(_) => writeln!(out, "next: cargo run --release -- check shows what is left")?,
+        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?,
     }
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
