@@ -19,7 +19,7 @@ impl Report {
                 }
                 if mismatch.apart.is_finite() && self.allowed.0 > 0.0 {
                     let (allowed, measured) = self.allowed;
-                    writeln!(out, "  off by     {:.1e} {measured}; allowed are {allowed:e}", mismatch.apart)?;
+                    writeln!(out, "  off by     {:.1e} {measured}, where {allowed:e} is allowed", mismatch.apart)?;
                 }
                 if mismatch.always_the_same {
                     return writeln!(out, "it gives this answer whatever it is asked, as the stub does");
@@ -48,7 +48,7 @@ impl Report {
         match self.allowed {
             (0.0, _) => writeln!(out, "  every answer is the expected one, exactly")?,
             (allowed, measured) => {
-                writeln!(out, "  the worst is off by {worst:.1e} {measured}; allowed are {allowed:e}")?;
+                writeln!(out, "  the worst is off by {worst:.1e} {measured}, where {allowed:e} is allowed")?;
             }
         }
         let (file, name) = self.kit_has;

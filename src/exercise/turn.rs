@@ -32,9 +32,11 @@ pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result 
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
     }
-    progress.0.insert(name.into(), tries);
-    if let Err(refused) = progress.write(file) {
-        writeln!(out, "note: this try will not be remembered: {refused}")?;
+    if !report.is_stub() {
+        progress.0.insert(name.into(), tries);
+        if let Err(refused) = progress.write(file) {
+            writeln!(out, "note: this try will not be remembered: {refused}")?;
+        }
     }
     report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
 }
@@ -58,7 +60,7 @@ pub fn list_exercises(chapters: &[Chapter], file: &Path, out: &mut dyn Write) ->
     }
     writeln!(
         out,
-        "each lies in chapters/<chapter>/exercise.rs; cargo run --release -- check 5 checks that of chapter 05"
+        "each lies in chapters/<chapter>/exercise.rs; cargo run --release -- check 5 tries that of chapter 05"
     )?;
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
