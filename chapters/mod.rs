@@ -42,21 +42,23 @@ pub mod conventions;
 #[path = "12_how_it_is_built/main.rs"]
 pub mod how_it_is_built;
 
+pub mod exercises;
+
 /// All chapters, the cover first.
 pub fn all() -> Vec<Chapter> {
     vec![
         cover::chapter(),
-        image::chapter(),
-        ray::chapter(),
-        hit::chapter(),
-        orthographic::chapter(),
-        pinhole_camera::chapter(),
-        ndc::chapter(),
-        screen::chapter(),
-        field_of_view::chapter(),
-        camera_to_world::chapter(),
-        light_and_shadow::chapter(),
-        conventions::chapter(),
-        how_it_is_built::chapter(),
+        image::chapter().exercise(exercises::IMAGE),
+        ray::chapter().exercise(exercises::RAY),
+        hit::chapter().exercise(exercises::HIT),
+        orthographic::chapter().exercise(exercises::ORTHOGRAPHIC),
+        pinhole_camera::chapter().exercise(exercises::PINHOLE_CAMERA),
+        ndc::chapter().exercise(exercises::NDC),
+        screen::chapter().exercise(exercises::SCREEN),
+        field_of_view::chapter().exercise(exercises::FIELD_OF_VIEW),
+        camera_to_world::chapter().exercise(exercises::CAMERA_TO_WORLD),
+        light_and_shadow::chapter().exercise(exercises::LIGHT_AND_SHADOW),
+        conventions::chapter().exercise(exercises::CONVENTIONS),
+        how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
     ]
 }

@@ -1,3 +1,4 @@
+use crate::attempt::Attempt;
 use crate::extract::camera_entity;
 use crate::film::film_stage;
 use crate::look::view_stage;
@@ -16,13 +17,15 @@ pub struct Chapter {
     pub offer: Vec<Stage>,
     /// The column it shows instead of a picture.
     pub view: Option<&'static str>,
+    /// What it asks of its reader.
+    pub exercise: Option<Attempt>,
     scene: fn(&mut World),
 }
 
 impl Chapter {
     /// A chapter that offers nothing yet.
     pub fn new(name: &'static str, title: &'static str, scene: fn(&mut World)) -> Self {
-        Self { name, title, scene, offer: Vec::new(), view: None }
+        Self { name, title, scene, offer: Vec::new(), view: None, exercise: None }
     }
 
     /// Offers a stage, or several.
@@ -34,6 +37,12 @@ impl Chapter {
     /// Shows a column instead of a picture, unless the reader asks for another.
     pub fn show<C: Column>(mut self) -> Self {
         self.view = Some(C::NAME);
+        self
+    }
+
+    /// The reader's function, to be checked against the kit's.
+    pub fn exercise(mut self, attempt: Attempt) -> Self {
+        self.exercise = Some(attempt);
         self
     }
 

@@ -17,7 +17,8 @@
 //! 11. [`figure`]: drawings of a scene and of what the stages wrote for it.
 //! 12. [`review`]: what a picture was made of, as text to compare with.
 //! 13. [`measure`]: exact arithmetic, oracles, extremes.
-//! 14. [`command`]: the command line.
+//! 14. [`exercise`]: what a reader writes, beside the kit's own.
+//! 15. [`command`]: the command line.
 
 pub mod scene;
 
@@ -45,11 +46,15 @@ pub mod review;
 
 pub mod measure;
 
+pub mod exercise;
+
 pub mod command;
 
+mod attempt;
 mod chapter;
 mod error;
 
+pub use attempt::{Attempt, StageWords};
 pub use chapter::{Asked, Chapter};
 pub use error::{Error, Result};
 

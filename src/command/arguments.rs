@@ -19,7 +19,8 @@ use std::path::PathBuf;
     cargo run --release -- trace cover --pixel 480,300\n  \
     cargo run --release -- extremes sphere\n  \
     cargo run --release -- sweep 05_pinhole\n  \
-    cargo run --release -- export 05_pinhole"
+    cargo run --release -- export 05_pinhole\n  \
+    cargo run --release -- check"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -44,6 +45,8 @@ pub enum Command {
     Export(ExportScene),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
+    /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
+    Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
@@ -134,6 +137,12 @@ pub struct TryExtremes {
 pub struct SweepChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file (scene.ron)
     pub chapter: String,
+}
+
+#[derive(Args)]
+pub struct CheckExercise {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: Option<String>,
 }
 
 #[derive(Args)]

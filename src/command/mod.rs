@@ -3,6 +3,7 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod check;
 mod compare;
 mod cost;
 mod export;
@@ -54,6 +55,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Export(asked)) => export::export(chapters, &asked, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
+        Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, out),

@@ -1,0 +1,75 @@
+//! What each chapter asks its reader to write: a function in the chapter's `exercise.rs`.
+
+use pinhole::Attempt;
+
+#[path = "01_image/exercise.rs"]
+pub mod image;
+
+#[path = "02_ray/exercise.rs"]
+pub mod ray;
+
+#[path = "03_hit/exercise.rs"]
+pub mod hit;
+
+#[path = "04_orthographic/exercise.rs"]
+pub mod orthographic;
+
+#[path = "05_pinhole/exercise.rs"]
+pub mod pinhole_camera;
+
+#[path = "06_ndc/exercise.rs"]
+pub mod ndc;
+
+#[path = "07_screen/exercise.rs"]
+pub mod screen;
+
+#[path = "08_field_of_view/exercise.rs"]
+pub mod field_of_view;
+
+#[path = "09_camera_to_world/exercise.rs"]
+pub mod camera_to_world;
+
+#[path = "10_light_and_shadow/exercise.rs"]
+pub mod light_and_shadow;
+
+#[path = "11_conventions/exercise.rs"]
+pub mod conventions;
+
+#[path = "12_how_it_is_built/exercise.rs"]
+pub mod how_it_is_built;
+
+/// Chapter 01.
+pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
+
+/// Chapter 02.
+pub const RAY: Attempt = Attempt::Unit(ray::unit);
+
+/// Chapter 03.
+pub const HIT: Attempt = Attempt::NearestSphereT(hit::nearest_sphere_t);
+
+/// Chapter 04.
+pub const ORTHOGRAPHIC: Attempt = Attempt::OrthographicRay(orthographic::orthographic_ray);
+
+/// Chapter 05.
+pub const PINHOLE_CAMERA: Attempt = Attempt::PerspectiveDirection(pinhole_camera::perspective_direction);
+
+/// Chapter 06.
+pub const NDC: Attempt = Attempt::PixelFromNdc(ndc::pixel_from_ndc);
+
+/// Chapter 07.
+pub const SCREEN: Attempt = Attempt::NdcFromScreen(screen::ndc_from_screen);
+
+/// Chapter 08.
+pub const FIELD_OF_VIEW: Attempt = Attempt::VerticalFov(field_of_view::vertical_fov);
+
+/// Chapter 09.
+pub const CAMERA_TO_WORLD: Attempt = Attempt::NormalWorldFromObject(camera_to_world::normal_world_from_object);
+
+/// Chapter 10.
+pub const LIGHT_AND_SHADOW: Attempt = Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance);
+
+/// Chapter 11.
+pub const CONVENTIONS: Attempt = Attempt::OursFromTheirs(conventions::ours_from_theirs);
+
+/// Chapter 12.
+pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);

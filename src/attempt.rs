@@ -1,0 +1,64 @@
+use crate::scene::FovAxis;
+
+/// The function that a chapter asks of its reader, as the reader has it now; its parts are what the chapter's
+/// `exercise.rs` says.
+#[derive(Clone, Copy, Debug)]
+pub enum Attempt {
+    /// Chapter 01: the index of a pixel, the image's width.
+    RasterFromIndex(fn(u64, u32) -> [f64; 2]),
+    /// Chapter 02: a vector.
+    Unit(fn([f64; 3]) -> Option<[f64; 3]>),
+    /// Chapter 03: origin, direction, centre, radius.
+    NearestSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64) -> Option<f64>),
+    /// Chapter 04: a screen point, the view's height.
+    OrthographicRay(fn([f64; 2], f64) -> ([f64; 3], [f64; 3])),
+    /// Chapter 05: a screen point, the tangent of half the vertical angle.
+    PerspectiveDirection(fn([f64; 2], f64) -> [f64; 3]),
+    /// Chapter 06: an NDC point, the image's width and height.
+    PixelFromNdc(fn([f64; 2], u32, u32) -> Option<[u32; 2]>),
+    /// Chapter 07: a screen point, the image's width and height.
+    NdcFromScreen(fn([f64; 2], u32, u32) -> [f64; 2]),
+    /// Chapter 08: an angle in degrees, across what it is measured, the image's width and height.
+    VerticalFov(fn(f64, FovAxis, u32, u32) -> f64),
+    /// Chapter 09: the columns of a map, a normal.
+    NormalWorldFromObject(fn([[f64; 3]; 3], [f64; 3]) -> [f64; 3]),
+    /// Chapter 10: colour, intensity, position, normal, light.
+    ReflectedRadiance(fn(f64, f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 11: a direction, and whether their x points right, their y up, their z ahead.
+    OursFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
+    /// Chapter 12: stages in order, the column asked for.
+    Kept(fn(&[StageWords], &str) -> Vec<String>),
+}
+
+impl Attempt {
+    /// The function's name.
+    pub fn function(&self) -> &'static str {
+        match self {
+            Self::RasterFromIndex(_) => "raster_from_index",
+            Self::Unit(_) => "unit",
+            Self::NearestSphereT(_) => "nearest_sphere_t",
+            Self::OrthographicRay(_) => "orthographic_ray",
+            Self::PerspectiveDirection(_) => "perspective_direction",
+            Self::PixelFromNdc(_) => "pixel_from_ndc",
+            Self::NdcFromScreen(_) => "ndc_from_screen",
+            Self::VerticalFov(_) => "vertical_fov",
+            Self::NormalWorldFromObject(_) => "normal_world_from_object",
+            Self::ReflectedRadiance(_) => "reflected_radiance",
+            Self::OursFromTheirs(_) => "ours_from_theirs",
+            Self::Kept(_) => "kept",
+        }
+    }
+}
+
+/// A stage on offer, in words alone: what chapter 12's exercise plans with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StageWords {
+    /// What it is called.
+    pub name: String,
+    /// Whether the scene holds what the stage is for.
+    pub needed: bool,
+    /// The columns it reads.
+    pub reads: Vec<String>,
+    /// The columns it writes.
+    pub writes: Vec<String>,
+}

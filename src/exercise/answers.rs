@@ -1,0 +1,67 @@
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread::Builder;
+use std::time::Duration;
+
+/// What came of asking the reader's function once.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer<A> {
+    /// It answered.
+    Given(A),
+    /// It panicked, with these words.
+    Panicked(String),
+    /// It had not answered when patience ran out.
+    Late,
+}
+
+/// Asks a function one input after the other, on a thread of its own, up to the first that it does not answer.
+///
+/// A function that never answers keeps its thread until the program ends.
+pub fn answers<I, A>(
+    function: &str,
+    inputs: &Arc<[I]>,
+    yours: impl Fn(&I) -> A + Send + 'static,
+    patience: Duration,
+) -> Vec<Answer<A>>
+where
+    I: Send + Sync + 'static,
+    A: Send + 'static,
+{
+    let (send, receive) = channel();
+    let asked = Arc::clone(inputs);
+    // Its name is what Rust prints before a panic's own words.
+    let started = Builder::new().name(format!("your {function}")).spawn(move || {
+        for input in asked.iter() {
+            let answer = catch_unwind(AssertUnwindSafe(|| yours(input)));
+            let panicked = answer.is_err();
+            if send.send(answer.map_err(words)).is_err() || panicked {
+                return;
+            }
+        }
+    });
+    let mut answers = Vec::with_capacity(inputs.len());
+    if let Err(refused) = started {
+        return vec![Answer::Panicked(format!("no thread could be started for it: {refused}"))];
+    }
+    while answers.len() < inputs.len() {
+        match receive.recv_timeout(patience) {
+            Ok(Ok(given)) => answers.push(Answer::Given(given)),
+            Ok(Err(words)) => answers.push(Answer::Panicked(words)),
+            Err(RecvTimeoutError::Timeout) => answers.push(Answer::Late),
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+        if !matches!(answers.last(), Some(Answer::Given(_))) {
+            break;
+        }
+    }
+    answers
+}
+
+/// What a panic said, on one line.
+fn words(panic: Box<dyn Any + Send>) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+    text.map_or_else(|| "no words".into(), |text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+}

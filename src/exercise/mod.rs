@@ -1,0 +1,55 @@
+//! What a chapter asks its reader to write, put beside what the kit computes.
+//!
+//! Reads: the reader's function, which is compiled from the chapter's `exercise.rs`.
+//! Writes: how it did, the first input at which the two differ, and how often it was tried, to a file of progress.
+//! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
+//! Nothing here runs in a render.
+
+mod answers;
+mod apart;
+mod camera_to_world;
+mod conventions;
+mod field_of_view;
+mod hit;
+mod how_it_is_built;
+mod image;
+mod judge;
+mod light_and_shadow;
+mod ndc;
+mod orthographic;
+mod pinhole;
+mod progress;
+mod question;
+mod ray;
+mod report;
+mod screen;
+mod shown;
+mod turn;
+
+pub use judge::{Mismatch, Outcome, Report};
+pub use progress::{Progress, Tries};
+pub use turn::{list_exercises, take_turn};
+
+use crate::attempt::Attempt;
+use std::time::Duration;
+
+/// How long one answer may take before the reader's function counts as running for ever.
+pub const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Asks a reader's function all inputs of its exercise and says how it did.
+pub fn check(attempt: Attempt, patience: Duration) -> Report {
+    match attempt {
+        Attempt::RasterFromIndex(yours) => image::check(yours, patience),
+        Attempt::Unit(yours) => ray::check(yours, patience),
+        Attempt::NearestSphereT(yours) => hit::check(yours, patience),
+        Attempt::OrthographicRay(yours) => orthographic::check(yours, patience),
+        Attempt::PerspectiveDirection(yours) => pinhole::check(yours, patience),
+        Attempt::PixelFromNdc(yours) => ndc::check(yours, patience),
+        Attempt::NdcFromScreen(yours) => screen::check(yours, patience),
+        Attempt::VerticalFov(yours) => field_of_view::check(yours, patience),
+        Attempt::NormalWorldFromObject(yours) => camera_to_world::check(yours, patience),
+        Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
+        Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
+        Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+    }
+}

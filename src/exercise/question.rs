@@ -1,0 +1,61 @@
+use super::shown::Shown;
+
+/// What one exercise asks, what counts as the same answer, and what is said when it is not.
+pub struct Question<I, A> {
+    /// The function's name.
+    pub function: &'static str,
+    /// Where the kit does the same: a file, and a name in it.
+    pub kit_has: (&'static str, &'static str),
+    /// The inputs, ordinary ones first.
+    pub probes: Vec<Probe<I>>,
+    /// An input as the function's arguments, by name.
+    pub tell: fn(&I) -> String,
+    /// The right answer.
+    pub kit: fn(&I) -> A,
+    /// How far apart two answers are: the reader's, and the right one.
+    pub apart: fn(&A, &A) -> f64,
+    /// How far apart they may be.
+    pub allowed: f64,
+    /// What `apart` measures, in words, after the number: "of each part".
+    pub measured: &'static str,
+    /// Mistakes that can be recognised, the special before the general.
+    pub mistakes: Vec<Mistake<I, A>>,
+    /// What is said to whoever is stuck, each telling more than the one before.
+    pub hints: &'static [&'static str],
+}
+
+/// One input.
+#[derive(Clone, Debug)]
+pub struct Probe<I> {
+    /// What is special about it, in a few words.
+    pub about: &'static str,
+    /// The arguments.
+    pub input: I,
+}
+
+/// A mistake, known by what it would answer.
+pub struct Mistake<I, A> {
+    /// What is said of it.
+    pub told: &'static str,
+    /// What comes out if it is made.
+    pub makes: fn(&I) -> A,
+}
+
+impl<I, A> Mistake<I, A> {
+    /// A mistake and what is said of it.
+    pub fn new(told: &'static str, makes: fn(&I) -> A) -> Self {
+        Self { told, makes }
+    }
+}
+
+/// Probes with the same remark.
+pub fn probes<I>(about: &'static str, inputs: impl IntoIterator<Item = I>) -> impl Iterator<Item = Probe<I>> {
+    inputs.into_iter().map(move |input| Probe { about, input })
+}
+
+impl<I, A: Shown> Question<I, A> {
+    /// Whether an answer counts as the right one.
+    pub fn same(&self, yours: &A, right: &A) -> bool {
+        (self.apart)(yours, right) <= self.allowed
+    }
+}

@@ -1,0 +1,90 @@
+use super::judge::{Asked, Outcome, Report};
+use std::io::{self, Write};
+
+impl Report {
+    /// Writes what a reader sees, with as many hints as they have earned.
+    ///
+    /// Errors: printing failed.
+    pub fn print(&self, hints: usize, out: &mut dyn Write) -> io::Result<()> {
+        match &self.outcome {
+            Outcome::Right(worst) => self.print_right(*worst, out),
+            Outcome::Wrong(mismatch) => {
+                let (wrong, inputs) = (mismatch.wrong, self.inputs);
+                writeln!(out, "{} is wrong for {wrong} of {inputs} inputs; the first:", self.function)?;
+                print_asked(&mismatch.asked, out)?;
+                writeln!(out, "  yours      {}", mismatch.yours)?;
+                writeln!(out, "  expected   {}", mismatch.right)?;
+                if let Some(difference) = &mismatch.difference {
+                    writeln!(out, "  difference {difference}")?;
+                }
+                if mismatch.apart.is_finite() && self.allowed.0 > 0.0 {
+                    let (allowed, measured) = self.allowed;
+                    writeln!(out, "  off by     {:.1e} {measured}, where {allowed:e} is allowed", mismatch.apart)?;
+                }
+                if mismatch.always_the_same {
+                    return writeln!(out, "it gives this answer whatever it is asked, as the stub does");
+                }
+                if let Some(told) = mismatch.looks_like {
+                    writeln!(out, "it looks as if {told}")?;
+                }
+                self.print_hints(hints, out)
+            }
+            Outcome::Panicked(asked, words) => {
+                writeln!(out, "{} panicked: {words}", self.function)?;
+                print_asked(asked, out)?;
+                self.print_hints(hints, out)
+            }
+            Outcome::Late(asked, patience) => {
+                let seconds = patience.as_secs_f64();
+                writeln!(out, "{} has not answered within {seconds} s; does a loop of it ever end?", self.function)?;
+                print_asked(asked, out)?;
+                self.print_hints(hints, out)
+            }
+        }
+    }
+
+    fn print_right(&self, worst: f64, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{} is right for all {} inputs, ordinary and extreme", self.function, self.inputs)?;
+        match self.allowed {
+            (0.0, _) => writeln!(out, "  every answer is the expected one, exactly")?,
+            (allowed, measured) => {
+                writeln!(out, "  the worst is off by {worst:.1e} {measured}, where {allowed:e} is allowed")?;
+            }
+        }
+        let (file, name) = self.kit_has;
+        writeln!(out, "the kit does it in {file}: look for `{name}`")
+    }
+
+    fn print_hints(&self, earned: usize, out: &mut dyn Write) -> io::Result<()> {
+        for (number, hint) in self.hints.iter().enumerate().take(earned) {
+            writeln!(out, "hint {} of {}: {hint}", number + 1, self.hints.len())?;
+        }
+        Ok(())
+    }
+
+    /// The same in one sentence, for the end of a command that failed.
+    pub fn sentence(&self) -> Option<String> {
+        let function = self.function;
+        match &self.outcome {
+            Outcome::Right(_) => None,
+            Outcome::Wrong(mismatch) if mismatch.always_the_same => {
+                Some(format!("{function} gives one and the same answer, as the stub does"))
+            }
+            Outcome::Wrong(mismatch) => {
+                Some(format!("{function} is wrong for {} of {} inputs", mismatch.wrong, self.inputs))
+            }
+            Outcome::Panicked(asked, _) => Some(format!("{function} panicked at input {}", asked.number)),
+            Outcome::Late(asked, _) => Some(format!("{function} did not answer input {} in time", asked.number)),
+        }
+    }
+
+    /// Whether the reader has not begun: the answer is one and the same, as a stub's is.
+    pub fn is_stub(&self) -> bool {
+        matches!(&self.outcome, Outcome::Wrong(mismatch) if mismatch.always_the_same)
+    }
+}
+
+fn print_asked(asked: &Asked, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "  input {:<4} {}", asked.number, asked.about)?;
+    writeln!(out, "             {}", asked.input)
+}

@@ -1,0 +1,69 @@
+use super::judge::Outcome;
+use super::{PATIENCE, Progress, check};
+use crate::chapter::Chapter;
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
+///
+/// Errors: a wrong answer, a panic or no answer in time, in one sentence; a chapter without an exercise; printing failed.
+pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result {
+    let name = chapter.name;
+    let Some(attempt) = chapter.exercise else {
+        let said = format!("{name} has no exercise to check; `cargo run --release -- check` lists those that have one");
+        return Err(Error::Usage(said));
+    };
+    let (mut progress, remark) = Progress::read(file);
+    let report = check(attempt, PATIENCE);
+    let mut tries = progress.of(name);
+    if !report.is_stub() {
+        let done = matches!(report.outcome, Outcome::Right(_));
+        tries.tried = tries.tried.saturating_add(1);
+        tries.wrong = if done { 0 } else { tries.wrong.saturating_add(1) };
+        tries.done = done;
+    }
+    report.print(tries.wrong as usize, out)?;
+    let number = name.split('_').next().unwrap_or(name);
+    match report.outcome {
+        Outcome::Right(_) => writeln!(out, "next: cargo run --release -- check shows what is left")?,
+        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?,
+    }
+    if let Some(remark) = remark {
+        writeln!(out, "note: {remark}")?;
+    }
+    if !report.is_stub() {
+        progress.0.insert(name.into(), tries);
+        if let Err(refused) = progress.write(file) {
+            writeln!(out, "note: this try will not be remembered: {refused}")?;
+        }
+    }
+    report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
+}
+
+/// The exercises of all chapters, and how far the reader has come.
+///
+/// Errors: printing failed.
+pub fn list_exercises(chapters: &[Chapter], file: &Path, out: &mut dyn Write) -> Result {
+    let (progress, remark) = Progress::read(file);
+    writeln!(out, "functions for you to write, each checked against the kit's:")?;
+    for chapter in chapters {
+        let Some(attempt) = chapter.exercise else { continue };
+        let tries = progress.of(chapter.name);
+        let state = match (tries.done, tries.tried) {
+            (true, _) => "done".into(),
+            (false, 0) => "not tried".into(),
+            (false, 1) => "tried once".into(),
+            (false, times) => format!("tried {times} times"),
+        };
+        writeln!(out, "  {:<22} {:<24} {state}", chapter.name, attempt.function())?;
+    }
+    writeln!(
+        out,
+        "each lies in chapters/<chapter>/exercise.rs; cargo run --release -- check 5 tries that of chapter 05"
+    )?;
+    if let Some(remark) = remark {
+        writeln!(out, "note: {remark}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,238 @@
+//! What readers write: every stub fails, every kept solution passes, every planted mistake is called by its name.
+
+use bevy_ecs::prelude::World;
+use pinhole::exercise::{Outcome, PATIENCE, Progress, Report, check, list_exercises, take_turn};
+use pinhole::{Attempt, Chapter};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::Duration;
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
+
+#[path = "exercises/mistakes.rs"]
+mod mistakes;
+
+mod solutions;
+
+/// The line that a stub has and a reader's own function has not.
+const MARKER: &str = "// Yours to write:";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn stub(chapter: &str) -> String {
+    fs::read_to_string(root().join("chapters").join(chapter).join("exercise.rs")).expect("a chapter's exercise")
+}
+
+/// Whether a chapter's exercise is still as it was handed out; in CI it must be.
+fn untouched(chapter: &str) -> bool {
+    let untouched = stub(chapter).contains(MARKER);
+    assert!(untouched || std::env::var_os("CI").is_none(), "chapters/{chapter}/exercise.rs is no stub any more");
+    if !untouched {
+        eprintln!("chapters/{chapter}/exercise.rs is the reader's own now; it is not asked to fail");
+    }
+    untouched
+}
+
+/// What a reader would see of a report, all hints among it.
+fn told(report: &Report) -> String {
+    let mut out = Vec::new();
+    report.print(9, &mut out).expect("printed");
+    String::from_utf8(out).expect("UTF-8")
+}
+
+/// A chapter that asks for this function.
+fn asking(attempt: Attempt) -> Chapter {
+    Chapter::new("05_pinhole", "", |_: &mut World| {}).exercise(attempt)
+}
+
+/// One turn: what it printed, and the sentence it ended with.
+fn turn(attempt: Attempt, file: &Path) -> (String, Option<String>) {
+    let mut out = Vec::new();
+    let ended = take_turn(&asking(attempt), file, &mut out).err().map(|error| error.to_string());
+    (String::from_utf8(out).expect("UTF-8"), ended)
+}
+
+fn hints(said: &str) -> usize {
+    said.lines().filter(|line| line.starts_with("hint ")).count()
+}
+
+const RIGHT: Attempt = solutions::ALL[4].1;
+const WRONG: Attempt = Attempt::PerspectiveDirection(|[x, y], _| [x, y, -1.0]);
+
+#[test]
+fn every_kept_solution_is_right() {
+    let mut inputs = 0;
+    for (chapter, solution) in solutions::ALL {
+        let report = check(solution, PATIENCE);
+        assert!(matches!(report.outcome, Outcome::Right(_)), "{chapter}: {}", told(&report));
+        inputs += report.inputs;
+        eprintln!("{chapter}: {}", told(&report).lines().nth(1).unwrap_or_default());
+    }
+    eprintln!("solutions: {} right for {inputs} inputs", solutions::ALL.len());
+}
+
+#[test]
+fn every_stub_is_wrong() {
+    let (mut stubs, mut asking) = (0, 0);
+    for chapter in chapters::all() {
+        let Some(attempt) = chapter.exercise else { continue };
+        asking += 1;
+        if untouched(chapter.name) {
+            let report = check(attempt, PATIENCE);
+            assert!(report.is_stub(), "{}: {}", chapter.name, told(&report));
+            stubs += 1;
+        }
+    }
+    assert_eq!(asking, solutions::ALL.len(), "chapters that ask for a function");
+    eprintln!("stubs: {stubs} wrong, of {asking} exercises");
+}
+
+#[test]
+fn chapters_stubs_and_solutions_agree() {
+    for ((name, solution), chapter) in solutions::ALL.iter().zip(&chapters::all()[1..]) {
+        let attempt = chapter.exercise.expect("an exercise");
+        assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
+        let signature = format!("pub fn {}(", attempt.function());
+        assert!(stub(name).contains(&signature), "no {signature} in chapters/{name}/exercise.rs");
+        let report = check(*solution, PATIENCE);
+        assert_eq!(report.function, attempt.function());
+        assert!(report.hints.len() >= 3, "{name}: only {} hints", report.hints.len());
+        let (file, word) = report.kit_has;
+        let source = fs::read_to_string(root().join(file)).unwrap_or_else(|_| panic!("{name}: there is no {file}"));
+        assert!(source.contains(word), "{name}: no {word} in {file}");
+    }
+}
+
+#[test]
+fn every_planted_mistake_is_called_by_its_name() {
+    let mut unnamed = Vec::new();
+    for (at, (chapter, mistake, words)) in mistakes::ALL.iter().enumerate() {
+        let report = check(*mistake, PATIENCE);
+        let looks_like = match &report.outcome {
+            Outcome::Wrong(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
+            _ => "no mistake at all",
+        };
+        if !looks_like.contains(words) {
+            unnamed.push(format!("{chapter}, mistake {at}, \"{words}\": {looks_like}\n{}", told(&report)));
+        }
+    }
+    assert!(unnamed.is_empty(), "{} of {}:\n{}", unnamed.len(), mistakes::ALL.len(), unnamed.join("\n"));
+    for (chapter, _) in solutions::ALL {
+        assert!(mistakes::ALL.iter().any(|(of, ..)| of == &chapter), "no mistake is planted in {chapter}");
+    }
+    eprintln!("mistakes: {} planted, all recognised", mistakes::ALL.len());
+}
+
+#[test]
+fn a_mismatch_names_input_answer_and_expected() {
+    let said = told(&check(Attempt::RasterFromIndex(|i, w| [(i % w as u64) as f64, (i / w as u64) as f64]), PATIENCE));
+    for words in ["index 0, width 4", "yours      (0.0, 0.0)", "expected   (0.5, 0.5)", "difference (-0.5, -0.5)"] {
+        assert!(said.contains(words), "no \"{words}\" in\n{said}");
+    }
+}
+
+#[test]
+fn hints_grow_and_progress_is_kept() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("out/check.json");
+    let most = check(RIGHT, PATIENCE).hints.len();
+    for time in 1..=most + 2 {
+        let (said, ended) = turn(WRONG, &file);
+        assert_eq!(hints(&said), time.min(most), "{said}");
+        assert!(ended.is_some_and(|ended| ended.contains("is wrong for")), "{said}");
+        assert_eq!(Progress::read(&file).0.of("05_pinhole").wrong as usize, time);
+    }
+    let list = |file: &Path| {
+        let mut out = Vec::new();
+        list_exercises(&[asking(WRONG)], file, &mut out).expect("printed");
+        String::from_utf8(out).expect("UTF-8")
+    };
+    assert!(list(&file).contains(&format!("tried {} times", most + 2)), "{}", list(&file));
+    let (said, ended) = turn(RIGHT, &file);
+    assert!(ended.is_none() && said.contains("is right for all") && hints(&said) == 0, "{said}");
+    assert!(list(&file).contains("done"), "{}", list(&file));
+    let (said, _) = turn(WRONG, &file);
+    assert_eq!(hints(&said), 1, "{said}");
+    let stub = Attempt::PerspectiveDirection(|_, _| [0.0; 3]);
+    let before = Progress::read(&file).0;
+    let (said, ended) = turn(stub, &file);
+    assert!(ended.is_some() && said.contains("as the stub does"), "{said}");
+    assert_eq!(Progress::read(&file).0, before, "a stub counts as no try");
+}
+
+#[test]
+fn a_damaged_file_of_progress_is_set_aside() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("check.json");
+    turn(WRONG, &file);
+    let whole = fs::read(&file).expect("written");
+    let halves = (0..whole.len() - 2).map(|length| whole[..length].to_vec());
+    let others: [&[u8]; 5] =
+        [b"[]", b"{\"05_pinhole\": 3}", b"{\"a\": {\"tried\": -1}}", b"\xff\xfe", b"{\"a\": {\"x\": 1}}"];
+    let mut damaged = 0;
+    for bytes in halves.chain(others.map(<[u8]>::to_vec)) {
+        fs::write(&file, &bytes).expect("written");
+        let (said, ended) = turn(RIGHT, &file);
+        assert!(ended.is_none() && said.contains("is damaged") && said.contains("is set aside as"), "{said}");
+        assert_eq!(fs::read(folder.path().join("check.damaged.json")).expect("set aside"), bytes);
+        assert!(Progress::read(&file).0.of("05_pinhole").done);
+        damaged += 1;
+    }
+    let in_the_way = folder.path().join("folder");
+    fs::create_dir(&in_the_way).expect("made");
+    let (said, ended) = turn(RIGHT, &in_the_way);
+    assert!(ended.is_none() && said.contains("will not be remembered"), "{said}");
+    eprintln!("progress: {damaged} damaged files set aside");
+}
+
+#[test]
+fn a_function_that_panics_or_never_ends_is_reported() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("check.json");
+    let panics = Attempt::PerspectiveDirection(|screen, tan| {
+        assert!(screen[0] >= 0.0, "the image\nis mirrored");
+        solutions::pinhole_camera::perspective_direction(screen, tan)
+    });
+    let (said, ended) = turn(panics, &file);
+    assert!(said.contains("panicked: the image is mirrored") && said.contains("screen (-1.0, 0.0)"), "{said}");
+    assert!(ended.is_some_and(|ended| ended.contains("panicked at input 3")) && hints(&said) == 1, "{said}");
+    let endless = Attempt::Kept(|_, _| {
+        loop {
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    });
+    let report = check(endless, Duration::from_millis(300));
+    assert!(matches!(report.outcome, Outcome::Late(..)));
+    assert!(told(&report).contains("has not answered within 0.3 s"), "{}", told(&report));
+}
+
+fn run(folder: &Path, words: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pinhole")).current_dir(folder).args(words).output().expect("the program starts")
+}
+
+#[test]
+fn the_program_lists_checks_and_ends_with_1_on_a_mismatch() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let list = run(folder.path(), &["check"]);
+    let said = String::from_utf8(list.stdout).expect("UTF-8");
+    assert!(list.status.success());
+    for (chapter, solution) in solutions::ALL {
+        assert!(said.contains(chapter) && said.contains(solution.function()), "no {chapter} in\n{said}");
+    }
+    assert!(!said.contains("cover") && !folder.path().join("out").exists(), "{said}");
+    let none = run(folder.path(), &["check", "cover"]);
+    let said = String::from_utf8(none.stderr).expect("UTF-8");
+    assert!(none.status.code() == Some(1) && said.contains("cover has no exercise"), "{said}");
+    if untouched("05_pinhole") {
+        let wrong = run(folder.path(), &["check", "5"]);
+        let said = String::from_utf8(wrong.stdout).expect("UTF-8");
+        assert_eq!(wrong.status.code(), Some(1), "{said}");
+        assert!(said.contains("perspective_direction is wrong for") && said.contains("check 05"), "{said}");
+        assert_eq!(String::from_utf8_lossy(&wrong.stderr).lines().count(), 1);
+        assert!(!folder.path().join("out").exists(), "a stub counts as no try");
+    }
+}

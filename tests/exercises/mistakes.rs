@@ -1,0 +1,277 @@
+//! Typical wrong solutions, written as a reader would, and a word of what must be said of each.
+
+use pinhole::scene::FovAxis;
+use pinhole::{Attempt, StageWords};
+
+/// The chapter, the wrong function, words of the remark that it must get.
+pub const ALL: &[(&str, Attempt, &str)] = &[
+    ("01_image", Attempt::RasterFromIndex(|i, w| [(i % w as u64) as f64, (i / w as u64) as f64]), "half is missing"),
+    (
+        "01_image",
+        Attempt::RasterFromIndex(|i, w| [(i as u32 % w) as f64 + 0.5, (i as u32 / w) as f64 + 0.5]),
+        "32 bits",
+    ),
+    (
+        "01_image",
+        Attempt::RasterFromIndex(|i, w| [(i / w as u64) as f64 + 0.5, (i % w as u64) as f64 + 0.5]),
+        "swapped",
+    ),
+    ("01_image", Attempt::RasterFromIndex(fractional_row), "counted whole"),
+    ("02_ray", Attempt::Unit(|v| Some(divided(v, length(v)))), "squares overflow"),
+    ("02_ray", Attempt::Unit(|v| (length(v) > 0.0).then(|| divided(v, length(v)))), "squares overflow"),
+    ("02_ray", Attempt::Unit(finite_or_none), "squares overflow"),
+    ("02_ray", Attempt::Unit(|v| Some(divided(v, length(v) * length(v)))), "square root is missing"),
+    ("02_ray", Attempt::Unit(scaled_but_never_none), "None"),
+    ("03_hit", Attempt::NearestSphereT(|o, d, c, r| school(o, d, c, r).map(|(near, _)| near)), "behind the origin"),
+    ("03_hit", Attempt::NearestSphereT(|o, d, c, r| Some(school(o, d, c, r)?.0).filter(|&t| t > 0.0)), "from inside"),
+    ("03_hit", Attempt::NearestSphereT(|o, d, c, r| Some(school(o, d, c, r)?.1).filter(|&t| t > 0.0)), "farther root"),
+    ("03_hit", Attempt::NearestSphereT(both_roots), "b² − ac"),
+    ("03_hit", Attempt::NearestSphereT(unit_assumed), "length 1"),
+    ("04_orthographic", Attempt::OrthographicRay(|[x, y], h| ([x * h, y * h, 0.0], AHEAD)), "twice as far"),
+    ("04_orthographic", Attempt::OrthographicRay(|[x, y], h| ([x * h / 2.0, y * h / 2.0, 0.0], [0.0, 0.0, 1.0])), "−z"),
+    (
+        "04_orthographic",
+        Attempt::OrthographicRay(|[x, y], h| ([x * h / 2.0, -y * h / 2.0, 0.0], AHEAD)),
+        "y points down",
+    ),
+    ("05_pinhole", Attempt::PerspectiveDirection(|[x, y], t| [x * t, y * t, -1.0]), "not of length 1"),
+    ("05_pinhole", Attempt::PerspectiveDirection(|[x, y], _| normalised([x, y, -1.0])), "left out"),
+    ("05_pinhole", Attempt::PerspectiveDirection(|[x, y], t| normalised([x, y * t, -1.0])), "only y"),
+    ("05_pinhole", Attempt::PerspectiveDirection(|[x, y], t| normalised([-x * t, -y * t, -1.0])), "box with a hole"),
+    (
+        "05_pinhole",
+        Attempt::PerspectiveDirection(|[x, y], t| normalised([x * t.tan(), y * t.tan(), -1.0])),
+        "taken of the tangent",
+    ),
+    ("06_ndc", Attempt::PixelFromNdc(|[x, y], w, h| Some([(x * w as f64) as u32, (y * h as f64) as u32])), "outside"),
+    ("06_ndc", Attempt::PixelFromNdc(clamped), "belongs to none"),
+    ("06_ndc", Attempt::PixelFromNdc(one_too_many), "does not have"),
+    ("06_ndc", Attempt::PixelFromNdc(closed), "1 counts as inside"),
+    ("06_ndc", Attempt::PixelFromNdc(less_one), "size less 1"),
+    ("06_ndc", Attempt::PixelFromNdc(rounded), "nearest"),
+    ("07_screen", Attempt::NdcFromScreen(|[x, y], _, _| [(x + 1.0) / 2.0, (1.0 - y) / 2.0]), "aspect is left out"),
+    ("07_screen", Attempt::NdcFromScreen(|[x, y], w, h| [(x * aspect(w, h) + 1.0) / 2.0, (1.0 - y) / 2.0]), "divide"),
+    (
+        "07_screen",
+        Attempt::NdcFromScreen(|[x, y], w, h| [(x / aspect(w, h) + 1.0) / 2.0, (y + 1.0) / 2.0]),
+        "turned over",
+    ),
+    (
+        "07_screen",
+        Attempt::NdcFromScreen(|[x, y], w, h| [(x + 1.0) / 2.0 / aspect(w, h), (1.0 - y) / 2.0]),
+        "last step",
+    ),
+    ("08_field_of_view", Attempt::VerticalFov(|a, _, _, _| a), "handed back"),
+    ("08_field_of_view", Attempt::VerticalFov(|a, x, w, h| fov(a, x, w, h, |a, s| a / s)), "tangent of its half"),
+    ("08_field_of_view", Attempt::VerticalFov(in_degrees), "degrees for radians"),
+    ("08_field_of_view", Attempt::VerticalFov(|a, x, w, h| fov(a, x, w, h, right_angle).to_radians()), "in radians"),
+    ("08_field_of_view", Attempt::VerticalFov(|a, x, w, h| fov(a, x, w, h, right_angle) / 2.0), "half the angle"),
+    ("08_field_of_view", Attempt::VerticalFov(full_angle), "full angle"),
+    ("09_camera_to_world", Attempt::NormalWorldFromObject(as_a_point), "as a point"),
+    ("09_camera_to_world", Attempt::NormalWorldFromObject(cofactors), "sign of the determinant"),
+    ("10_light_and_shadow", Attempt::ReflectedRadiance(|c, i, p, n, l| light(c, i, p, n, l, |x| x, 2)), "negative"),
+    (
+        "10_light_and_shadow",
+        Attempt::ReflectedRadiance(|c, i, p, n, l| light(c, i, p, n, l, f64::abs, 2)),
+        "from behind",
+    ),
+    (
+        "10_light_and_shadow",
+        Attempt::ReflectedRadiance(|c, i, p, n, l| light(c, i, p, n, l, |x| x.max(0.0), 1)),
+        "square",
+    ),
+    ("10_light_and_shadow", Attempt::ReflectedRadiance(without_pi), "π is missing"),
+    ("10_light_and_shadow", Attempt::ReflectedRadiance(not_a_number), "no number"),
+    ("11_conventions", Attempt::OursFromTheirs(|v, _, _, _| v), "as it is"),
+    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "wrong way"),
+    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, _| [s(r, x), s(u, y), z]), "z is never"),
+    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], _, u, a| [x, s(u, y), s(!a, z)]), "x is never"),
+    ("12_how_it_is_built", Attempt::Kept(|stages, _| only(stages, |stage| stage.needed)), "left out"),
+    ("12_how_it_is_built", Attempt::Kept(forward), "later"),
+    ("12_how_it_is_built", Attempt::Kept(backward), "last to first"),
+    ("12_how_it_is_built", Attempt::Kept(one_step), "only the stage"),
+];
+
+const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
+
+fn fractional_row(index: u64, width: u32) -> [f64; 2] {
+    [(index % u64::from(width)) as f64 + 0.5, index as f64 / f64::from(width) + 0.5]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+fn divided(v: [f64; 3], by: f64) -> [f64; 3] {
+    v.map(|part| part / by)
+}
+
+fn normalised(v: [f64; 3]) -> [f64; 3] {
+    divided(v, length(v))
+}
+
+fn finite_or_none(v: [f64; 3]) -> Option<[f64; 3]> {
+    let unit = normalised(v);
+    unit.iter().all(|part| part.is_finite()).then_some(unit)
+}
+
+fn scaled_but_never_none(v: [f64; 3]) -> Option<[f64; 3]> {
+    let largest = v[0].abs().max(v[1].abs()).max(v[2].abs());
+    Some(normalised(divided(v, largest)))
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// The quadratic formula of school.
+fn school(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Option<(f64, f64)> {
+    let f = minus(o, centre);
+    let (a, b, c) = (dot(d, d), 2.0 * dot(f, d), dot(f, f) - radius * radius);
+    let discriminant = b * b - 4.0 * a * c;
+    let root = (discriminant >= 0.0).then(|| discriminant.sqrt())?;
+    Some(((-b - root) / (2.0 * a), (-b + root) / (2.0 * a)))
+}
+
+fn both_roots(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Option<f64> {
+    let (near, far) = school(o, d, centre, radius)?;
+    [near, far].into_iter().find(|&t| t > 0.0)
+}
+
+fn unit_assumed(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Option<f64> {
+    let f = minus(centre, o);
+    let s = dot(f, d);
+    let across = minus(f, d.map(|part| part * s));
+    let h = radius * radius - dot(across, across);
+    let h = (h >= 0.0).then(|| h.sqrt())?;
+    [s - h, s + h].into_iter().find(|&t| t > 0.0)
+}
+
+fn clamped([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let along = |n: f64, size: u32| ((n * f64::from(size)).floor().max(0.0) as u32).min(size - 1);
+    Some([along(x, width), along(y, height)])
+}
+
+fn one_too_many([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let outside = x < 0.0 || y < 0.0 || x > 1.0 || y > 1.0 || x.is_nan() || y.is_nan();
+    (!outside).then(|| [(x * f64::from(width)) as u32, (y * f64::from(height)) as u32])
+}
+
+fn closed([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let along = |n: f64, size: u32| (0.0..=1.0).contains(&n).then(|| ((n * f64::from(size)) as u32).min(size - 1));
+    Some([along(x, width)?, along(y, height)?])
+}
+
+fn less_one([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let along = |n: f64, size: u32| (0.0..1.0).contains(&n).then(|| (n * f64::from(size - 1)) as u32);
+    Some([along(x, width)?, along(y, height)?])
+}
+
+fn rounded([x, y]: [f64; 2], width: u32, height: u32) -> Option<[u32; 2]> {
+    let along = |n: f64, size: u32| (0.0..1.0).contains(&n).then(|| (n * f64::from(size)).round() as u32);
+    Some([along(x, width)?, along(y, height)?])
+}
+
+fn aspect(width: u32, height: u32) -> f64 {
+    f64::from(width) / f64::from(height)
+}
+
+fn fov(angle: f64, axis: FovAxis, width: u32, height: u32, vertical: fn(f64, f64) -> f64) -> f64 {
+    let aspect = aspect(width, height);
+    vertical(
+        angle,
+        match axis {
+            FovAxis::Vertical => 1.0,
+            FovAxis::Horizontal => aspect,
+            FovAxis::Smaller => aspect.min(1.0),
+            FovAxis::Larger => aspect.max(1.0),
+            FovAxis::Diagonal => aspect.hypot(1.0),
+        },
+    )
+}
+
+fn right_angle(angle: f64, heights: f64) -> f64 {
+    2.0 * ((angle.to_radians() / 2.0).tan() / heights).atan().to_degrees()
+}
+
+fn in_degrees(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
+    fov(angle, axis, width, height, |angle, heights| 2.0 * ((angle / 2.0).tan() / heights).atan().to_degrees())
+}
+
+fn full_angle(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
+    fov(angle, axis, width, height, |angle, heights| (angle.to_radians().tan() / heights).atan().to_degrees())
+}
+
+fn as_a_point([a, b, c]: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    normalised([0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z))
+}
+
+fn cofactors([a, b, c]: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let cross =
+        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    as_a_point([cross(b, c), cross(c, a), cross(a, b)], [x, y, z])
+}
+
+fn light(
+    colour: f64,
+    intensity: f64,
+    position: [f64; 3],
+    normal: [f64; 3],
+    light: [f64; 3],
+    cosine: fn(f64) -> f64,
+    power: i32,
+) -> f64 {
+    let way = minus(light, position);
+    let slant = dot(normal, normalised(way));
+    if slant.is_nan() {
+        return 0.0;
+    }
+    colour / std::f64::consts::PI * intensity * cosine(slant) / length(way).powi(power)
+}
+
+fn without_pi(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], lamp: [f64; 3]) -> f64 {
+    light(colour, intensity, position, normal, lamp, |cosine| cosine.max(0.0), 2) * std::f64::consts::PI
+}
+
+fn not_a_number(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], lamp: [f64; 3]) -> f64 {
+    if position == lamp { f64::NAN } else { light(colour, intensity, position, normal, lamp, |x| x.max(0.0), 2) }
+}
+
+fn s(keep: bool, part: f64) -> f64 {
+    if keep { part } else { -part }
+}
+
+fn only(stages: &[StageWords], kept: impl Fn(&StageWords) -> bool) -> Vec<String> {
+    stages.iter().filter(|stage| kept(stage)).map(|stage| stage.name.clone()).collect()
+}
+
+/// Round after round, until nothing more is kept; the order of the stages does not matter to it.
+fn forward(stages: &[StageWords], asked: &str) -> Vec<String> {
+    let mut wanted = vec![asked.to_owned()];
+    loop {
+        let before = wanted.len();
+        for stage in stages {
+            if stage.needed && stage.writes.iter().any(|column| wanted.contains(column)) {
+                wanted
+                    .extend(stage.reads.iter().filter(|column| !wanted.contains(column)).cloned().collect::<Vec<_>>());
+            }
+        }
+        if wanted.len() == before {
+            return only(stages, |stage| stage.needed && stage.writes.iter().any(|column| wanted.contains(column)));
+        }
+    }
+}
+
+fn backward(stages: &[StageWords], asked: &str) -> Vec<String> {
+    let mut kept = super::solutions::how_it_is_built::kept(stages, asked);
+    kept.reverse();
+    kept
+}
+
+fn one_step(stages: &[StageWords], asked: &str) -> Vec<String> {
+    only(stages, |stage| stage.needed && stage.writes.iter().any(|column| column == asked))
+}

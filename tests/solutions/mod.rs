@@ -1,0 +1,55 @@
+//! A kept solution of every chapter's exercise.
+
+use pinhole::Attempt;
+
+#[path = "01_image.rs"]
+pub mod image;
+
+#[path = "02_ray.rs"]
+pub mod ray;
+
+#[path = "03_hit.rs"]
+pub mod hit;
+
+#[path = "04_orthographic.rs"]
+pub mod orthographic;
+
+#[path = "05_pinhole.rs"]
+pub mod pinhole_camera;
+
+#[path = "06_ndc.rs"]
+pub mod ndc;
+
+#[path = "07_screen.rs"]
+pub mod screen;
+
+#[path = "08_field_of_view.rs"]
+pub mod field_of_view;
+
+#[path = "09_camera_to_world.rs"]
+pub mod camera_to_world;
+
+#[path = "10_light_and_shadow.rs"]
+pub mod light_and_shadow;
+
+#[path = "11_conventions.rs"]
+pub mod conventions;
+
+#[path = "12_how_it_is_built.rs"]
+pub mod how_it_is_built;
+
+/// By the chapter's name.
+pub const ALL: [(&str, Attempt); 12] = [
+    ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
+    ("02_ray", Attempt::Unit(ray::unit)),
+    ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
+    ("04_orthographic", Attempt::OrthographicRay(orthographic::orthographic_ray)),
+    ("05_pinhole", Attempt::PerspectiveDirection(pinhole_camera::perspective_direction)),
+    ("06_ndc", Attempt::PixelFromNdc(ndc::pixel_from_ndc)),
+    ("07_screen", Attempt::NdcFromScreen(screen::ndc_from_screen)),
+    ("08_field_of_view", Attempt::VerticalFov(field_of_view::vertical_fov)),
+    ("09_camera_to_world", Attempt::NormalWorldFromObject(camera_to_world::normal_world_from_object)),
+    ("10_light_and_shadow", Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance)),
+    ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
+    ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
+];
