@@ -28,6 +28,7 @@ pub use bevy_ecs::hierarchy::ChildOf;
 pub use bevy_ecs::name::Name;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
 pub use colour::Rgb;
+pub use glam::DQuat;
 pub use matte::{Matte, UsedByShapes, UsesMaterial};
 pub use name::called;
 pub use placement::{LookAt, Placement};
