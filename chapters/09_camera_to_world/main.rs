@@ -3,7 +3,6 @@
 //! New here: the last step of ray generation, and where things stand.
 
 use bevy_ecs::prelude::*;
-use glam::DQuat;
 use pinhole::scene::*;
 use pinhole::{Chapter, intersect, rays, shade};
 

@@ -90,7 +90,7 @@ fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     // Turned so that the light is to the upper right: the drawing's y goes down.
     let up = (light - centre).normalize_or(DVec2::Y);
     let upper_right = DVec2::new(libm::cos(LEAN), -libm::sin(LEAN));
-    let turned = |at: DVec2| DVec2::new(up.dot(at), up.perp_dot(at) * -1.0).rotate(upper_right);
+    let turned = |at: DVec2| DVec2::new(up.dot(at), -up.perp_dot(at)).rotate(upper_right);
     let (low, high) = (turned(light).min(turned(centre) - radius), turned(light).max(turned(centre) + radius));
     let scale = ((frame.high - frame.low) / (high - low)).min_element();
     let origin = (frame.low + frame.high) / 2.0 - scale * (low + high) / 2.0;
@@ -193,7 +193,7 @@ fn rounding_box(rounded: Vec3, place: impl Fn(DVec3) -> DVec2) -> Vec<DVec2> {
     let edges =
         rounded.to_array().map(|x| [x.next_down(), x.next_up()].map(|next| (f64::from(next) + f64::from(x)) / 2.0));
     let corner = |number: usize| {
-        let part = |axis: usize| edges[axis][number >> axis & 1];
+        let part = |axis: usize| edges[axis][(number >> axis) & 1];
         place(DVec3::new(part(0), part(1), part(2)))
     };
     super::patch::hull((0..8).map(corner).collect())

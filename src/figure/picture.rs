@@ -36,7 +36,7 @@ fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
         let byte = |at: usize| u32::from(group.get(at).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        let bits = (byte(0) << 16) | (byte(1) << 8) | byte(2);
         for letter in 0..4 {
             let six = (bits >> (18 - 6 * letter)) & 63;
             text.push(if letter <= group.len() { char::from(LETTERS[six as usize]) } else { '=' });

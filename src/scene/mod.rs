@@ -30,6 +30,7 @@ pub use bevy_ecs::name::Name;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
 pub use colour::Rgb;
 pub use file::{FileProblem, PlaceInFile, SceneFile, scene_text, words};
+pub use glam::DQuat;
 pub use matte::{Matte, UsedByShapes, UsesMaterial};
 pub use name::called;
 pub use placement::{LookAt, Placement};
