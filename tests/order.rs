@@ -17,9 +17,9 @@ const ORDER: [&str; 15] = [
     "render",
     "look",
     "chapter",
+    "naive",
     "figure",
     "review",
-    "naive",
     "measure",
     "command",
 ];

@@ -157,17 +157,36 @@ pub fn tan_half(angle: Degrees) -> f64 {
 }
 // ANCHOR_END: tan_half
 
-/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
-fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
-    let across = match axis {
+// ANCHOR: half_extent
+/// How far an image of this aspect reaches from its centre along `axis`, in half heights.
+pub fn half_extent(axis: FovAxis, aspect: f64) -> f64 {
+    match axis {
         FovAxis::Vertical => 1.0,
         FovAxis::Horizontal => aspect,
         FovAxis::Smaller => aspect.min(1.0),
         FovAxis::Larger => aspect.max(1.0),
         FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
-    };
-    tan_half(fov) / across
+    }
 }
+
+/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
+fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
+    tan_half(fov) / half_extent(axis, aspect)
+}
+// ANCHOR_END: half_extent
+
+// ANCHOR: angle_across
+/// The full angle across `axis` of what this lens sees in an image of this aspect: `tan_half` turned round.
+pub fn angle_across(lens: &PinholeLens, axis: FovAxis, aspect: f64) -> Degrees {
+    let tangent = lens.tan_half_vertical * half_extent(axis, aspect);
+    let degrees = |radians: f64| radians * (180.0 / std::f64::consts::PI);
+    Degrees(if tangent > 1.0 {
+        180.0 - degrees(2.0 * libm::atan(1.0 / tangent))
+    } else {
+        degrees(2.0 * libm::atan(tangent))
+    })
+}
+// ANCHOR_END: angle_across
 
 /// What an orthographic camera does to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]

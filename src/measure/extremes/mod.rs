@@ -7,6 +7,7 @@
 mod bench;
 mod camera;
 mod camera_chain;
+mod camera_ndc;
 mod camera_table;
 mod case;
 mod frame;
@@ -47,7 +48,9 @@ impl Group {
             Self::Sphere => sphere::trials(),
             Self::Plane => plane::trials(),
             Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
-            Self::Camera => [camera::trials(), camera_table::trials()].into_iter().flatten().collect(),
+            Self::Camera => {
+                [camera::trials(), camera_table::trials(), camera_ndc::trials()].into_iter().flatten().collect()
+            }
         }
     }
 }
