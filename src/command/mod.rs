@@ -2,6 +2,7 @@
 //!
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
+mod angles;
 mod arguments;
 mod cost;
 mod extremes;
@@ -39,6 +40,9 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             render::render_chapter(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
         }
         Some(Command::Plan(asked)) => plan::print_plan(find::chapter(chapters, &asked.chapter)?, &asked.options, out),
+        Some(Command::Angles(asked)) => {
+            angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
+        }
         Some(Command::Trace(asked)) => {
             trace::print_trace(find::chapter(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }

@@ -238,3 +238,28 @@ impl Table for CameraAxes {
         size_of::<Self>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_asked_for_across_an_axis_is_the_angle_across_that_axis() {
+        let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
+        let (mut worst, mut tried) = (0.0_f64, 0);
+        for axis in axes {
+            for aspect in [1e-4, 0.5, 1.0, 16.0 / 9.0, 1e4] {
+                for fov in [1e-4, 0.01, 1.0, 40.0, 60.0, 90.0, 120.0, 179.0, 179.99] {
+                    let lens = PinholeLens { tan_half_vertical: tan_half_vertical(Degrees(fov), axis, aspect) };
+                    let missing = |angle: f64| angle.min(180.0 - angle);
+                    let back = angle_across(&lens, axis, aspect).0;
+                    worst = worst.max((missing(back) - missing(fov)).abs() / missing(fov));
+                    tried += 1;
+                }
+            }
+        }
+        eprintln!("{tried} lenses: the angle comes back to within {worst:.1e} of itself");
+        // Near 180° the difference to it is what an f64 of the angle can still hold.
+        assert!(worst < 4.0 * 180.0 * f64::EPSILON / 0.01);
+    }
+}

@@ -15,7 +15,9 @@ pub fn chapter(name: &'static str) -> Chapter {
 
 /// All chapters that figures show.
 pub fn chapters() -> Vec<Chapter> {
-    ["02_ray", "03_hit", "04_orthographic", "05_pinhole"].map(chapter).to_vec()
+    ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
+        .map(chapter)
+        .to_vec()
 }
 
 fn central(world: &mut World) {

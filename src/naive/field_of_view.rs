@@ -4,13 +4,13 @@
 /// The right formula in f32.
 ///
 /// Near 180° the rounding of the angle is a large part of what is missing to 180°; and half of 180° in f32 is more than
-/// π/2, where the tangent is negative and the picture stands on its head.
+/// π/2, where the tangent is negative and the picture makes half a turn.
 #[must_use]
 pub fn tan_half_f32(degrees: f32) -> f32 {
     libm::tanf(degrees.to_radians() / 2.0)
 }
 
-/// The half forgotten: from 90° on nothing is left to see, or the picture stands on its head.
+/// The half forgotten: too wide, and above 90° negative, so that the picture makes half a turn.
 #[must_use]
 pub fn tan_of_full_angle(degrees: f32) -> f32 {
     libm::tanf(degrees.to_radians())
