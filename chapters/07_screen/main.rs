@@ -36,8 +36,8 @@ fn scene(world: &mut World) {
         world.spawn((Name::new(name), Sphere { radius }, at, Matte { colour }));
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(-3.0, 5.5, 4.0)));
+    let light = PointLight { intensity: Rgb::grey(15_000.0), ..PointLight::default() };
+    world.spawn((Name::new("distant lamp"), light, Placement::at(-35.0, 50.0, 40.0)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.16, 0.28, 0.45) }));
 }
 // ANCHOR_END: scene

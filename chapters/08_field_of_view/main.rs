@@ -39,8 +39,8 @@ fn scene(world: &mut World) {
         }
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(260.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(-4.0, 7.5, 5.0)));
+    let light = PointLight { intensity: Rgb::grey(28_000.0), ..PointLight::default() };
+    world.spawn((Name::new("distant lamp"), light, Placement::at(-40.0, 75.0, 50.0)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.16, 0.28, 0.45) }));
 }
 // ANCHOR_END: scene

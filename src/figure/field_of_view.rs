@@ -7,10 +7,11 @@ use crate::Result;
 use crate::chapter::Chapter;
 use glam::DVec2;
 
-const HEIGHT: f64 = 400.0;
-/// Where the eye stands, and how far to the right and how far up and down the drawing may reach.
-const EYE: DVec2 = DVec2::new(70.0, 186.0);
-const REACH: DVec2 = DVec2::new(WIDTH - 190.0, 150.0);
+const HEIGHT: f64 = 420.0;
+/// How far the rays may reach to the right, up and down.
+const REACH: DVec2 = DVec2::new(WIDTH - 190.0, 166.0);
+/// Room for the words at the eye, and for those at the right.
+const WORDS: DVec2 = DVec2::new(56.0, 96.0);
 /// How far the rays are drawn, in distances of the plane.
 const FAR: f64 = 2.25;
 
@@ -19,14 +20,16 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 48, 27)?;
     let Lens::Perspective(tangent) = subject.lens else { return Err(figure.unsuited("a perspective camera")) };
     let scale = (REACH.x / FAR).min(REACH.y / (2.0 * tangent));
-    let at = |ahead: f64, up: f64| EYE + scale * DVec2::new(ahead, -up);
+    let spare = WIDTH - WORDS.x - WORDS.y - FAR * scale;
+    let eye = DVec2::new(WORDS.x + spare.max(0.0) / 2.0, REACH.y + 26.0);
+    let at = |ahead: f64, up: f64| eye + scale * DVec2::new(ahead, -up);
     let mut svg = Svg::new(figure.name, HEIGHT);
     paint(&mut svg, &at, tangent);
     let angle = libm::atan(tangent);
-    arc(&mut svg, scale * 0.62, -angle, angle, Pen::new(INK, 1.1));
-    arc(&mut svg, scale * 0.36, 0.0, angle, Pen::new(RAY, 1.8));
+    arc(&mut svg, eye, scale * 0.62, -angle, angle, Pen::new(INK, 1.1));
+    arc(&mut svg, eye, scale * 0.36, 0.0, angle, Pen::new(RAY, 1.8));
     let along =
-        |share: f64, at: f64| EYE + scale * at * DVec2::new(libm::cos(share * angle), -libm::sin(share * angle));
+        |share: f64, at: f64| eye + scale * at * DVec2::new(libm::cos(share * angle), -libm::sin(share * angle));
     svg.label(Label::near(along(-0.5, 0.62), "*α*", DVec2::new(1.0, 0.25), 6.0));
     svg.label(Label::near(along(0.5, 0.36), "*α*/2", DVec2::new(1.0, -0.25), 5.0).coloured(RAY));
     svg.label(Label::near(at(0.0, 0.0), "eye", DVec2::new(-1.0, 0.0), 9.0));
@@ -63,10 +66,10 @@ fn paint(svg: &mut Svg, at: &impl Fn(f64, f64) -> DVec2, tangent: f64) {
 }
 
 /// Part of a circle around the eye, between two angles above the view.
-fn arc(svg: &mut Svg, radius: f64, low: f64, high: f64, pen: Pen) {
+fn arc(svg: &mut Svg, eye: DVec2, radius: f64, low: f64, high: f64, pen: Pen) {
     let point = |step: i32| {
         let angle = low + (high - low) * f64::from(step) / 24.0;
-        EYE + radius * DVec2::new(libm::cos(angle), -libm::sin(angle))
+        eye + radius * DVec2::new(libm::cos(angle), -libm::sin(angle))
     };
     for step in 0..24 {
         svg.line(point(step), point(step + 1), pen);

@@ -94,7 +94,7 @@ pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         })?;
         Ok(Exhibit { picture, lines: vec![degrees(fov), format!("tan(*α*/2) = {tangent:.3}")] })
     };
-    let exhibits = [1.0 / 3.0, 1.0, 3.0].map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
+    let exhibits = [0.5, 1.0, 3.0].map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, size)))
 }
 
@@ -160,7 +160,7 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     ];
     let exhibit = |(name, tangent): (&str, f64)| {
         let picture = Picture::of(chapter, size, Some(aimed_with(tangent)), |_| ())?;
-        Ok(Exhibit { picture, lines: vec![name.into(), format!("{tangent:.3}")] })
+        Ok(Exhibit { picture, lines: vec![name.into(), format!("{tangent:.3}").replace('-', "−")] })
     };
     let exhibits = slips.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, size)))

@@ -12,8 +12,8 @@ use glam::DVec2;
 
 /// The two images, in pixels, and in each the pixel whose centre is the same point.
 const IMAGES: [([u32; 2], [u32; 2]); 2] = [([4, 2], [1, 0]), ([12, 6], [4, 1])];
-const SIDE: DVec2 = DVec2::new(296.0, 148.0);
-const TOP: f64 = 52.0;
+const SIDE: DVec2 = DVec2::new(272.0, 136.0);
+const TOP: f64 = 66.0;
 
 /// Two images of one shape with the NDC points of their pixels; a point of the image is one point in both.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
@@ -59,7 +59,7 @@ fn paint(svg: &mut Svg, low: DVec2, size: [u32; 2], chosen: [u32; 2], points: &[
         if pixel == chosen {
             svg.circle(at(ndc), 6.5, None, Some(Pen::new("#fff", 1.8)));
             let words = format!("pixel {},{}: ({}, {})", pixel[0], pixel[1], ndc.x, ndc.y);
-            svg.label(Label::near(at(ndc), &words, DVec2::new(0.0, -1.0), TOP * 0.4 + ndc.y * SIDE.y));
+            svg.label(Label::near(at(ndc), &words, DVec2::new(0.0, -1.0), 30.0 + ndc.y * SIDE.y));
         }
     }
     for (ndc, words, toward) in [

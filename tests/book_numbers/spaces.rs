@@ -30,6 +30,18 @@ fn the_naive_ways_to_ndc_are_as_far_off_as_page_06_says() {
     page_says("06_ndc.md", &refusal("06_ndc", |camera| _ = camera.insert(Resolution { width: 0, height: 240 })));
 }
 
+#[test]
+fn a_reciprocal_misses_the_right_edge_of_some_images_as_page_06_says() {
+    let missed: Vec<u32> = (1..=65_536).filter(|&width| f64::from(width) * (1.0 / f64::from(width)) != 1.0).collect();
+    eprintln!("{} of 65536 widths, the first is {:?}", missed.len(), missed.first());
+    assert!(!missed.is_empty());
+    page_says("06_ndc.md", &format!("the right edge of {} of the 65,536 widths would miss 1", thousands(missed.len())));
+}
+
+fn thousands(number: usize) -> String {
+    if number < 1000 { number.to_string() } else { format!("{},{:03}", number / 1000, number % 1000) }
+}
+
 /// NDC divided by W − 1, for an image of one pixel.
 fn fill_with_nan(mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
     for (raster, mut ndc) in &mut tiles {
@@ -80,8 +92,27 @@ fn the_naive_tangent_is_as_far_off_as_page_08_says() {
     let (naive, kit) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
     let steps = ((naive - kit) / kit).abs() * f64::from(1_u32 << 24);
     // That the kit's own is good to less than a millionth of a step is judged in `src/naive/field_of_view.rs`.
-    let steps = format!("{},{:03}", steps.round() as u32 / 1000, steps.round() as u32 % 1000);
+    let steps = thousands(steps.round() as usize);
     page_says(page, &format!("the tangent is off by {steps} u"));
     let flipped = field_of_view::tan_half_f32(180.0) / 1e7;
     page_says(page, &format!("the tangent is ${flipped:.1}\\cdot 10^7$"));
+}
+
+#[test]
+fn the_table_of_angles_says_what_each_axis_sees_and_refuses_a_camera_without_an_angle() {
+    let chapters = super::chapters::all();
+    let run = |words: &str| {
+        let (words, mut out) = (words.split(' ').map(String::from).collect::<Vec<_>>(), Vec::new());
+        let done = pinhole::command::run(&chapters, &words, &mut out).map_err(|error| error.to_string());
+        done.map(|()| String::from_utf8(out).expect("text"))
+    };
+    let square = run("angles 08_field_of_view --size 300x300").expect("angles");
+    let rows: Vec<Vec<&str>> = square.lines().skip(3).map(|line| line.split_whitespace().collect()).collect();
+    for (row, name) in rows.iter().zip(["vertical", "horizontal", "smaller", "larger"]) {
+        assert_eq!(*row, [name, "1.000000", "0.577350", "60.0000°"]);
+    }
+    // √2 · tan 30°, and twice its arc tangent.
+    assert_eq!(rows[4], ["diagonal", "1.414214", "0.816497", "78.4630°"]);
+    let refused = run("angles 04_orthographic").expect_err("refused");
+    assert_eq!(refused, "the camera of 04_orthographic is orthographic and has no angle");
 }
