@@ -20,11 +20,11 @@ pub fn print_angles(chapter: &Chapter, options: &SceneOptions, out: &mut dyn Wri
     let asked = format!("{axis:?}").to_lowercase();
     writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", chapter.name, image.width, image.height)?;
     writeln!(out, "asked for: {}° across {asked}", fov.0)?;
-    writeln!(out, "{:<12}{:>15}{:>15}{:>15}", "across", "half heights", "tan(angle / 2)", "angle")?;
+    writeln!(out, "{:<12}{:>14}{:>18}{:>13}", "across", "half heights", "tan(angle / 2)", "angle")?;
     for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal] {
         let (reach, angle) = (half_extent(axis, aspect), angle_across(&lens, axis, aspect));
         let name = format!("{axis:?}").to_lowercase();
-        writeln!(out, "{name:<12}{reach:>15.6}{:>15.6}{:>14.4}°", reach * lens.tan_half_vertical, angle.0)?;
+        writeln!(out, "{name:<12}{reach:>14.6}{:>18.6}{:>12.4}°", reach * lens.tan_half_vertical, angle.0)?;
     }
     Ok(())
 }
