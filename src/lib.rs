@@ -13,7 +13,7 @@
 //! 7. [`film`]: light → pixels → files.
 //! 8. [`render`]: the loop over tiles.
 //! 9. [`look`]: trace, view, statistics.
-//! 10. [`naive`]: the methods that break, for the book and the extremes.
+//! 10. [`naive`]: the methods that break, for the book, its figures and the extremes.
 //! 11. [`figure`]: drawings of a scene and of what the stages wrote for it.
 //! 12. [`review`]: what a picture was made of, as text to compare with.
 //! 13. [`measure`]: exact arithmetic, oracles, extremes.

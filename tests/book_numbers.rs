@@ -16,6 +16,8 @@ use std::path::Path;
 
 #[path = "../chapters/mod.rs"]
 mod chapters;
+#[path = "book_numbers/spaces.rs"]
+mod spaces;
 
 fn chapter(name: &str) -> Chapter {
     chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter")

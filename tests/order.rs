@@ -19,6 +19,7 @@ const ORDER: [&str; 17] = [
     "naive",
     "attempt",
     "chapter",
+    "naive",
     "figure",
     "review",
     "measure",

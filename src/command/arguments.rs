@@ -35,6 +35,8 @@ pub enum Command {
     Render(RenderChapter),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
+    /// Print what a chapter's camera sees across each axis of the image, in degrees
+    Angles(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic

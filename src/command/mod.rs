@@ -2,6 +2,7 @@
 //!
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
+mod angles;
 mod arguments;
 mod check;
 mod compare;
@@ -49,6 +50,9 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             render::render_subject(&Subject::find(chapters, &asked.chapter)?, &asked.options, out)
         }
         Some(Command::Plan(asked)) => plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, out),
+        Some(Command::Angles(asked)) => {
+            angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
+        }
         Some(Command::Trace(asked)) => {
             trace::print_trace(&Subject::find(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
         }

@@ -157,17 +157,36 @@ pub fn tan_half(angle: Degrees) -> f64 {
 }
 // ANCHOR_END: tan_half
 
-/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
-fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
-    let across = match axis {
+// ANCHOR: half_extent
+/// How far an image of this aspect reaches from its centre along `axis`, in half heights.
+pub fn half_extent(axis: FovAxis, aspect: f64) -> f64 {
+    match axis {
         FovAxis::Vertical => 1.0,
         FovAxis::Horizontal => aspect,
         FovAxis::Smaller => aspect.min(1.0),
         FovAxis::Larger => aspect.max(1.0),
         FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
-    };
-    tan_half(fov) / across
+    }
 }
+
+/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
+fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
+    tan_half(fov) / half_extent(axis, aspect)
+}
+// ANCHOR_END: half_extent
+
+// ANCHOR: angle_across
+/// The full angle across `axis` of what this lens sees in an image of this aspect: `tan_half` turned round.
+pub fn angle_across(lens: &PinholeLens, axis: FovAxis, aspect: f64) -> Degrees {
+    let tangent = lens.tan_half_vertical * half_extent(axis, aspect);
+    let degrees = |radians: f64| radians * (180.0 / std::f64::consts::PI);
+    Degrees(if tangent > 1.0 {
+        180.0 - degrees(2.0 * libm::atan(1.0 / tangent))
+    } else {
+        degrees(2.0 * libm::atan(tangent))
+    })
+}
+// ANCHOR_END: angle_across
 
 /// What an orthographic camera does to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,5 +236,29 @@ impl Table for CameraAxes {
 
     fn bytes(&self) -> usize {
         size_of::<Self>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_asked_for_across_an_axis_is_the_angle_across_that_axis() {
+        let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
+        let (mut worst, mut tried) = (0.0_f64, 0);
+        for axis in axes {
+            for aspect in [1e-4, 0.5, 1.0, 16.0 / 9.0, 1e4] {
+                for fov in [1e-4, 0.01, 1.0, 40.0, 60.0, 90.0, 120.0, 179.0, 179.99] {
+                    let lens = PinholeLens { tan_half_vertical: tan_half_vertical(Degrees(fov), axis, aspect) };
+                    let missing = |angle: f64| angle.min(180.0 - angle);
+                    let back = angle_across(&lens, axis, aspect).0;
+                    worst = worst.max((missing(back) - missing(fov)).abs() / missing(fov));
+                    tried += 1;
+                }
+            }
+        }
+        eprintln!("{tried} lenses: the angle comes back to within {worst:.1e} of itself");
+        assert!(worst < 4.0 * f64::EPSILON);
     }
 }

@@ -18,7 +18,10 @@ mod shape;
 mod sphere;
 
 pub use background::BackgroundTable;
-pub use camera::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, camera_entity, eye, tan_half};
+pub use camera::{
+    CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, camera_entity, eye, half_extent,
+    tan_half,
+};
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use matte::MatteTable;
 pub use plane::PlaneTable;

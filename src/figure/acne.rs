@@ -54,9 +54,9 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let shadows = Shadows::of(chapter, figure, *scale)?;
         svg.label(Label::near(corner(0, row) - DVec2::Y * 9.0, told, DVec2::X, 0.0).title(0.92));
         for (column, (_, start)) in STARTS.iter().enumerate() {
-            let (picture, wrong) = shadows.started_by(*start);
+            let (pixels, wrong) = shadows.started_by(*start);
             let low = corner(column, row);
-            picture.paint(&mut svg, Frame { low, high: low + panel })?;
+            svg.picture(low, panel, &Picture::painted(SIZE, &pixels)?);
             let count = format!("{wrong} of {} wrong", shadows.rays.path.len());
             let at = low + DVec2::new(across / 2.0, panel.y + 4.0);
             svg.label(Label::near(at, &count, DVec2::Y, 0.0).title(0.92));
@@ -95,8 +95,8 @@ impl Shadows {
         Ok(Self { occluders: Occluders::of(&scene)?, surfaces, rays, hits, unlit })
     }
 
-    /// The picture with another start of each shadow ray, and how many of them are judged otherwise than by the kit.
-    fn started_by(&self, start: Start) -> (Picture, usize) {
+    /// The pixels with another start of each shadow ray, and how many of them are judged otherwise than by the kit.
+    fn started_by(&self, start: Start) -> (Vec<[f32; 3]>, usize) {
         let (rays, mut pixels, mut wrong) = (&self.rays, self.unlit.clone(), 0);
         for (ray, &path) in rays.path.iter().enumerate() {
             let surface = self.surfaces.get(path as usize);
@@ -108,7 +108,7 @@ impl Shadows {
                 pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part);
             }
         }
-        (Picture { width: SIZE[0], height: SIZE[1], pixels }, wrong)
+        (pixels, wrong)
     }
 
     /// Whether anything is met beyond `t_min` and within reach.

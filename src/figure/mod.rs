@@ -7,10 +7,13 @@
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
 
 mod acne;
+mod field_of_view;
+mod gallery;
 mod grid;
 mod hit;
 mod label;
 mod look_at;
+mod ndc;
 mod normals;
 mod occluders;
 mod offset;
@@ -23,6 +26,7 @@ mod pixel_ray;
 mod props;
 mod ray;
 mod scenery;
+mod screen;
 mod section;
 mod side;
 mod sketch;
@@ -62,7 +66,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 9] {
+pub fn figures() -> [Figure; 17] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -79,6 +83,54 @@ pub fn figures() -> [Figure; 9] {
             chapter: "05_pinhole",
             about: "a pinhole camera: rays from the eye through pixel centres",
             draw: pinhole::draw,
+        },
+        Figure {
+            name: "06_ndc",
+            chapter: "06_ndc",
+            about: "one point of the image, in two resolutions",
+            draw: ndc::draw,
+        },
+        Figure {
+            name: "07_screen",
+            chapter: "07_screen",
+            about: "the screen of an oblong image beside that of a square one",
+            draw: screen::draw,
+        },
+        Figure {
+            name: "07_naive",
+            chapter: "07_screen",
+            about: "an aspect forgotten, a sign forgotten, a sign too many",
+            draw: screen::draw_naive,
+        },
+        Figure {
+            name: "08_field_of_view",
+            chapter: "08_field_of_view",
+            about: "the image plane at distance 1, from the side",
+            draw: field_of_view::draw,
+        },
+        Figure {
+            name: "08_angles",
+            chapter: "08_field_of_view",
+            about: "a narrow, a usual and a wide angle from one place",
+            draw: gallery::draw_angles,
+        },
+        Figure {
+            name: "08_window",
+            chapter: "08_field_of_view",
+            about: "a window that widens, with either angle kept",
+            draw: gallery::draw_window,
+        },
+        Figure {
+            name: "08_zoom",
+            chapter: "08_field_of_view",
+            about: "the nearest sphere in view kept at one size, by the angle and by the distance",
+            draw: gallery::draw_zoom,
+        },
+        Figure {
+            name: "08_naive",
+            chapter: "08_field_of_view",
+            about: "what becomes of the picture when the tangent is of another angle",
+            draw: gallery::draw_naive,
         },
         Figure {
             name: "09_camera_to_world",

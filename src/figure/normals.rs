@@ -36,7 +36,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     ];
     for (column, (title, picture, below)) in told.into_iter().enumerate() {
         let low = DVec2::new(GAP + column as f64 * (across + GAP), HEAD);
-        picture.paint(&mut svg, Frame { low, high: low + panel })?;
+        svg.picture(low, panel, picture);
         let middle = DVec2::X * (across / 2.0);
         svg.label(Label::near(low + middle - DVec2::Y * 6.0, title, DVec2::NEG_Y, 0.0).title(1.0));
         svg.label(Label::near(low + middle + DVec2::Y * (panel.y + 5.0), below, DVec2::Y, 0.0).title(0.92));
@@ -74,8 +74,8 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Picture, Picture, f64
         naive[row] = lit(&wrong, &lights, &mattes, &occluders);
         met = true;
     }
-    let picture = |pixels| Picture { width, height, pixels };
-    if met { Ok((picture(right), picture(naive), worst)) } else { Err(lacks()) }
+    let picture = |pixels: &[[f32; 3]]| Picture::painted(SIZE, pixels);
+    if met { Ok((picture(&right)?, picture(&naive)?, worst)) } else { Err(lacks()) }
 }
 
 /// What all lights together make of a surface.

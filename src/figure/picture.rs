@@ -1,60 +1,57 @@
-use super::sketch::Frame;
-use super::svg::Svg;
-use crate::Result;
-use crate::film::{Curve, Film, png_bytes};
+use crate::chapter::{Asked, Chapter};
+use crate::extract::camera_entity;
+use crate::film::{Curve, Film, png_bytes, png_url};
+use crate::plan::Stage;
+use crate::render::{Execution, render};
+use crate::scene::Resolution;
+use crate::{Result, intersect, rays, shade};
+use bevy_ecs::prelude::*;
 
-/// A small picture within a drawing: linear Rec. 709, row by row.
+/// A picture of a chapter's scene, within a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels from left to right.
-    pub width: u32,
-    /// Pixels from top to bottom.
-    pub height: u32,
-    /// Their radiance.
-    pub pixels: Vec<[f32; 3]>,
+    /// Pixels from left to right and from top to bottom.
+    pub size: [u32; 2],
+    /// The PNG as a URL that holds it.
+    pub url: String,
 }
 
 impl Picture {
-    /// Draws it into a frame, its pixels as squares.
+    /// Renders a chapter's scene with all stages that the kit has, after `change` has had its camera.
+    ///
+    /// `instead` takes the place of the stages that stand where it stands in the order.
+    /// Errors: what a render of that scene would be refused for.
+    pub fn of(
+        chapter: &Chapter,
+        size: [u32; 2],
+        instead: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = chapter.clone();
+        whole.view = None;
+        whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+        if let Some(stage) = instead {
+            whole.offer.retain(|other| other.set != stage.set);
+            whole.offer.push(stage);
+        }
+        let [width, height] = size;
+        let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
+        let mut scene = whole.world(&asked);
+        let camera = camera_entity(&scene)?;
+        change(&mut scene.entity_mut(camera));
+        let rendered = render(&scene, &whole.stages(), &Execution::default(), &())?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// A picture of these pixels, linear Rec. 709, row by row.
     ///
     /// Errors: the picture could not be encoded.
-    pub fn paint(&self, svg: &mut Svg, frame: Frame) -> Result {
-        let side = self.width.max(self.height).max(1);
-        let mut film = Film::new(self.width, self.height, side);
-        for (row, &radiance) in self.pixels.iter().enumerate() {
+    pub fn painted(size: [u32; 2], pixels: &[[f32; 3]]) -> Result<Self> {
+        let [width, height] = size;
+        let mut film = Film::new(width, height, width.max(height).max(1));
+        for (row, &radiance) in pixels.iter().enumerate() {
             film.tiles.iter_mut().for_each(|tile| tile.add(row, radiance));
         }
-        let png = base64(&png_bytes(&film, Curve::Srgb)?);
-        svg.image(frame.low, frame.high - frame.low, &format!("data:image/png;base64,{png}"));
-        Ok(())
-    }
-}
-
-/// Bytes as letters (RFC 4648, section 4): three bytes are four letters of six bits.
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let byte = |at: usize| u32::from(group.get(at).copied().unwrap_or(0));
-        let bits = (byte(0) << 16) | (byte(1) << 8) | byte(2);
-        for letter in 0..4 {
-            let six = (bits >> (18 - 6 * letter)) & 63;
-            text.push(if letter <= group.len() { char::from(LETTERS[six as usize]) } else { '=' });
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The test vectors of RFC 4648, section 10.
-    #[test]
-    fn letters_are_as_the_standard_has_them() {
-        let pairs = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
-        for (bytes, letters) in pairs {
-            assert_eq!(base64(bytes.as_bytes()), letters);
-        }
+        Ok(Self { size, url: png_url(&png_bytes(&film, Curve::Srgb)?) })
     }
 }

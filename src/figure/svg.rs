@@ -1,5 +1,6 @@
 use super::label::{Label, Obstacles, Placed, place};
 use super::pen::{Fill, INK, Pen, SMALL_TEXT, WIDTH, number};
+use super::picture::Picture;
 use glam::DVec2;
 use std::fmt::Write;
 
@@ -81,14 +82,20 @@ impl Svg {
         self.circle(centre, radius, Some(&Fill::new(format!("url(#{id})"), 1.0)), None);
     }
 
-    /// A picture of pixels within a rectangle, as an address that holds the file.
-    pub(super) fn image(&mut self, low: DVec2, size: DVec2, address: &str) {
+    /// A rendered picture, its upper left corner here, so large, with a thin frame that labels keep away from.
+    pub fn picture(&mut self, low: DVec2, size: DVec2, picture: &Picture) {
         let [x, y, width, height] = [low.x, low.y, size.x, size.y].map(number);
         let _ = writeln!(
             self.body,
-            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
-             style=\"image-rendering: pixelated\" href=\"{address}\"/>"
+            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" href=\"{}\"/>",
+            picture.url
         );
+        let [right, down] = [DVec2::X * size.x, DVec2::Y * size.y];
+        let corners = [low, low + right, low + size, low + down];
+        self.polygon(&corners, None, Some(Pen::new(INK, 0.8).faint(0.5)));
+        for (corner, next) in [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)] {
+            self.obstacles.strokes.push([corners[corner], corners[next]]);
+        }
     }
 
     /// A dot that marks a point.

@@ -15,9 +15,11 @@ pub fn chapter(name: &'static str) -> Chapter {
 
 /// All chapters that figures show.
 pub fn chapters() -> Vec<Chapter> {
-    ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "09_camera_to_world", "10_light_and_shadow"]
+    ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
+        .into_iter()
+        .chain(["09_camera_to_world", "10_light_and_shadow"])
         .map(chapter)
-        .to_vec()
+        .collect()
 }
 
 fn central(world: &mut World) {

@@ -1,13 +1,16 @@
 //! The textbook methods that break, kept so that the book and `extremes` can show how.
 //!
 //! Reads: f32 rays and shapes, in world space unless a function says otherwise. Writes: what the
-//! textbook would. No render ever uses anything from here.
+//! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
 pub mod camera;
 pub mod ellipsoid;
 pub mod euler;
+pub mod field_of_view;
 pub mod film;
+pub mod ndc;
 pub mod plane;
 pub mod planted;
+pub mod screen;
 pub mod shadow;
 pub mod sphere;

@@ -23,11 +23,13 @@ impl ScreenPoints {
     }
 }
 
+// ANCHOR: screen_from_ndc
 /// An NDC point on the screen: the centre at the origin, y up, and x as much longer as the image is wider than high.
 #[inline(always)]
 pub fn screen_from_ndc(ndc: DVec2, aspect: f64) -> DVec2 {
     DVec2::new((2.0 * ndc.x - 1.0) * aspect, 1.0 - 2.0 * ndc.y)
 }
+// ANCHOR_END: screen_from_ndc
 
 /// Fills a tile's screen points.
 pub fn fill_screen(image: Res<Shared<ImageShape>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>) {

@@ -19,7 +19,7 @@ mod snapshots;
 pub use contrast::{NOT_FINITE, difference_png, full_white};
 pub use difference::{Difference, Place, StageBlocks, first_difference, stage_blocks};
 pub use digest::{BLOCK_SIDE, digests};
-pub use page::{Compared, escape, page, png_url};
+pub use page::{Compared, escape, page};
 pub use pending::{Pending, pending};
 pub use picture::{PictureDifference, compare_pictures, picture, picture_contrast};
 pub use probes::{ChangedRow, Probe, changed_rows, probe_pixels, probes};

@@ -8,6 +8,7 @@ mod bench;
 mod camera;
 mod camera_chain;
 mod camera_limits;
+mod camera_ndc;
 mod camera_table;
 mod case;
 mod film;
@@ -60,9 +61,10 @@ impl Group {
             Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
             Self::Plane => plane::trials(),
             Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
-            Self::Camera => {
-                [camera::trials(), camera_table::trials(), camera_limits::trials()].into_iter().flatten().collect()
-            }
+            Self::Camera => [camera::trials(), camera_table::trials(), camera_limits::trials(), camera_ndc::trials()]
+                .into_iter()
+                .flatten()
+                .collect(),
             Self::Transform => transform::trials(),
             Self::Film => film::trials(),
         }

@@ -1,4 +1,4 @@
-use crate::film::{Curve, Film, FilmTile, png_bytes};
+use crate::film::{Curve, Film, FilmTile, png_bytes, png_url};
 use crate::rays::Tile;
 use std::io;
 
@@ -46,7 +46,7 @@ impl Picture {
             tile.add(row, pixel.map(|part| if part > 0.0 { part } else { 0.0 }));
         }
         let film = Film { width, height, tile_side: width.max(height), tiles: vec![tile] };
-        Ok(format!("data:image/png;base64,{}", base64(&png_bytes(&film, self.curve)?)))
+        Ok(png_url(&png_bytes(&film, self.curve)?))
     }
 }
 
@@ -56,31 +56,9 @@ fn off(one: [f32; 3], other: [f32; 3]) -> f32 {
     parts.fold(0.0, |most, part| if part <= most { most } else { part })
 }
 
-/// Bytes as text (RFC 4648).
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let byte = |at: usize| u32::from(three.get(at).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (letter, shift) in [18, 12, 6, 0].into_iter().enumerate() {
-            let drawn = LETTERS[(bits >> shift & 63) as usize] as char;
-            text.push(if letter <= three.len() { drawn } else { '=' });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bytes_become_the_text_that_the_standard_shows() {
-        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
 
     #[test]
     fn a_picture_differs_from_another_where_it_does() {

@@ -1,9 +1,7 @@
-mod base64;
 mod pictures;
 mod rays;
 mod stages;
 
-pub use base64::png_url;
 pub use rays::escape;
 
 use super::{Difference, Snapshots, compare_pictures};

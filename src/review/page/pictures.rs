@@ -1,5 +1,5 @@
-use super::png_url;
 use crate::Result;
+use crate::film::png_url;
 use crate::review::{Difference, Place, Snapshots, picture_contrast};
 use std::fmt::Write;
 

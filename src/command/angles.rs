@@ -1,0 +1,30 @@
+use super::arguments::SceneOptions;
+use crate::chapter::Chapter;
+use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
+use crate::plan::Table;
+use crate::scene::{FovAxis, PerspectiveCamera};
+use crate::{Error, Result};
+use std::io::Write;
+
+/// What a chapter's perspective camera sees, measured across each axis: a row is another way to ask for the same lens.
+///
+/// Errors: a refused scene, or a camera without an angle.
+pub fn print_angles(chapter: &Chapter, options: &SceneOptions, out: &mut dyn Write) -> Result {
+    let scene = chapter.world(&options.asked(false));
+    validate(&scene)?;
+    let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera_entity(&scene)?) else {
+        return Err(Error::Usage(format!("the camera of {} is orthographic and has no angle", chapter.name)));
+    };
+    let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
+    let aspect = image.aspect();
+    let asked = format!("{axis:?}").to_lowercase();
+    writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", chapter.name, image.width, image.height)?;
+    writeln!(out, "asked for: {}° across {asked}", fov.0)?;
+    writeln!(out, "{:<12}{:>14}{:>18}{:>13}", "across", "half heights", "tan(angle / 2)", "angle")?;
+    for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal] {
+        let (reach, angle) = (half_extent(axis, aspect), angle_across(&lens, axis, aspect));
+        let name = format!("{axis:?}").to_lowercase();
+        writeln!(out, "{name:<12}{reach:>14.6}{:>18.6}{:>12.4}°", reach * lens.tan_half_vertical, angle.0)?;
+    }
+    Ok(())
+}
