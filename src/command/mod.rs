@@ -3,6 +3,7 @@
 //! Everything is written to the `out` that the caller hands over, so that the book shows what a terminal would.
 
 mod arguments;
+mod conventions;
 mod cost;
 mod extremes;
 mod figure;
@@ -44,6 +45,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         }
         Some(Command::Extremes(asked)) => extremes::print_extremes(&asked, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
+        Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, out),
     }
 }
 
