@@ -4,6 +4,7 @@
 //! textbook would. No render ever uses anything from here.
 
 pub mod camera;
+pub mod entity_per_ray;
 pub mod plane;
 pub mod shadow;
 pub mod sphere;
