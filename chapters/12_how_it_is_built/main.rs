@@ -42,9 +42,10 @@ impl Facing {
     }
 }
 
-/// The cosine for one row.
+/// The cosine for one row; at a rim rounding may take it below 0, where the film would refuse it.
 fn facing(direction: Vec3, normal: Vec3) -> f32 {
-    -direction.dot(normal)
+    let cosine = -direction.dot(normal);
+    if cosine > 0.0 { cosine } else { 0.0 }
 }
 
 /// Fills a tile's column.
