@@ -3,7 +3,6 @@
 //! New here: nothing in the renderer; `Facing` and its stage live in this file.
 
 use bevy_ecs::prelude::*;
-use glam::Vec3;
 use pinhole::intersect::{Surfaces, shape_evidence};
 use pinhole::plan::{Stage, TileSystems, column};
 use pinhole::rays::WorldRays;
@@ -43,8 +42,8 @@ impl Facing {
 }
 
 /// The cosine for one row; at a rim rounding may take it below 0, where the film would refuse it.
-fn facing(direction: Vec3, normal: Vec3) -> f32 {
-    let cosine = -direction.dot(normal);
+fn facing([dx, dy, dz]: [f32; 3], [nx, ny, nz]: [f32; 3]) -> f32 {
+    let cosine = -(dx * nx + dy * ny + dz * nz);
     if cosine > 0.0 { cosine } else { 0.0 }
 }
 
@@ -53,8 +52,8 @@ fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
     for (rays, surfaces, mut column) in &mut tiles {
         let cosines = column.slices_mut(rays.dx.len());
         for (row, cosine) in cosines.iter_mut().enumerate() {
-            let direction = Vec3::new(rays.dx[row], rays.dy[row], rays.dz[row]);
-            *cosine = facing(direction, surfaces.get(row).normal);
+            let direction = [rays.dx[row], rays.dy[row], rays.dz[row]];
+            *cosine = facing(direction, surfaces.get(row).normal.to_array());
         }
     }
 }
