@@ -28,7 +28,8 @@ fn print_lines(chapter: &Chapter, camera: &PlacedCamera, out: &mut dyn Write) ->
         for line in lines(program, camera) {
             writeln!(out, "    {line}")?;
         }
-        writeln!(out, "  back: {}", back(program))?;
+        let [wide, place] = back(program);
+        writeln!(out, "  back: {wide};\n        {place}")?;
     }
     Ok(())
 }

@@ -12,7 +12,8 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
         Program::OneWeekend => vec![
             format!("cam.image_width = {width}; cam.aspect_ratio = {width}.0 / {height}.0;"),
             format!("cam.vfov = {opening};"),
-            format!("cam.lookfrom = point3({eye}); cam.lookat = point3({target}); cam.vup = vec3({up});"),
+            format!("cam.lookfrom = point3({eye}); cam.lookat = point3({target});"),
+            format!("cam.vup = vec3({up});"),
         ],
         Program::GroundUp => vec![
             format!("vp.set_hres({width}); vp.set_vres({height}); vp.set_pixel_size(1.0);"),
@@ -41,8 +42,8 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
     }
 }
 
-/// What to write in the kit for a camera found in a program.
-pub fn back(program: Program) -> String {
+/// What to write in the kit for a camera found in a program: how wide, then where.
+pub fn back(program: Program) -> [String; 2] {
     let words = match program.opening() {
         Opening::Degrees(axis) => format!("axis {axis:?}, the same number"),
         Opening::Radians(axis) => format!("axis {axis:?}, the number times 180 / π"),
@@ -52,11 +53,11 @@ pub fn back(program: Program) -> String {
     let place = match program {
         Program::Gltf => "translation and rotation as position and orientation",
         Program::OpenCv => "eye −Rᵀt; the rows of R are x right, y down, z ahead",
-        Program::Blender => "the matrix's columns are x right, y up, z back, eye; each (x, y, z) is our (x, z, −y)",
+        Program::Blender => "the columns are x right, y up, z back, eye; each (x, y, z) is our (x, z, −y)",
         Program::Pbrt => "eye, target and up as they stand if Scale -1 1 1 is above them",
         _ => "eye, target and up as they stand",
     };
-    format!("{words}; {place}")
+    [words, place.into()]
 }
 
 fn gltf(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String> {
