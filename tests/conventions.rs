@@ -303,3 +303,37 @@ fn a_camera_on_a_turned_parent_is_described_where_it_stands() {
     assert!((camera.look.target - camera.look.eye).length() - 1.0 < 1e-15);
     assert_eq!(camera.image.size(), DVec2::new(64.0, 36.0));
 }
+
+/// Swaps and signs are exact; a tangent t comes back within what rounding an angle of its size can do to it: a few ε,
+/// and near 180°, where an angle's last digit is worth (1 + t²) / 2t of them, that many.
+#[test]
+fn cameras_come_back_within_the_rounding_of_their_words() {
+    let right = PlacedCamera::of(&scene("11_conventions", 480, 270)).expect("a camera");
+    let (mut tried, mut worst) = (0, 0.0_f64);
+    for step in 0..2_000 {
+        let degrees = 1e-4 + (179.99 - 1e-4) * f64::from(step) / 1_999.0;
+        for [width, height] in [[480, 270], [270, 480], [1, 1], [65_536, 1], [1, 65_536]] {
+            let image = pinhole::extract::ImageShape { width, height };
+            let tan_half_vertical = pinhole::extract::tan_half(Degrees(degrees));
+            let ours = PlacedCamera { tan_half_vertical, image, ..right };
+            for program in Program::ALL {
+                let back = ours_from_theirs(program, &theirs_from_ours(program, &ours), image);
+                assert_eq!(back.world_from_camera, ours.world_from_camera, "{program}");
+                assert_eq!(back.look.eye, ours.look.eye, "{program}");
+                let (axis, angle) = match program.opening() {
+                    Opening::Degrees(axis) | Opening::Radians(axis) => (axis, true),
+                    Opening::Pixels => (FovAxis::Vertical, false),
+                    Opening::Millimetres(_, axis) => (axis, false),
+                };
+                let t = tan_half_vertical * across(axis, image.aspect());
+                let stretch = if angle && t > 1.0 { (1.0 + t * t) / (2.0 * t) } else { 1.0 };
+                let error = (back.tan_half_vertical / tan_half_vertical - 1.0).abs() / f64::EPSILON;
+                let share = error / (4.0 + 2.0 * std::f64::consts::PI * stretch);
+                assert!(share <= 1.0, "{program}, {degrees}°, {width}x{height}: {error} ε");
+                worst = worst.max(share);
+                tried += 1;
+            }
+        }
+    }
+    eprintln!("there and back: {tried} cameras, at most {worst:.2} of the bound");
+}
