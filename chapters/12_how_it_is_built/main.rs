@@ -1,8 +1,11 @@
-//! The eye stands behind the grid: a pinhole camera.
-//! Every ray starts at the eye and passes through the centre of a pixel, so what is farther away looks smaller.
-//! New here: the perspective camera, and a light that a point of a surface sees or does not.
+//! How the kit is built, shown by building onto it: a column and a stage of this chapter's own.
+//! The picture is how squarely each surface faces the eye, which no stage of the kit computes.
+//! New here: nothing in the renderer; `Facing` and its stage live in this file.
 
 use bevy_ecs::prelude::*;
+use pinhole::intersect::{Surfaces, shape_evidence};
+use pinhole::plan::{Stage, TileSystems, column};
+use pinhole::rays::WorldRays;
 use pinhole::scene::*;
 use pinhole::{Chapter, intersect, rays, shade};
 
@@ -13,12 +16,57 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("12_how_it_is_built", "world, tile, column, plan", scene)
+    Chapter::new("12_how_it_is_built", "how the kit is built", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(shade::unlit_stages())
+        .offer(facing_stage())
+        .show::<Facing>()
 }
 // ANCHOR_END: chapter
+
+// ANCHOR: facing
+column! {
+    /// How squarely each ray meets its surface.
+    pub struct Facing("facing", "none, a ratio", "1", Ray) {
+        /// The cosine of the angle between the normal and the way back to the eye; 0 where nothing is met.
+        cosine: f32,
+    }
+}
+
+impl Facing {
+    /// White where the surface faces the eye, black at its rim.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.cosine[row]; 3]
+    }
+}
+
+/// The cosine for one row; at a rim rounding may take it below 0, where the film would refuse it.
+fn facing([dx, dy, dz]: [f32; 3], [nx, ny, nz]: [f32; 3]) -> f32 {
+    let cosine = -(dx * nx + dy * ny + dz * nz);
+    if cosine > 0.0 { cosine } else { 0.0 }
+}
+
+/// Fills a tile's column.
+fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
+    for (rays, surfaces, mut column) in &mut tiles {
+        let cosines = column.slices_mut(rays.dx.len());
+        for (row, cosine) in cosines.iter_mut().enumerate() {
+            let direction = [rays.dx[row], rays.dy[row], rays.dz[row]];
+            *cosine = facing(direction, surfaces.get(row).normal.to_array());
+        }
+    }
+}
+
+/// The stage on offer.
+fn facing_stage() -> Stage {
+    Stage::new("See how surfaces face the eye", TileSystems::Shade, fill_facing)
+        .reads::<WorldRays>()
+        .reads::<Surfaces>()
+        .writes::<Facing>()
+        .when(shape_evidence)
+}
+// ANCHOR_END: facing
 
 // ANCHOR: scene
 fn scene(world: &mut World) {
@@ -35,8 +83,6 @@ fn scene(world: &mut World) {
         world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
-    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.45, 0.6, 0.8) }));
 }
 // ANCHOR_END: scene

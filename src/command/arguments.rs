@@ -1,4 +1,5 @@
 use crate::chapter::Asked;
+use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -51,6 +52,8 @@ pub enum Command {
     Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+    /// Print what to type in other programs to get a chapter's camera there, and how to come back
+    Conventions(CompareConventions),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
     Review(ReviewSnapshots),
     /// Measure how far a picture is from another, both PNG or both EXR
@@ -154,6 +157,25 @@ pub struct CostOfChapter {
     /// Keep what was measured in the chapter's folder, as costs.txt
     #[arg(long)]
     pub write: bool,
+}
+
+#[derive(Args)]
+pub struct CompareConventions {
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
+    pub chapter: String,
+    /// How many pixels the image has
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
+    pub size: Option<Resolution>,
+    /// Render what one sees who takes a word of another program for ours: mirrored, upside-down, backwards, too-narrow,
+    /// too-wide or rolled
+    #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
+    pub mistake: Option<Mistake>,
+    /// Send so many cameras into each program's words and back, and print how far they have moved
+    #[arg(long, value_name = "N", conflicts_with = "mistake", value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub round_trips: Option<u64>,
+    /// Where to write the picture, ending in .png (default: in out/)
+    #[arg(short, long, value_name = "FILE", requires = "mistake")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Args)]

@@ -6,6 +6,7 @@ mod angles;
 mod arguments;
 mod check;
 mod compare;
+mod conventions;
 mod cost;
 mod export;
 mod extremes;
@@ -63,6 +64,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, out),
+        Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, out),
     }
 }
 

@@ -1,7 +1,9 @@
 //! Looking inside: the same columns that the stages write, printed, painted and counted.
 //!
-//! Reads: any column, through the registry ([`ColumnKind`](crate::plan::ColumnKind)).
+//! Reads: any column, through the registry ([`ColumnKind`](crate::plan::ColumnKind)); the camera, for [`convention`].
 //! Writes: text, and for a view the picture; no number of the render changes.
+
+pub mod convention;
 
 mod stats;
 mod trace;

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod ellipsoid;
+pub mod entity_per_ray;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;

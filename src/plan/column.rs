@@ -115,10 +115,11 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
 }
 
-/// Declares a column: its doc, its words, its lanes.
+/// Declares a column: its doc, its words (name, space, unit, lifetime), its lanes.
 ///
 /// The struct gets one `Vec` a lane, `slices` and `slices_mut` that hand out all lanes at one length, and
-/// [`Column`]; the painting of a row is the type's own `paint_row`.
+/// [`Column`](crate::plan::Column); the painting of a row is the type's own `paint_row`, which its author writes.
+#[macro_export]
 macro_rules! column {
     ($(#[$doc:meta])* pub struct $column:ident($name:literal, $space:literal, $unit:literal, $lifetime:ident) {
         $($(#[$lane_doc:meta])* $lane:ident: $number:ty,)+
@@ -172,7 +173,7 @@ macro_rules! column {
         }
     };
 }
-pub(crate) use column;
+pub use column;
 
 /// A column as the plan and the tools that look inside handle it, without its type.
 ///

@@ -15,8 +15,7 @@ mod stage;
 mod systems;
 mod table;
 
-pub(crate) use column::column;
-pub use column::{Column, ColumnKind, Lane, LaneValue, LaneValues, Lifetime};
+pub use column::{Column, ColumnKind, Lane, LaneValue, LaneValues, Lifetime, column};
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
 pub use evidence::{Evidence, counted, entities};
 pub use stage::{Slot, Stage, StageKind};

@@ -6,16 +6,16 @@
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 mod fused;
+mod interval;
 
 #[path = "../../chapters/mod.rs"]
 mod chapters;
 
 use bevy_ecs::prelude::World;
-use cpu_time::ProcessTime;
+use interval::{cpu, interval, median};
 use pinhole::render::{Execution, render};
 use pinhole::scene::Resolution;
 use pinhole::{Asked, Chapter};
-use std::time::Duration;
 
 fn main() {
     let options = Options::read();
@@ -101,45 +101,6 @@ fn bounce_cost(chapter: &Chapter, options: &Options) {
         (0..options.pairs).map(|_| (run(Some(8)).as_secs_f64() / run(None).as_secs_f64()).ln()).collect();
     let (low, middle, high) = interval(&logs);
     println!("{:<12} 8 empty bounces a tile over none: CPU time {middle:.3} [{low:.3}, {high:.3}]", chapter.name);
-}
-
-fn cpu<T>(run: &impl Fn() -> T) -> Duration {
-    let started = ProcessTime::now();
-    let result = run();
-    let time = started.elapsed();
-    drop(result);
-    time
-}
-
-/// Geometric mean of ratios with its 95 % t interval.
-fn interval(logs: &[f64]) -> (f64, f64, f64) {
-    let n = logs.len() as f64;
-    let mean = logs.iter().sum::<f64>() / n;
-    let variance = logs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() / (n - 1.0);
-    let half = student_975(logs.len() - 1) * (variance / n).sqrt();
-    ((mean - half).exp(), mean.exp(), (mean + half).exp())
-}
-
-/// The 97.5 % point of Student's t (Abramowitz and Stegun, table 26.10), the next smaller tabulated freedom.
-fn student_975(freedom: usize) -> f64 {
-    const TABLE: [(usize, f64); 10] = [
-        (1, 12.706),
-        (2, 4.303),
-        (3, 3.182),
-        (4, 2.776),
-        (5, 2.571),
-        (7, 2.365),
-        (10, 2.228),
-        (14, 2.145),
-        (20, 2.086),
-        (30, 2.042),
-    ];
-    TABLE.iter().rev().find(|(tabulated, _)| *tabulated <= freedom).map_or(12.706, |(_, point)| *point)
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// Each stage's nanoseconds a row, the median of as many runs as there are pairs.

@@ -12,6 +12,13 @@ const FOLDERS: [&str; 7] = ["plan", "extract", "rays", "intersect", "shade", "fi
 ///
 /// Errors: the sources are not there to be read.
 pub fn made_from(chapter: &str) -> Result<String> {
+    made_from_these(chapter, &[])
+}
+
+/// The same, of these files beside, each a path from the repository's root.
+///
+/// Errors: as [`made_from`].
+pub fn made_from_these(chapter: &str, beside: &[&str]) -> Result<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
     for folder in FOLDERS {
@@ -19,6 +26,7 @@ pub fn made_from(chapter: &str) -> Result<String> {
         list(&folder, &mut files).map_err(|_| missing(&folder))?;
     }
     files.push(root.join("chapters").join(chapter).join("main.rs"));
+    files.extend(beside.iter().map(|file| root.join(file)));
     let mut hash = OFFSET_BASIS;
     for file in files {
         let text = fs::read_to_string(&file).map_err(|_| missing(&file))?;

@@ -1,0 +1,67 @@
+use super::arguments::CompareConventions;
+use super::find;
+use super::interrupt::Waiting;
+use crate::chapter::{Asked, Chapter};
+use crate::film::{check_place, write_png};
+use crate::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
+use crate::render::{Execution, render};
+use crate::{Error, Result};
+use bevy_ecs::prelude::World;
+use std::io::Write;
+use std::path::Path;
+
+/// A chapter's camera in the words of other programs, a picture of a mistake, or how exact the words are.
+pub fn print_conventions(chapters: &[Chapter], asked: &CompareConventions, out: &mut dyn Write) -> Result {
+    let chapter = find::chapter(chapters, &asked.chapter)?;
+    let scene = chapter.world(&Asked { resolution: asked.size, ..Asked::default() });
+    match (asked.mistake, asked.round_trips) {
+        (Some(mistake), _) => render_mistake(chapter, scene, mistake, asked, out),
+        (None, Some(cameras)) => print_round_trips(cameras, out),
+        (None, None) => print_lines(chapter, &PlacedCamera::of(&scene)?, out),
+    }
+}
+
+fn print_lines(chapter: &Chapter, camera: &PlacedCamera, out: &mut dyn Write) -> Result {
+    writeln!(out, "camera of {}, {} x {} pixels", chapter.name, camera.image.width, camera.image.height)?;
+    for program in Program::ALL {
+        writeln!(out, "\n{program}")?;
+        for line in lines(program, camera) {
+            writeln!(out, "    {line}")?;
+        }
+        let [wide, place] = back(program);
+        writeln!(out, "  back: {wide};\n        {place}")?;
+    }
+    Ok(())
+}
+
+fn print_round_trips(cameras: u64, out: &mut dyn Write) -> Result {
+    writeln!(out, "{cameras} cameras there and back; ε = 2^-52")?;
+    writeln!(out, "{:<32} {:>8} {:>14} {:>16}", "", "moved", "other tangent", "worst tangent")?;
+    for program in Program::ALL {
+        let trip = round_trip(program, cameras);
+        writeln!(out, "{:<32} {:>8} {:>14} {:>14.1} ε", program.to_string(), trip.moved, trip.widened, trip.worst)?;
+    }
+    Ok(())
+}
+
+/// The picture of a chapter's scene after a mistake.
+fn render_mistake(
+    chapter: &Chapter,
+    mut scene: World,
+    mistake: Mistake,
+    asked: &CompareConventions,
+    out: &mut dyn Write,
+) -> Result {
+    let in_out = || Path::new("out").join(format!("{}_{mistake}.png", chapter.name));
+    let file = asked.output.clone().unwrap_or_else(in_out);
+    if file.extension().is_none_or(|ending| ending != "png") {
+        return Err(Error::Usage(format!("cannot write {}: the name must end in .png", file.display())));
+    }
+    check_place(&file)?;
+    mistake.commit(&mut scene)?;
+    let rendered = render(&scene, &chapter.stages(), &Execution::default(), &Waiting::new(0, true))?;
+    write_png(&rendered.film, rendered.curve(), &file)?;
+    writeln!(out, "{mistake}: {}", mistake.made_by())?;
+    writeln!(out, "wrote {}", file.display())?;
+    Ok(())
+}

@@ -1,0 +1,53 @@
+use crate::extract::{CameraAxes, ImageShape, PinholeLens, camera_entity, eye};
+use crate::plan::Table;
+use crate::scene::{ChildOf, Degrees, LookAt, PerspectiveCamera};
+use crate::{Error, Result};
+use bevy_ecs::prelude::*;
+use glam::DMat3;
+
+/// A perspective camera that stands somewhere: all that a description of it in other words must keep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedCamera {
+    /// Eye, target and up in the world: as the author wrote them, or else a point one unit ahead and the camera's own y.
+    pub look: LookAt,
+    /// Columns: the camera's x (right), y (up) and z (back) as unit vectors of the world.
+    pub world_from_camera: DMat3,
+    /// tan(vertical angle / 2).
+    pub tan_half_vertical: f64,
+    /// The image's shape.
+    pub image: ImageShape,
+}
+
+impl PlacedCamera {
+    /// The camera of a scene.
+    ///
+    /// Errors: what a render would be refused for; a camera of parallel rays, which has no field of view.
+    pub fn of(scene: &World) -> Result<Self> {
+        let camera = camera_entity(scene)?;
+        if scene.get::<PerspectiveCamera>(camera).is_none() {
+            let told = "the conventions are those of perspective cameras, and this scene's camera is orthographic";
+            return Err(Error::Usage(told.into()));
+        }
+        let world_from_camera = CameraAxes::extract(scene)?.world_from_camera;
+        let eye = eye(scene)?;
+        let derived = LookAt { eye, target: eye - world_from_camera.z_axis, up: world_from_camera.y_axis };
+        let written = scene.get::<LookAt>(camera).copied().filter(|_| scene.get::<ChildOf>(camera).is_none());
+        Ok(Self {
+            look: written.unwrap_or(derived),
+            world_from_camera,
+            tan_half_vertical: PinholeLens::extract(scene)?.tan_half_vertical,
+            image: ImageShape::extract(scene)?,
+        })
+    }
+}
+
+// ANCHOR: angle_of_tan_half
+/// The full angle whose half has this tangent; beyond 90° it is taken of what is missing to 180°, as `tan_half` does.
+pub fn angle_of_tan_half(tan: f64) -> Degrees {
+    if tan > 1.0 {
+        Degrees(180.0 - (2.0 * libm::atan(1.0 / tan)).to_degrees())
+    } else {
+        Degrees((2.0 * libm::atan(tan)).to_degrees())
+    }
+}
+// ANCHOR_END: angle_of_tan_half

@@ -1,0 +1,194 @@
+use super::{PlacedCamera, angle_of_tan_half};
+use crate::extract::{ImageShape, tan_half};
+use crate::scene::{Degrees, FovAxis, LookAt};
+use glam::{DMat3, DVec3};
+use std::fmt;
+
+/// A program or a book that describes cameras in words of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Program {
+    /// *Ray Tracing in One Weekend*, version 4.
+    OneWeekend,
+    /// *Ray Tracing from the Ground Up*.
+    GroundUp,
+    /// OpenGL with the calls of its utility library.
+    OpenGl,
+    /// glTF 2.0.
+    Gltf,
+    /// pbrt, version 4.
+    Pbrt,
+    /// Mitsuba 3.
+    Mitsuba,
+    /// OpenCV.
+    OpenCv,
+    /// Blender.
+    Blender,
+}
+
+/// How a program says how wide a camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Opening {
+    /// The full angle across this, in degrees.
+    Degrees(FovAxis),
+    /// The full angle across this, in radians.
+    Radians(FovAxis),
+    /// The distance of the image plane, in pixels.
+    Pixels,
+    /// The focal length over a film of this width across the axis, both in millimetres.
+    Millimetres(f64, FovAxis),
+}
+
+/// A camera in a program's own words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Described {
+    /// How wide it sees, in the unit of the program's [`Opening`].
+    pub opening: f64,
+    /// Columns: the program's camera x, y and z as unit vectors of the program's world.
+    pub axes: DMat3,
+    /// Where it stands in the program's world.
+    pub eye: DVec3,
+}
+
+/// Right, up, back.
+const OURS: DMat3 = DMat3::IDENTITY;
+const RIGHT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z);
+const LEFT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::NEG_X, DVec3::Y, DVec3::NEG_Z);
+const RIGHT_DOWN_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
+/// Our (x, y, z) is (x, −z, y) where z points up.
+const Z_UP_FROM_OURS: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+
+impl Program {
+    /// All of them, those that share our axes first.
+    pub const ALL: [Self; 8] = [
+        Self::OneWeekend,
+        Self::GroundUp,
+        Self::OpenGl,
+        Self::Gltf,
+        Self::Pbrt,
+        Self::Mitsuba,
+        Self::OpenCv,
+        Self::Blender,
+    ];
+
+    // ANCHOR: opening
+    /// How it says how wide a camera sees.
+    pub fn opening(self) -> Opening {
+        match self {
+            Self::OneWeekend | Self::OpenGl => Opening::Degrees(FovAxis::Vertical),
+            Self::Gltf => Opening::Radians(FovAxis::Vertical),
+            Self::Pbrt => Opening::Degrees(FovAxis::Smaller),
+            Self::Mitsuba => Opening::Degrees(FovAxis::Horizontal),
+            Self::Blender => Opening::Millimetres(36.0, FovAxis::Larger),
+            Self::GroundUp | Self::OpenCv => Opening::Pixels,
+        }
+    }
+    // ANCHOR_END: opening
+
+    // ANCHOR: camera_axes
+    /// Columns: its camera's x, y and z, seen from our camera, where x is right, y is up and z is back.
+    pub fn camera_axes(self) -> DMat3 {
+        match self {
+            Self::OneWeekend | Self::GroundUp | Self::OpenGl | Self::Gltf | Self::Blender => OURS,
+            Self::Pbrt => RIGHT_UP_AHEAD,
+            Self::Mitsuba => LEFT_UP_AHEAD,
+            Self::OpenCv => RIGHT_DOWN_AHEAD,
+        }
+    }
+
+    /// From our world to its world.
+    pub fn world_from_ours(self) -> DMat3 {
+        if self == Self::Blender { Z_UP_FROM_OURS } else { DMat3::IDENTITY }
+    }
+    // ANCHOR_END: camera_axes
+}
+
+impl fmt::Display for Program {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::OneWeekend => "Ray Tracing in One Weekend",
+            Self::GroundUp => "Ray Tracing from the Ground Up",
+            Self::OpenGl => "OpenGL",
+            Self::Gltf => "glTF 2.0",
+            Self::Pbrt => "pbrt-v4",
+            Self::Mitsuba => "Mitsuba 3",
+            Self::OpenCv => "OpenCV",
+            Self::Blender => "Blender",
+        })
+    }
+}
+
+// ANCHOR: across
+/// How much longer than the image's height the line is that an angle is measured across.
+pub fn across(axis: FovAxis, aspect: f64) -> f64 {
+    match axis {
+        FovAxis::Vertical => 1.0,
+        FovAxis::Horizontal => aspect,
+        FovAxis::Smaller => aspect.min(1.0),
+        FovAxis::Larger => aspect.max(1.0),
+        FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
+    }
+}
+// ANCHOR_END: across
+
+// ANCHOR: theirs_from_ours
+/// Our camera in a program's words.
+pub fn theirs_from_ours(program: Program, camera: &PlacedCamera) -> Described {
+    let (tan, aspect) = (camera.tan_half_vertical, camera.image.aspect());
+    let opening = match program.opening() {
+        Opening::Degrees(axis) => angle_of_tan_half(tan * across(axis, aspect)).0,
+        Opening::Radians(axis) => angle_of_tan_half(tan * across(axis, aspect)).radians(),
+        Opening::Pixels => f64::from(camera.image.height) / (2.0 * tan),
+        Opening::Millimetres(film, axis) => film / (2.0 * tan * across(axis, aspect)),
+    };
+    let world = program.world_from_ours();
+    Described { opening, axes: world * camera.world_from_camera * program.camera_axes(), eye: world * camera.look.eye }
+}
+
+/// A program's camera in ours.
+pub fn ours_from_theirs(program: Program, described: &Described, image: ImageShape) -> PlacedCamera {
+    let (number, aspect) = (described.opening, image.aspect());
+    let tan_half_vertical = match program.opening() {
+        Opening::Degrees(axis) => tan_half(Degrees(number)) / across(axis, aspect),
+        Opening::Radians(axis) => tan_half(Degrees(number.to_degrees())) / across(axis, aspect),
+        Opening::Pixels => f64::from(image.height) / (2.0 * number),
+        Opening::Millimetres(film, axis) => film / (2.0 * number * across(axis, aspect)),
+    };
+    // Swaps and signs are undone by turning the matrix over its diagonal.
+    let world = program.world_from_ours().transpose();
+    let world_from_camera = world * described.axes * program.camera_axes().transpose();
+    let eye = world * described.eye;
+    let look = LookAt { eye, target: eye - world_from_camera.z_axis, up: world_from_camera.y_axis };
+    PlacedCamera { look, world_from_camera, tan_half_vertical, image }
+}
+// ANCHOR_END: theirs_from_ours
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn handedness_is_as_each_program_says() {
+        for program in Program::ALL {
+            let (camera, world) = (program.camera_axes().determinant(), program.world_from_ours().determinant());
+            assert_eq!(camera, if program == Program::Pbrt { -1.0 } else { 1.0 }, "{program}");
+            assert_eq!(world, 1.0, "{program}");
+        }
+        assert_eq!(Z_UP_FROM_OURS * DVec3::Y, DVec3::Z);
+        assert_eq!(Z_UP_FROM_OURS * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -3.0, 2.0));
+    }
+
+    #[test]
+    fn a_square_image_has_one_angle_for_all_sides() {
+        for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger] {
+            assert_eq!(across(axis, 1.0), 1.0);
+        }
+        assert_eq!(across(FovAxis::Diagonal, 0.75), 1.25);
+    }
+
+    #[test]
+    fn smaller_and_larger_change_places_where_the_image_is_upright() {
+        for (aspect, smaller, larger) in [(16.0 / 9.0, 1.0, 16.0 / 9.0), (9.0 / 16.0, 9.0 / 16.0, 1.0)] {
+            assert_eq!([across(FovAxis::Smaller, aspect), across(FovAxis::Larger, aspect)], [smaller, larger]);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The renderer of one entity a ray makes the kit's image, and what was measured of it is of the present sources.
+
+use bevy_ecs::prelude::*;
+use pinhole::measure::cost::made_from_these;
+use pinhole::naive::entity_per_ray::EntityPerRay;
+use pinhole::render::{Execution, render};
+use pinhole::scene::{PointLight, Resolution};
+use pinhole::{Asked, Chapter};
+use std::path::Path;
+
+#[path = "../chapters/mod.rs"]
+mod chapters;
+
+/// A chapter's picture without lamps and without a view.
+fn unlit(name: &str, width: u32, height: u32) -> (Chapter, World) {
+    let mut chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
+    chapter.view = None;
+    let mut world = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
+    let lamps: Vec<Entity> = world.query_filtered::<Entity, With<PointLight>>().iter(&world).collect();
+    lamps.into_iter().for_each(|lamp| _ = world.despawn(lamp));
+    (chapter, world)
+}
+
+#[test]
+fn its_image_is_the_kit_s_to_the_last_bit() {
+    let mut pixels = 0;
+    for name in ["cover", "05_pinhole", "12_how_it_is_built"] {
+        for [width, height] in [[192, 108], [33, 65], [1, 1], [70, 1]] {
+            let (chapter, world) = unlit(name, width, height);
+            let kit = render(&world, &chapter.stages(), &Execution::default(), &()).expect("renders").film;
+            let mut entities = EntityPerRay::spawn(&world).expect("spawns");
+            entities.run();
+            assert!(entities.film() == kit, "{name} {width}x{height}");
+            pixels += u64::from(width) * u64::from(height);
+        }
+    }
+    eprintln!("entity per ray: {pixels} pixels, 0 differ");
+}
+
+fn kept() -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters/12_how_it_is_built/entity_per_ray.txt");
+    std::fs::read_to_string(file).expect("the measurement is kept beside the chapter")
+}
+
+#[test]
+fn it_was_measured_with_the_present_sources() {
+    let beside = ["src/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
+    let expected = format!("made from {}", made_from_these("12_how_it_is_built", &beside).expect("sources"));
+    assert_eq!(
+        kept().lines().last(),
+        Some(expected.as_str()),
+        "to measure anew, on a quiet machine: cargo bench --bench entity_per_ray -- --write"
+    );
+}
+
+/// The pages say the kept numbers, rounded to ten.
+#[test]
+fn pages_say_what_was_measured() {
+    let kept = kept();
+    let megabytes = |words: &str| {
+        let line = kept.lines().find(|line| line.trim_start().starts_with(words)).expect("a line for it");
+        let number = line.split_whitespace().rev().nth(5).and_then(|number| number.parse::<f64>().ok());
+        (number.expect("megabytes") / 10.0).round() * 10.0
+    };
+    let [entities, columns, tiles] = ["an entity a ray", "all tiles at once", "a tile a worker"].map(megabytes);
+    let sentence = format!(
+        "an entity for each ray took about {entities:.0} MB, the same numbers in tiles {columns:.0} MB, and \
+         {tiles:.0} MB where each worker holds one tile at a time, as the kit does"
+    );
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/01_image.md");
+    let page = std::fs::read_to_string(page).expect("the page");
+    assert!(page.contains(&sentence), "book/src/01_image.md must say:\n{sentence}");
+}
