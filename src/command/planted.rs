@@ -4,7 +4,7 @@ use super::review::{picture, write_page};
 use crate::chapter::Chapter;
 use crate::film::png_url;
 use crate::film::write_whole;
-use crate::naive::planted::{PLANTED, Planted};
+use crate::review::planted::{PLANTED, Planted};
 use crate::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
 use crate::{Error, Result};
 use std::collections::btree_map::{BTreeMap, Entry};

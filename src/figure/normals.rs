@@ -3,7 +3,6 @@ use super::label::Label;
 use super::occluders::Occluders;
 use super::pen::WIDTH;
 use super::picture::Picture;
-use super::sketch::Frame;
 use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::{Asked, Chapter};

@@ -11,7 +11,6 @@ pub mod field_of_view;
 pub mod film;
 pub mod ndc;
 pub mod plane;
-pub mod planted;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;

@@ -13,6 +13,7 @@ mod digest;
 mod page;
 mod pending;
 mod picture;
+pub mod planted;
 mod probes;
 mod snapshots;
 

@@ -2,7 +2,7 @@
 
 use crate::chapters;
 use crate::message::{mismatch, what_to_do};
-use pinhole::naive::planted::{PLANTED, Planted};
+use pinhole::review::planted::{PLANTED, Planted};
 use pinhole::review::{DEVELOP, Snapshots};
 use pinhole::{Asked, Chapter};
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,7 +35,7 @@ fn every_stage_that_a_chapter_runs_has_a_planted_bug() {
         stages.extend(plan.stages.iter().map(|stage| stage.name.to_string()));
     }
     let planted: BTreeSet<String> = PLANTED.iter().map(|planted| planted.stage.to_string()).collect();
-    assert_eq!(planted, stages, "the stages with a planted bug (src/naive/planted/table.rs), and those there are");
+    assert_eq!(planted, stages, "the stages with a planted bug (src/review/planted/table.rs), and those there are");
     let names: BTreeSet<&str> = PLANTED.iter().map(|planted| planted.name).collect();
     assert_eq!(names.len(), PLANTED.len(), "two bugs have one name");
     eprintln!("planted: {} stages", stages.len());

@@ -1,7 +1,7 @@
 //! Slips between rays and surfaces.
 
-use crate::extract::{PlaneTable, SphereTable};
-use crate::intersect::{Hits, MatteRows, PlaneRows, SphereRows, Surfaces};
+use crate::extract::{EllipsoidTable, PlaneTable, ShapeTable, SphereTable};
+use crate::intersect::{EllipsoidRows, Hits, MatteRows, PlaneRows, SphereRows, Surfaces, ellipsoid_t};
 use crate::plan::{Column, Shared};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
@@ -25,6 +25,39 @@ pub fn far_root(spheres: Res<Shared<SphereTable>>, mut tiles: Query<(&WorldRays,
             if discriminant >= 0.0 && t > 0.0 && t < hits.t[row] {
                 (hits.t[row], hits.shape[row]) = (t, spheres.shape[sphere]);
             }
+        }
+    }
+}
+
+/// An ellipsoid's ray brought to length 1 in the ellipsoid's space, and t not taken back.
+pub fn ellipsoid_unit_ray(ellipsoids: Res<Shared<EllipsoidTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
+    for (rays, mut hits) in &mut tiles {
+        for (row, number) in pairs(rays.rows(), ellipsoids.shape.len()) {
+            let ellipsoid = &ellipsoids.ellipsoid[number];
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let stretched = (ellipsoid.unit_from_world * direction).length();
+            let t = ellipsoid_t(origin, direction, ellipsoid) * stretched;
+            if t < hits.t[row] {
+                (hits.t[row], hits.shape[row]) = (t, ellipsoids.shape[number]);
+            }
+        }
+    }
+}
+
+/// Normals of ellipsoids transformed as directions are.
+pub fn normal_as_direction(
+    ellipsoids: Res<Shared<EllipsoidTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>,
+) {
+    for (rays, hits, list, mut surfaces) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let ellipsoid = &ellipsoids.ellipsoid[shapes.row[hits.shape[row] as usize] as usize];
+            let from_centre = rays.point_at(row, hits.t[row]) - ellipsoid.centre;
+            let mut surface = surfaces.get(row);
+            surface.normal = from_centre.normalize().as_vec3();
+            surfaces.set(row, surface);
         }
     }
 }

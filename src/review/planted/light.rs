@@ -50,6 +50,9 @@ pub fn endless_reach(mut tiles: Query<&mut ShadowHits>) {
 /// No sphere is ever in the way.
 pub fn spheres_ignored() {}
 
+/// No ellipsoid is looked for.
+pub fn ellipsoids_ignored() {}
+
 /// A plane behind the ray counts as before it.
 pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {

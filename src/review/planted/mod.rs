@@ -10,10 +10,10 @@ mod table;
 
 pub use table::PLANTED;
 
+use super::{DEVELOP, Develop, SNAPSHOT_SIZE, Snapshots};
 use crate::chapter::Chapter;
 use crate::film::byte_from_linear;
 use crate::plan::Stage;
-use crate::review::{DEVELOP, Develop, SNAPSHOT_SIZE, Snapshots};
 use crate::{Asked, Error, Result};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
