@@ -58,19 +58,19 @@ pub fn wide_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) 
 /// sphere.
 ///
 /// The residual at t is taken to about 100 bits, and the root of the quadratic next to it is added.
+/// The direction counts as exactly: from afar the step is long, and a long ellipsoid turns its normal by what is lost.
 #[cold]
 #[inline(never)]
 pub fn wide_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid) -> (f64, DVec3) {
-    let from_centre = from_centre(origin, ellipsoid);
-    let g = to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], two_product(t, direction[axis]))));
-    let residual = add(dot(g, g), (-1.0, 0.0)).0;
-    let (near, q) = (DVec3::from(g.map(|part| part.0)), ellipsoid.unit_from_world * direction);
-    let slope = near.dot(q);
-    let discriminant = slope * slope - q.dot(q) * residual;
+    let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().map(|part| (part, 0.0)));
+    let at = |t: Wide| to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], multiply(t, d[axis]))));
+    let (g, q) = (at((t, 0.0)), to_unit(ellipsoid, d));
+    let (qq, slope, residual) = (dot(q, q).0, dot(g, q).0, add(dot(g, g), (-1.0, 0.0)).0);
+    let discriminant = slope * slope - qq * residual;
     // A tangent, up to rounding, is met where it comes nearest.
     let further =
-        if discriminant > 0.0 { -residual / (slope + discriminant.sqrt().copysign(slope)) } else { -slope / q.dot(q) };
-    (further, near + further * q)
+        if discriminant > 0.0 { -residual / (slope + discriminant.sqrt().copysign(slope)) } else { -slope / qq };
+    (further, DVec3::from(at(two_sum(t, further)).map(|part| part.0)))
 }
 
 /// O − C, exactly.
