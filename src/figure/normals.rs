@@ -1,7 +1,7 @@
 use super::Figure;
 use super::label::Label;
 use super::occluders::Occluders;
-use super::pen::WIDTH;
+use super::pen::{Pen, RAY, WIDTH};
 use super::picture::Picture;
 use super::svg::{Drawing, Svg};
 use crate::Result;
@@ -28,23 +28,37 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let panel = DVec2::new(across, across * f64::from(SIZE[1]) / f64::from(SIZE[0]));
     let mut svg = Svg::new(figure.name, HEAD + panel.y + 64.0);
     let (right, naive, worst) = pictures(chapter, figure)?;
-    let off = format!("the worst normal is off by {worst:.0}°");
+    let off = format!("the worst normal is off by {:.0}°", worst.degrees);
     let told = [
         ("transformed like a direction", &naive, off.as_str()),
         ("by the inverse transpose", &right, "as the kit renders"),
     ];
     for (column, (title, picture, below)) in told.into_iter().enumerate() {
         let low = DVec2::new(GAP + column as f64 * (across + GAP), HEAD);
-        svg.picture(low, panel, picture);
+        svg.picture(low, panel, &Picture::painted(SIZE, picture)?);
         let middle = DVec2::X * (across / 2.0);
         svg.label(Label::near(low + middle - DVec2::Y * 6.0, title, DVec2::NEG_Y, 0.0).title(1.0));
         svg.label(Label::near(low + middle + DVec2::Y * (panel.y + 5.0), below, DVec2::Y, 0.0).title(0.92));
     }
+    let (x, y) = (worst.row as u32 % SIZE[0], worst.row as u32 / SIZE[0]);
+    let share = (DVec2::new(f64::from(x), f64::from(y)) + 0.5) / DVec2::new(f64::from(SIZE[0]), f64::from(SIZE[1]));
+    let at = DVec2::new(GAP, HEAD) + share * panel;
+    svg.circle(at, 5.0, None, Some(Pen::new(RAY, 1.6)));
+    svg.label(Label::near(at, "here", DVec2::X, 9.0).coloured(RAY));
     Ok(svg.finish(figure.about, &figure.stamp(SIZE, "")))
 }
 
-/// What the kit renders, the same with naive normals, and by how many degrees the worst of these is off.
-fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Picture, Picture, f64)> {
+/// The normal that is off most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Worst {
+    /// By how much.
+    degrees: f64,
+    /// Its pixel's row.
+    row: usize,
+}
+
+/// What the kit renders, the same with naive normals, and the worst of these.
+fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f32; 3]>, Worst)> {
     let [width, height] = SIZE;
     let scene = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
     let inspection = inspect(&scene, &chapter.stages(), width.max(height))?;
@@ -57,7 +71,7 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Picture, Picture, f64
     let (lights, mattes) = (PointLightTable::extract(&scene)?, MatteTable::extract(&scene)?);
     let (ellipsoids, occluders) = (EllipsoidTable::extract(&scene)?, Occluders::of(&scene)?);
     let right: Vec<[f32; 3]> = (0..film.count.len()).map(|row| film.mean(row)).collect();
-    let (mut naive, mut worst, mut met) = (right.clone(), 0.0_f64, false);
+    let (mut naive, mut worst) = (right.clone(), None::<Worst>);
     for row in 0..right.len() {
         let Some(number) = ellipsoids.shape.iter().position(|&shape| shape == hits.shape[row]) else { continue };
         let ellipsoid = &ellipsoids.ellipsoid[number];
@@ -69,12 +83,13 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Picture, Picture, f64
         let wrong =
             Surface { normal: Surface::facing(rays.direction_of(row), point, turned, 0.0, 0).normal, ..surface };
         let outward = normal_world_from_object(map, map * from_centre).normalize();
-        worst = worst.max(libm::acos(turned.dot(outward).clamp(-1.0, 1.0)).to_degrees());
+        let degrees = libm::acos(turned.dot(outward).clamp(-1.0, 1.0)).to_degrees();
+        if worst.is_none_or(|worst| degrees > worst.degrees) {
+            worst = Some(Worst { degrees, row });
+        }
         naive[row] = lit(&wrong, &lights, &mattes, &occluders);
-        met = true;
     }
-    let picture = |pixels: &[[f32; 3]]| Picture::painted(SIZE, pixels);
-    if met { Ok((picture(&right)?, picture(&naive)?, worst)) } else { Err(lacks()) }
+    Ok((right, naive, worst.ok_or_else(lacks)?))
 }
 
 /// What all lights together make of a surface.
@@ -104,8 +119,8 @@ mod tests {
     fn naive_normals_change_the_scaled_sphere_and_the_right_ones_are_shaded_as_the_kit_does() {
         let figure = figures().into_iter().find(|figure| figure.name == "09_normals").expect("the figure");
         let (right, naive, worst) = pictures(&trial::chapter("09_camera_to_world"), &figure).expect("pictures");
-        let differ = right.pixels.iter().zip(&naive.pixels).filter(|(right, naive)| right != naive).count();
-        eprintln!("{differ} of {} pixels differ, the worst normal by {worst:.1} degrees", right.pixels.len());
-        assert!(differ > 100 && differ < right.pixels.len() / 4 && worst > 20.0 && worst < 90.0);
+        let differ = right.iter().zip(&naive).filter(|(right, naive)| right != naive).count();
+        eprintln!("{differ} of {} pixels differ, the worst normal by {:.1} degrees", right.len(), worst.degrees);
+        assert!(differ > 100 && differ < right.len() / 4 && worst.degrees > 20.0 && worst.degrees < 90.0);
     }
 }
