@@ -1,13 +1,14 @@
 //! Scene files made at random: by changing exported ones, and by a grammar that knows the words.
 
 use crate::{chapters, scenes};
+use cpu_time::ThreadTime;
 use pinhole::scene::{Resolution, SceneFile, scene_text, words};
 use pinhole::{Asked, plan};
 use scenes::Setup;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What became of one file.
 pub enum End {
@@ -278,9 +279,9 @@ fn value(dice: &mut Dice) -> String {
     fields + ")"
 }
 
-/// Reads, checks, plans and renders a file of 4 × 4 pixels, and says how far it came and how long it took.
+/// Reads, checks, plans and renders a file of 4 × 4 pixels, and says how far it came and how much time of the processor it took.
 pub fn outcome(bytes: &[u8]) -> (End, Duration) {
-    let started = Instant::now();
+    let started = ThreadTime::now();
     let end = catch_unwind(AssertUnwindSafe(|| try_all(bytes))).unwrap_or(End::Panic);
     (end, started.elapsed())
 }
