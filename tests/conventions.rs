@@ -6,7 +6,7 @@
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
 use pinhole::Asked;
-use pinhole::extract::PinholeLens;
+use pinhole::extract::{PinholeLens, angle_of_tan_half, half_extent};
 use pinhole::look::convention::*;
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
@@ -219,7 +219,7 @@ fn what_an_angle_is_across_is_what_extraction_takes_it_for() {
             let mut world = World::new();
             world.spawn((PerspectiveCamera { fov: Degrees(70.0), axis }, Resolution { width, height }));
             let Ok(lens) = PinholeLens::extract(&world) else { continue };
-            let tan = lens.tan_half_vertical * across(axis, f64::from(width) / f64::from(height));
+            let tan = lens.tan_half_vertical * half_extent(axis, f64::from(width) / f64::from(height));
             let back = angle_of_tan_half(tan).0;
             assert!((back - 70.0).abs() < 1e-12, "{axis:?} {width}x{height}: {back}");
             tried += 1;
@@ -325,7 +325,7 @@ fn cameras_come_back_within_the_rounding_of_their_words() {
                     Opening::Pixels => (FovAxis::Vertical, false),
                     Opening::Millimetres(_, axis) => (axis, false),
                 };
-                let t = tan_half_vertical * across(axis, image.aspect());
+                let t = tan_half_vertical * half_extent(axis, image.aspect());
                 let stretch = if angle && t > 1.0 { (1.0 + t * t) / (2.0 * t) } else { 1.0 };
                 let error = (back.tan_half_vertical / tan_half_vertical - 1.0).abs() / f64::EPSILON;
                 let share = error / (4.0 + 2.0 * std::f64::consts::PI * stretch);

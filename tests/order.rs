@@ -19,7 +19,6 @@ const ORDER: [&str; 17] = [
     "naive",
     "attempt",
     "chapter",
-    "naive",
     "figure",
     "review",
     "measure",

@@ -176,15 +176,21 @@ fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
 // ANCHOR_END: half_extent
 
 // ANCHOR: angle_across
-/// The full angle across `axis` of what this lens sees in an image of this aspect: `tan_half` turned round.
-pub fn angle_across(lens: &PinholeLens, axis: FovAxis, aspect: f64) -> Degrees {
-    let tangent = lens.tan_half_vertical * half_extent(axis, aspect);
+/// The full angle whose half has this tangent: `tan_half` turned round.
+///
+/// Beyond 90° it is taken of what is missing to 180°, as `tan_half` does.
+pub fn angle_of_tan_half(tangent: f64) -> Degrees {
     let degrees = |radians: f64| radians * (180.0 / std::f64::consts::PI);
     Degrees(if tangent > 1.0 {
         180.0 - degrees(2.0 * libm::atan(1.0 / tangent))
     } else {
         degrees(2.0 * libm::atan(tangent))
     })
+}
+
+/// The full angle across `axis` of what this lens sees in an image of this aspect.
+pub fn angle_across(lens: &PinholeLens, axis: FovAxis, aspect: f64) -> Degrees {
+    angle_of_tan_half(lens.tan_half_vertical * half_extent(axis, aspect))
 }
 // ANCHOR_END: angle_across
 

@@ -19,8 +19,8 @@ mod sphere;
 
 pub use background::BackgroundTable;
 pub use camera::{
-    CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, camera_entity, eye, half_extent,
-    tan_half,
+    CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
+    eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use matte::MatteTable;

@@ -72,7 +72,7 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
     let (ellipsoids, occluders) = (EllipsoidTable::extract(&scene)?, Occluders::of(&scene)?);
     let right: Vec<[f32; 3]> = (0..film.count.len()).map(|row| film.mean(row)).collect();
     let (mut naive, mut worst) = (right.clone(), None::<Worst>);
-    for row in 0..right.len() {
+    for (row, naive) in naive.iter_mut().enumerate() {
         let Some(number) = ellipsoids.shape.iter().position(|&shape| shape == hits.shape[row]) else { continue };
         let ellipsoid = &ellipsoids.ellipsoid[number];
         let surface = surfaces.get(row);
@@ -87,7 +87,7 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
         if worst.is_none_or(|worst| degrees > worst.degrees) {
             worst = Some(Worst { degrees, row });
         }
-        naive[row] = lit(&wrong, &lights, &mattes, &occluders);
+        *naive = lit(&wrong, &lights, &mattes, &occluders);
     }
     Ok((right, naive, worst.ok_or_else(lacks)?))
 }

@@ -1,6 +1,6 @@
-use super::{PlacedCamera, angle_of_tan_half};
+use super::PlacedCamera;
 use crate::Result;
-use crate::extract::camera_entity;
+use crate::extract::{angle_of_tan_half, camera_entity};
 use crate::scene::{ChildOf, Degrees, FovAxis, LookAt, PerspectiveCamera, Placement};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DQuat, DVec3};

@@ -13,6 +13,6 @@ mod round_trip;
 
 pub use lines::{back, lines};
 pub use mistake::Mistake;
-pub use placed::{PlacedCamera, angle_of_tan_half};
-pub use program::{Described, Opening, Program, across, ours_from_theirs, theirs_from_ours};
+pub use placed::PlacedCamera;
+pub use program::{Described, Opening, Program, ours_from_theirs, theirs_from_ours};
 pub use round_trip::{RoundTrip, round_trip};

@@ -1,6 +1,6 @@
 use crate::extract::{CameraAxes, ImageShape, PinholeLens, camera_entity, eye};
 use crate::plan::Table;
-use crate::scene::{ChildOf, Degrees, LookAt, PerspectiveCamera};
+use crate::scene::{ChildOf, LookAt, PerspectiveCamera};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use glam::DMat3;
@@ -40,14 +40,3 @@ impl PlacedCamera {
         })
     }
 }
-
-// ANCHOR: angle_of_tan_half
-/// The full angle whose half has this tangent; beyond 90° it is taken of what is missing to 180°, as `tan_half` does.
-pub fn angle_of_tan_half(tan: f64) -> Degrees {
-    if tan > 1.0 {
-        Degrees(180.0 - (2.0 * libm::atan(1.0 / tan)).to_degrees())
-    } else {
-        Degrees((2.0 * libm::atan(tan)).to_degrees())
-    }
-}
-// ANCHOR_END: angle_of_tan_half

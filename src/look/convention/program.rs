@@ -1,5 +1,5 @@
-use super::{PlacedCamera, angle_of_tan_half};
-use crate::extract::{ImageShape, tan_half};
+use super::PlacedCamera;
+use crate::extract::{ImageShape, angle_of_tan_half, half_extent, tan_half};
 use crate::scene::{Degrees, FovAxis, LookAt};
 use glam::{DMat3, DVec3};
 use std::fmt;
@@ -117,28 +117,15 @@ impl fmt::Display for Program {
     }
 }
 
-// ANCHOR: across
-/// How much longer than the image's height the line is that an angle is measured across.
-pub fn across(axis: FovAxis, aspect: f64) -> f64 {
-    match axis {
-        FovAxis::Vertical => 1.0,
-        FovAxis::Horizontal => aspect,
-        FovAxis::Smaller => aspect.min(1.0),
-        FovAxis::Larger => aspect.max(1.0),
-        FovAxis::Diagonal => (1.0 + aspect * aspect).sqrt(),
-    }
-}
-// ANCHOR_END: across
-
 // ANCHOR: theirs_from_ours
 /// Our camera in a program's words.
 pub fn theirs_from_ours(program: Program, camera: &PlacedCamera) -> Described {
     let (tan, aspect) = (camera.tan_half_vertical, camera.image.aspect());
     let opening = match program.opening() {
-        Opening::Degrees(axis) => angle_of_tan_half(tan * across(axis, aspect)).0,
-        Opening::Radians(axis) => angle_of_tan_half(tan * across(axis, aspect)).radians(),
+        Opening::Degrees(axis) => angle_of_tan_half(tan * half_extent(axis, aspect)).0,
+        Opening::Radians(axis) => angle_of_tan_half(tan * half_extent(axis, aspect)).radians(),
         Opening::Pixels => f64::from(camera.image.height) / (2.0 * tan),
-        Opening::Millimetres(film, axis) => film / (2.0 * tan * across(axis, aspect)),
+        Opening::Millimetres(film, axis) => film / (2.0 * tan * half_extent(axis, aspect)),
     };
     let world = program.world_from_ours();
     Described { opening, axes: world * camera.world_from_camera * program.camera_axes(), eye: world * camera.look.eye }
@@ -148,10 +135,10 @@ pub fn theirs_from_ours(program: Program, camera: &PlacedCamera) -> Described {
 pub fn ours_from_theirs(program: Program, described: &Described, image: ImageShape) -> PlacedCamera {
     let (number, aspect) = (described.opening, image.aspect());
     let tan_half_vertical = match program.opening() {
-        Opening::Degrees(axis) => tan_half(Degrees(number)) / across(axis, aspect),
-        Opening::Radians(axis) => tan_half(Degrees(number.to_degrees())) / across(axis, aspect),
+        Opening::Degrees(axis) => tan_half(Degrees(number)) / half_extent(axis, aspect),
+        Opening::Radians(axis) => tan_half(Degrees(number.to_degrees())) / half_extent(axis, aspect),
         Opening::Pixels => f64::from(image.height) / (2.0 * number),
-        Opening::Millimetres(film, axis) => film / (2.0 * number * across(axis, aspect)),
+        Opening::Millimetres(film, axis) => film / (2.0 * number * half_extent(axis, aspect)),
     };
     // Swaps and signs are undone by turning the matrix over its diagonal.
     let world = program.world_from_ours().transpose();
@@ -180,15 +167,18 @@ mod tests {
     #[test]
     fn a_square_image_has_one_angle_for_all_sides() {
         for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger] {
-            assert_eq!(across(axis, 1.0), 1.0);
+            assert_eq!(half_extent(axis, 1.0), 1.0);
         }
-        assert_eq!(across(FovAxis::Diagonal, 0.75), 1.25);
+        assert_eq!(half_extent(FovAxis::Diagonal, 0.75), 1.25);
     }
 
     #[test]
     fn smaller_and_larger_change_places_where_the_image_is_upright() {
         for (aspect, smaller, larger) in [(16.0 / 9.0, 1.0, 16.0 / 9.0), (9.0 / 16.0, 9.0 / 16.0, 1.0)] {
-            assert_eq!([across(FovAxis::Smaller, aspect), across(FovAxis::Larger, aspect)], [smaller, larger]);
+            assert_eq!(
+                [half_extent(FovAxis::Smaller, aspect), half_extent(FovAxis::Larger, aspect)],
+                [smaller, larger]
+            );
         }
     }
 }

@@ -132,7 +132,9 @@ fn judge_no_light(range: Range<u64>) -> Tally {
         for pass in &passes {
             let mut radiance = Radiance::default();
             let (r, g, b) = radiance.slices_mut(rows);
-            (r.copy_from_slice(pass), g.fill(0.5), b.fill(0.25));
+            r.copy_from_slice(pass);
+            g.fill(0.5);
+            b.fill(0.25);
             bench.put(radiance);
             bench.run();
         }

@@ -153,7 +153,7 @@ fn moved(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame) -> Result<Vec
     }
     for distance in [1e2, 1e4, 1e6] {
         let mut scene = make();
-        shift(&mut scene, DVec3::new(0.577_215, -0.301_03, 0.693_147) * distance);
+        shift(&mut scene, DVec3::new(0.577_3, -0.311_7, 0.691_9) * distance);
         lines.push(nearly(format!("moved by about {distance:e}, any way"), plain, &Frame::of(&scene, offer)?));
     }
     Ok(lines)
