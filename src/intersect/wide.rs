@@ -42,35 +42,43 @@ fn smallest_root(a: f64, b: f64, c: f64, discriminant: f64) -> f64 {
 
 /// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity, to about 100 bits before rounding.
 ///
-/// b² − ac is the same as q·q − |p × q|², which cancels nothing but what the ray itself makes small.
 #[cold]
 #[inline(never)]
 pub fn wide_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
     let p = to_unit(ellipsoid, from_centre(origin, ellipsoid));
     let q = to_unit(ellipsoid, direction.to_array().map(|part| (part, 0.0)));
-    let area = |i: usize, j: usize| add(multiply(p[i], q[j]), negated(multiply(p[j], q[i])));
-    let across = [area(1, 2), area(2, 0), area(0, 1)];
-    let (a, b, c) = (dot(q, q), dot(p, q), add(dot(p, p), (-1.0, 0.0)));
-    smallest_root(a.0, -b.0, c.0, add(a, negated(dot(across, across))).0)
+    let (a, b, c) = (dot(q, q), dot(p, q), excess(p));
+    smallest_root(a.0, -b.0, c, discriminant(p, q))
 }
 
 /// How much further than t the ray meets the ellipsoid, to the last bits, and the point there in the space of the unit
 /// sphere.
 ///
-/// The residual at t is taken to about 100 bits, and the root of the quadratic next to it is added.
-/// The direction counts as exactly: from afar the step is long, and a long ellipsoid turns its normal by what is lost.
+/// From afar one step of t can be longer than the way through the ellipsoid: so the point where the ray comes nearest the
+/// centre is looked for from t, and half the chord is taken back to where it enters, or added to where it leaves.
 #[cold]
 #[inline(never)]
 pub fn wide_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid) -> (f64, DVec3) {
     let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().map(|part| (part, 0.0)));
     let at = |t: Wide| to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], multiply(t, d[axis]))));
     let (g, q) = (at((t, 0.0)), to_unit(ellipsoid, d));
-    let (qq, slope, residual) = (dot(q, q).0, dot(g, q).0, add(dot(g, g), (-1.0, 0.0)).0);
-    let discriminant = slope * slope - qq * residual;
-    // A tangent, up to rounding, is met where it comes nearest.
-    let further =
-        if discriminant > 0.0 { -residual / (slope + discriminant.sqrt().copysign(slope)) } else { -slope / qq };
+    let half_chord = discriminant(g, q).max(0.0).sqrt();
+    let enters = excess(at((0.0, 0.0))) > 0.0;
+    let further = (-dot(g, q).0 + if enters { -half_chord } else { half_chord }) / dot(q, q).0;
     (further, DVec3::from(at(two_sum(t, further)).map(|part| part.0)))
+}
+
+/// |p|² − 1.
+fn excess(p: [Wide; 3]) -> f64 {
+    add(dot(p, p), (-1.0, 0.0)).0
+}
+
+/// (p·q)² − q·q (p·p − 1), as q·q − |p × q|²: the same from every point of the ray, and nothing cancels but what the ray
+/// itself makes small.
+fn discriminant(p: [Wide; 3], q: [Wide; 3]) -> f64 {
+    let area = |i: usize, j: usize| add(multiply(p[i], q[j]), negated(multiply(p[j], q[i])));
+    let across = [area(1, 2), area(2, 0), area(0, 1)];
+    add(dot(q, q), negated(dot(across, across))).0
 }
 
 /// O − C, exactly.
