@@ -10,12 +10,20 @@ use std::path::Path;
 
 /// Writes a scene as a scene file; prints it where no file is named.
 ///
-/// A chapter that shows a column exports the `view` that asks for it, so that the file shows the same picture.
+/// A chapter that shows a column exports the `view` that asks for it, so that the file shows the same picture; a column
+/// of its own it leaves out, and says so.
 ///
 /// Errors: a file of that name is there already, for it may have been edited.
 pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
-    let scene = scene_text(&subject.world(&Asked::default()))?;
+    let mut world = subject.world(&Asked::default());
+    let note = subject.own_view(&mut world).map_or(String::new(), |column| {
+        format!(
+            "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",
+            subject.name()
+        )
+    });
+    let scene = note + &scene_text(&world)?;
     let Some(file) = &asked.output else {
         write!(out, "{}{scene}", head("scene.ron"))?;
         return Ok(());

@@ -1,8 +1,8 @@
 use super::find;
 use crate::chapter::{Asked, Chapter};
-use crate::extract::validate;
+use crate::extract::{camera_entity, validate};
 use crate::plan::{PlanError, Stage};
-use crate::scene::{FileProblem, SceneFile};
+use crate::scene::{FileProblem, SceneFile, View};
 use crate::{Error, Result, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 use std::path::Path;
@@ -82,6 +82,18 @@ impl<'c> Subject<'c> {
                 world
             }
         }
+    }
+
+    /// Takes away the view of a column that scene files are not offered, and names it.
+    pub fn own_view(&self, world: &mut World) -> Option<String> {
+        let camera = camera_entity(world).ok()?;
+        let View { column } = world.get::<View>(camera)?.clone();
+        let offered = every_stage().offer.iter().flat_map(|stage| stage.writes.clone()).any(|kind| kind.name == column);
+        if offered {
+            return None;
+        }
+        world.entity_mut(camera).remove::<View>();
+        Some(column)
     }
 
     /// The same error with file, line and column, where it is the file that is at fault.

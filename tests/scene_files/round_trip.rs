@@ -12,7 +12,8 @@ use std::fs;
 fn every_chapter_comes_back_from_its_file_bit_for_bit() {
     let asked = Asked { resolution: Some(Resolution { width: 96, height: 54 }), ..Asked::default() };
     for chapter in chapters::all() {
-        let before = chapter.world(&asked);
+        let mut before = chapter.world(&asked);
+        own_view_left_out(&mut before);
         let text = scene_text(&before).expect("a chapter's scene can be exported");
         let after = parsed(&text).unwrap_or_else(|problem| panic!("{}: {problem}\n{text}", chapter.name)).world();
         assert_eq!(scene_text(&after).expect("exported again"), text, "{}", chapter.name);
@@ -24,6 +25,17 @@ fn every_chapter_comes_back_from_its_file_bit_for_bit() {
         assert_eq!(before, after, "{}: another digest", chapter.name);
     }
     eprintln!("round trips: {} chapters, picture, digests and text the same", chapters::all().len());
+}
+
+/// A chapter's own column is not offered to scene files, so that its picture is what comes back.
+fn own_view_left_out(scene: &mut World) {
+    let offered =
+        |column: &str| scenes::offer().iter().flat_map(|stage| stage.writes.clone()).any(|c| c.name == column);
+    let mut cameras = scene.query::<(Entity, &View)>();
+    let own = cameras.iter(scene).find(|(_, view)| !offered(&view.column)).map(|(camera, _)| camera);
+    if let Some(camera) = own {
+        scene.entity_mut(camera).remove::<View>();
+    }
 }
 
 #[test]
@@ -80,7 +92,10 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
         assert_eq!(typed(&["export", chapter.name, "-o", &file]).expect("exported"), format!("wrote {file}\n"));
         let text = fs::read_to_string(&file).expect("written");
         assert_eq!(text.replace(&file, "scene.ron"), printed, "the same but for the file's name");
-        assert_eq!(typed(&["export", &file]).expect("exported again"), printed, "exported from the file");
+        let own = |line: &&str| !line.contains(", a column of its own");
+        let without: Vec<&str> = printed.lines().filter(own).collect();
+        let again = typed(&["export", &file]).expect("exported again");
+        assert_eq!(again.lines().collect::<Vec<_>>(), without, "exported from the file");
         let plans = [chapter.name, &file].map(|name| typed(&["plan", name]).expect("planned"));
         let [of_chapter, of_file] = plans.map(|plan| plan.lines().nth(1).map(String::from));
         assert_eq!(of_chapter, of_file);
