@@ -7,7 +7,7 @@
 
 use super::enclosure::Enclosure;
 use super::exact::Dyadic;
-use super::exact_vector::{ExactVector, Vector};
+use super::exact_vector::{EnclosedVector, ExactVector, Vector};
 use super::number::Number;
 use super::oracle_sphere::Roots;
 use crate::extract::Ellipsoid;
@@ -105,16 +105,28 @@ pub fn side_of_ellipsoid(point: DVec3, ellipsoid: &Ellipsoid) -> i32 {
 }
 
 /// Aᵀ A (O + tR − C): along the outward normal where the ray has come at t, of no particular length.
+fn outward_at<N: Number>(origin: Vec3, direction: Vec3, t: &N, ellipsoid: &Ellipsoid) -> Vector<N> {
+    let way = Vector::of(direction).times(&N::of(0.0).less(t));
+    let unit = to_unit(ellipsoid, &from_centre(&Vector::of(origin), ellipsoid).minus(&way));
+    let [x, y, z] = [0, 1, 2].map(|column| Vector::of(ellipsoid.unit_from_world.col(column)).dot(&unit));
+    Vector { x, y, z }
+}
+
+/// Along the outward normal where the ray first meets the ellipsoid, of no particular length; nothing where it does not.
 ///
 /// # Panics
 /// When an input is not finite.
 #[must_use]
-pub fn outward(origin: Vec3, direction: Vec3, t: &Dyadic, ellipsoid: &Ellipsoid) -> ExactVector {
-    let way = ExactVector::of(direction).times(&t.shortened());
-    let from_centre = from_centre(&ExactVector::of(origin), ellipsoid).minus(&way.times(&Dyadic::of(-1)));
-    let unit = to_unit(ellipsoid, &from_centre);
-    let [x, y, z] = [0, 1, 2].map(|column| ExactVector::of(ellipsoid.unit_from_world.col(column)).dot(&unit));
-    ExactVector { x, y, z }
+pub fn outward(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<ExactVector> {
+    let t = ellipsoid_hit(origin, direction, ellipsoid)?;
+    Some(outward_at(origin, direction, &t.shortened(), ellipsoid))
+}
+
+/// The same by enclosures; nothing where these cannot tell, or the ray does not meet it.
+pub fn enclosed_outward(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<EnclosedVector> {
+    let Roots { near, far } = roots::<Enclosure>(origin, direction, ellipsoid)??;
+    let t = if near.sign()? > 0 { near } else { far };
+    (t.sign()? > 0).then(|| outward_at(origin, direction, &t, ellipsoid))
 }
 
 #[cfg(test)]
@@ -164,7 +176,7 @@ mod tests {
     fn normals_stand_across_the_surface() {
         let (origin, direction) = (Vec3::new(0.25, 0.5, 0.0), Vec3::new(0.0, 0.125, -1.0));
         let t = ellipsoid_hit(origin, direction, &egg()).expect("a hit");
-        let normal = outward(origin, direction, &t, &egg());
+        let normal = outward(origin, direction, &egg()).expect("a hit");
         // The gradient by hand: x / 1, y / 4, z / 16 from the centre.
         let t = t.to_f64();
         let expected = [0.25, (0.5 + 0.125 * t) / 4.0, (10.0 - t) / 16.0];
