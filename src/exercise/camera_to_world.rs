@@ -34,7 +34,7 @@ fn question() -> Question<Input, Vector> {
         measured: "in a part",
         mistakes: vec![
             Mistake::new(
-                "the normal is mapped as a point is; where the map stretches unevenly it tips over",
+                "the normal is mapped as a direction is; where the map stretches unevenly it tips over",
                 |input| (matrix(input) * DVec3::from(input.1)).normalize().into(),
             ),
             Mistake::new("the normal is not of length 1", |input| {
