@@ -96,14 +96,14 @@ fn milliseconds(time: Duration) -> f64 {
 
 impl fmt::Display for RenderStats {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "what ran                           rows        ms    ns a row")?;
+        writeln!(f, "{:<34} {:>9} {:>9} {:>11}", "what ran", "rows", "ms", "ns a row")?;
         for stage in &self.stages {
             let each = stage.nanoseconds_a_row.map_or_else(|| "-".into(), |each| format!("{each:.2}"));
-            writeln!(f, "  {:<28} {:>9} {:>9.2} {:>11}", stage.stage, stage.rows, stage.milliseconds, each)?;
+            writeln!(f, "  {:<32} {:>9} {:>9.2} {:>11}", stage.stage, stage.rows, stage.milliseconds, each)?;
         }
         writeln!(f, "what was left out, and why")?;
         for (stage, reason) in &self.left_out {
-            writeln!(f, "  {stage:<28} {reason}")?;
+            writeln!(f, "  {stage:<32} {reason}")?;
         }
         if self.left_out.is_empty() {
             writeln!(f, "  nothing: this scene needs every stage on offer")?;

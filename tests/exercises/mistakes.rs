@@ -67,7 +67,7 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("08_field_of_view", Attempt::VerticalFov(|a, x, w, h| fov(a, x, w, h, right_angle).to_radians()), "in radians"),
     ("08_field_of_view", Attempt::VerticalFov(|a, x, w, h| fov(a, x, w, h, right_angle) / 2.0), "half the angle"),
     ("08_field_of_view", Attempt::VerticalFov(full_angle), "full angle"),
-    ("09_camera_to_world", Attempt::NormalWorldFromObject(as_a_point), "as a point"),
+    ("09_camera_to_world", Attempt::NormalWorldFromObject(as_a_direction), "as a direction"),
     ("09_camera_to_world", Attempt::NormalWorldFromObject(cofactors), "sign of the determinant"),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(|c, i, p, n, l| light(c, i, p, n, l, |x| x, 2)), "negative"),
     (
@@ -206,14 +206,14 @@ fn full_angle(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
     fov(angle, axis, width, height, |angle, heights| (angle.to_radians().tan() / heights).atan().to_degrees())
 }
 
-fn as_a_point([a, b, c]: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+fn as_a_direction([a, b, c]: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     normalised([0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z))
 }
 
 fn cofactors([a, b, c]: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     let cross =
         |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    as_a_point([cross(b, c), cross(c, a), cross(a, b)], [x, y, z])
+    as_a_direction([cross(b, c), cross(c, a), cross(a, b)], [x, y, z])
 }
 
 fn light(
