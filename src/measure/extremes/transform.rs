@@ -13,11 +13,11 @@ use crate::naive::ellipsoid::{hit_f32, hit_renormalised};
 use std::ops::Range;
 
 /// Ellipsoids and rays that the stage gets at once.
-const AMONG: usize = 64;
+const AMONG: usize = 32;
 
 const METHODS: [Method; 4] = [
     Method::kit("kit, one ellipsoid and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 64 ellipsoids and 64 rays", "u of t", T_BOUND),
+    Method::kit("kit, 32 ellipsoids and 32 rays", "u of t", T_BOUND),
     Method::naive("naive, unit direction in the object", "u of t", T_BOUND),
     Method::naive("naive b2 - 4ac in the object, f32", "u of t", T_BOUND),
 ];
