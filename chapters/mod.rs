@@ -42,6 +42,24 @@ pub mod conventions;
 #[path = "12_how_it_is_built/main.rs"]
 pub mod how_it_is_built;
 
+#[path = "13_shapes/main.rs"]
+pub mod shapes;
+
+#[path = "14_transforms/main.rs"]
+pub mod transforms;
+
+#[path = "15_reflection/main.rs"]
+pub mod reflection;
+
+#[path = "16_textures/main.rs"]
+pub mod textures;
+
+#[path = "17_sampling/main.rs"]
+pub mod sampling;
+
+#[path = "18_error_and_time/main.rs"]
+pub mod error_and_time;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -60,5 +78,11 @@ pub fn all() -> Vec<Chapter> {
         light_and_shadow::chapter().exercise(exercises::LIGHT_AND_SHADOW),
         conventions::chapter().exercise(exercises::CONVENTIONS),
         how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
+        shapes::chapter(),
+        transforms::chapter(),
+        reflection::chapter(),
+        textures::chapter(),
+        sampling::chapter(),
+        error_and_time::chapter(),
     ]
 }

@@ -3,7 +3,8 @@ use crate::extract::camera_entity;
 use crate::film::film_stage;
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
-use crate::scene::{Resolution, Statistics, View};
+use crate::rays::place_samples_stage;
+use crate::scene::{Resolution, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -49,6 +50,9 @@ impl Chapter {
     /// The stages on offer, with those that every chapter has: painting a view, and the film.
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages = self.offer.clone();
+        if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
+            stages.push(place_samples_stage());
+        }
         stages.push(view_stage(&self.offer));
         stages.push(film_stage());
         stages
@@ -73,6 +77,8 @@ pub struct Asked {
     pub view: Option<String>,
     /// Whether stages are timed and counted.
     pub statistics: bool,
+    /// Samples a pixel.
+    pub samples: Option<u32>,
 }
 
 impl Asked {
@@ -85,6 +91,10 @@ impl Asked {
         }
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
+        }
+        if let Some(samples) = self.samples {
+            let sampling = camera.get::<Sampling>().copied().unwrap_or_default();
+            camera.insert(Sampling { samples, ..sampling });
         }
         if self.statistics {
             camera.insert(Statistics);

@@ -7,24 +7,27 @@
 //! 1. [`scene`]: what an author writes.
 //! 2. [`plan`]: which stages the scene needs, and why.
 //! 3. [`extract`]: entities → tables.
-//! 4. [`rays`]: raster → NDC → screen → camera → world.
-//! 5. [`intersect`]: rays → nearest surface.
-//! 6. [`shade`]: surface → light.
-//! 7. [`film`]: light → pixels → files.
-//! 8. [`render`]: the loop over tiles.
-//! 9. [`look`]: trace, view, statistics.
-//! 10. [`naive`]: the methods that break, for the book, its figures and the extremes.
-//! 11. [`figure`]: drawings of a scene and of what the stages wrote for it.
-//! 12. [`review`]: what a picture was made of, as text to compare with.
-//! 13. [`measure`]: exact arithmetic, oracles, extremes.
-//! 14. [`exercise`]: what a reader writes, beside the kit's own.
-//! 15. [`command`]: the command line.
+//! 4. [`sample`]: random numbers.
+//! 5. [`rays`]: raster → NDC → screen → camera → world.
+//! 6. [`intersect`]: rays → nearest surface.
+//! 7. [`shade`]: surface → light.
+//! 8. [`film`]: light → pixels → files.
+//! 9. [`render`]: the loop over tiles.
+//! 10. [`look`]: trace, view, statistics.
+//! 11. [`naive`]: the methods that break, for the book, its figures and the extremes.
+//! 12. [`figure`]: drawings of a scene and of what the stages wrote for it.
+//! 13. [`review`]: what a picture was made of, as text to compare with.
+//! 14. [`measure`]: exact arithmetic, oracles, extremes.
+//! 15. [`exercise`]: what a reader writes, beside the kit's own.
+//! 16. [`command`]: the command line.
 
 pub mod scene;
 
 pub mod plan;
 
 pub mod extract;
+
+pub mod sample;
 
 pub mod rays;
 

@@ -46,6 +46,12 @@ test_chapters! {
     chapter_10_light_and_shadow: light_and_shadow,
     chapter_11_conventions: conventions,
     chapter_12_how_it_is_built: how_it_is_built,
+    chapter_13_shapes: shapes,
+    chapter_14_transforms: transforms,
+    chapter_15_reflection: reflection,
+    chapter_16_textures: textures,
+    chapter_17_sampling: sampling,
+    chapter_18_error_and_time: error_and_time,
 }
 
 #[test]

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 /// The folders and files of `src/` in the order of the data; each may name itself and those before it.
 ///
 /// `error` is what everyone answers, so it is named by its types from everywhere; it names the first two.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "scene",
     "plan",
     "extract",
+    "sample",
     "rays",
     "intersect",
     "shade",

@@ -234,6 +234,9 @@ pub struct SceneOptions {
     /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
     #[arg(long, value_name = "COLUMN")]
     pub view: Option<String>,
+    /// Rays through each pixel (default: what the scene says, or one through its centre)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub samples: Option<u32>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -267,7 +270,7 @@ pub struct ExampleArguments {
 
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { resolution: self.size, view: self.view.clone(), statistics }
+        Asked { resolution: self.size, view: self.view.clone(), statistics, samples: self.samples }
     }
 }
 

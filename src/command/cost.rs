@@ -37,7 +37,7 @@ pub fn print_cost(chapters: &[Chapter], asked: &CostOfChapter, out: &mut dyn Wri
 
 fn report(chapter: &Chapter) -> Result<String> {
     let made_from = made_from(chapter.name)?;
-    let asked = Asked { resolution: Some(SIZE), view: None, statistics: true };
+    let asked = Asked { resolution: Some(SIZE), statistics: true, ..Asked::default() };
     let waiting = Waiting::new(TILES * RENDERS as u64, false);
     let cost = measure(&chapter.world(&asked), &chapter.stages(), &waiting);
     waiting.done();

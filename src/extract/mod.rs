@@ -10,10 +10,11 @@ mod background;
 mod camera;
 mod check;
 mod ellipsoid;
-mod matte;
+mod material;
 mod plane;
 mod point_light;
 mod pose;
+mod sampling;
 mod shape;
 mod sphere;
 
@@ -23,13 +24,14 @@ pub use camera::{
     eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
-pub use matte::MatteTable;
+pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
 pub use pose::{
     Pose, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
     world_from_entity,
 };
+pub use sampling::SamplingTable;
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 
@@ -45,8 +47,9 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
+    SamplingTable::extract(scene)?;
     ShapeTable::extract(scene)?;
-    MatteTable::extract(scene)?;
+    MaterialTable::extract(scene)?;
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
@@ -56,10 +59,10 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Evidence that a shape made of matte matter is there.
-pub fn matte_evidence(scene: &World) -> Evidence {
+/// Evidence that a shape made of something is there.
+pub fn material_evidence(scene: &World) -> Evidence {
     let shapes = shape_entities(scene);
     let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
     let reached: BTreeSet<Entity> = used.chain(shapes.iter().copied()).collect();
-    Evidence::among::<With<Matte>>(scene, "matte colour", |entity| reached.contains(&entity.id()))
+    Evidence::among::<With<Matte>>(scene, "material", |entity| reached.contains(&entity.id()))
 }

@@ -1,5 +1,5 @@
 use super::check::kind_and_name;
-use super::matte::matte_entities;
+use super::material::material_entities;
 use super::unevenly_scaled;
 use crate::plan::{Table, entities};
 use crate::scene::{Disabled, Matte, Plane, Refusal, Sphere, UsesMaterial, called};
@@ -16,6 +16,11 @@ pub enum ShapeKind {
     Ellipsoid,
 }
 
+impl ShapeKind {
+    /// How many kinds there are.
+    const COUNT: usize = 3;
+}
+
 /// All shapes in spawn order; a shape's number here is the one that hits carry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeTable {
@@ -23,16 +28,45 @@ pub struct ShapeTable {
     pub kind: Vec<ShapeKind>,
     /// Its row in that table.
     pub row: Vec<u32>,
-    /// Its row in the matte table.
-    pub matte: Vec<u32>,
+    /// Its row in the material table.
+    pub material: Vec<u32>,
     /// How a person calls it.
     pub name: Vec<String>,
 }
 
+/// A kind of shape as an author writes it, and the table that it is laid in.
+struct Written {
+    /// The component's name.
+    component: &'static str,
+    /// What messages call it.
+    word: &'static str,
+    entities: fn(&World) -> Vec<Entity>,
+    carries: fn(&World, Entity) -> bool,
+    kind: fn(&World, Entity) -> ShapeKind,
+}
+
+impl Written {
+    const fn of<C: Component>(
+        component: &'static str,
+        word: &'static str,
+        kind: fn(&World, Entity) -> ShapeKind,
+    ) -> Self {
+        let carries = |scene: &World, entity: Entity| scene.get::<C>(entity).is_some();
+        Self { component, word, entities: entities::<With<C>>, carries, kind }
+    }
+}
+
+/// Every component that is a shape; a new one joins with a line.
+const WRITTEN: &[Written] = &[
+    Written::of::<Sphere>("Sphere", "sphere", |scene, entity| {
+        if unevenly_scaled(scene, entity) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere }
+    }),
+    Written::of::<Plane>("Plane", "plane", |_, _| ShapeKind::Plane),
+];
+
 /// The enabled entities that are a shape, in spawn order.
 pub fn shape_entities(scene: &World) -> Vec<Entity> {
-    let mut shapes = entities::<With<Sphere>>(scene);
-    shapes.extend(entities::<With<Plane>>(scene));
+    let mut shapes: Vec<Entity> = WRITTEN.iter().flat_map(|written| (written.entities)(scene)).collect();
     shapes.sort_by_key(|shape| shape.index());
     shapes.dedup();
     shapes
@@ -42,37 +76,40 @@ impl Table for ShapeTable {
     const NAME: &'static str = "shapes";
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
-        let mattes = matte_entities(scene);
+        let materials = material_entities(scene);
         let mut table = Self::default();
-        let (mut spheres, mut planes, mut ellipsoids) = (0, 0, 0);
+        let mut rows_of_kind = [0; ShapeKind::COUNT];
         for entity in shape_entities(scene) {
-            let (kind, row, word) = match (scene.get::<Sphere>(entity), scene.get::<Plane>(entity)) {
-                (Some(_), Some(_)) => {
-                    let who = kind_and_name(scene, "shape", entity);
-                    return Err(Refusal::new(
-                        who,
-                        "shape",
-                        "Sphere and Plane at once",
-                        "an entity may be one shape only",
-                    ));
-                }
-                (Some(_), None) if unevenly_scaled(scene, entity) => (ShapeKind::Ellipsoid, &mut ellipsoids, "sphere"),
-                (Some(_), None) => (ShapeKind::Sphere, &mut spheres, "sphere"),
-                _ => (ShapeKind::Plane, &mut planes, "plane"),
-            };
+            let written = one_shape(scene, entity)?;
+            let kind = (written.kind)(scene, entity);
+            let rows = &mut rows_of_kind[kind as usize];
+            table.row.push(*rows);
+            *rows += 1;
             table.kind.push(kind);
-            table.row.push(*row);
-            *row += 1;
-            let material = material_of(scene, &kind_and_name(scene, word, entity), entity)?;
-            let matte = mattes.binary_search_by_key(&material.index(), |matte| matte.index()).unwrap_or(0);
-            table.matte.push(matte as u32);
-            table.name.push(kind_and_name(scene, word, entity));
+            let name = kind_and_name(scene, written.word, entity);
+            let material = material_of(scene, &name, entity)?;
+            let row = materials.binary_search_by_key(&material.index(), |other| other.index()).unwrap_or(0);
+            table.material.push(row as u32);
+            table.name.push(name);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
         self.kind.len() * (size_of::<ShapeKind>() + 8) + self.name.iter().map(String::len).sum::<usize>()
+    }
+}
+
+/// The one shape that an entity is.
+fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, Refusal> {
+    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match carried[..] {
+        [one] => Ok(one),
+        _ => {
+            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let value = format!("{} at once", names.join(" and "));
+            Err(Refusal::new(kind_and_name(scene, "shape", entity), "shape", value, "an entity may be one shape only"))
+        }
     }
 }
 

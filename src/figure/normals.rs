@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::{Asked, Chapter};
-use crate::extract::{EllipsoidTable, MatteTable, PointLightTable, normal_world_from_object};
+use crate::extract::{EllipsoidTable, MaterialTable, PointLightTable, normal_world_from_object};
 use crate::film::FilmTile;
 use crate::intersect::{Hits, Surface, Surfaces, offset_origin};
 use crate::naive::ellipsoid::normal_as_direction;
@@ -68,7 +68,7 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
     });
     let lacks = || figure.unsuited("a lit sphere that is scaled unevenly");
     let ((rays, hits), surfaces, film) = columns.ok_or_else(lacks)?;
-    let (lights, mattes) = (PointLightTable::extract(&scene)?, MatteTable::extract(&scene)?);
+    let (lights, materials) = (PointLightTable::extract(&scene)?, MaterialTable::extract(&scene)?);
     let (ellipsoids, occluders) = (EllipsoidTable::extract(&scene)?, Occluders::of(&scene)?);
     let right: Vec<[f32; 3]> = (0..film.count.len()).map(|row| film.mean(row)).collect();
     let (mut naive, mut worst) = (right.clone(), None::<Worst>);
@@ -87,13 +87,13 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
         if worst.is_none_or(|worst| degrees > worst.degrees) {
             worst = Some(Worst { degrees, row });
         }
-        *naive = lit(&wrong, &lights, &mattes, &occluders);
+        *naive = lit(&wrong, &lights, &materials, &occluders);
     }
     Ok((right, naive, worst.ok_or_else(lacks)?))
 }
 
 /// What all lights together make of a surface.
-fn lit(surface: &Surface, lights: &PointLightTable, mattes: &MatteTable, occluders: &Occluders) -> [f32; 3] {
+fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, occluders: &Occluders) -> [f32; 3] {
     let origin = offset_origin(surface.position, surface.normal, surface.bound).as_dvec3();
     let mut sum = [0.0_f32; 3];
     for (&light, &intensity) in lights.position.iter().zip(&lights.intensity) {
@@ -102,7 +102,7 @@ fn lit(surface: &Surface, lights: &PointLightTable, mattes: &MatteTable, occlude
         let direction = to_light / distance;
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_reach(distance))) {
-            let colour = mattes.colour[surface.matte as usize];
+            let colour = materials.colour[surface.material as usize];
             let brings = reflected_radiance(colour, intensity, cosine, distance * distance);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
         }

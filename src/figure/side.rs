@@ -86,7 +86,7 @@ fn mean(lengths: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 1.0 }
 }
 
-/// The share of what matters that nothing hides: the rims of spheres, where rays end, their way to the light.
+/// The share of what materials that nothing hides: the rims of spheres, where rays end, their way to the light.
 fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let [right, up, toward] = [scenery.sketch.axes.x_axis, scenery.sketch.axes.y_axis, scenery.sketch.axes.z_axis];
     let (mut seen, mut all) = (0.0, 0.0);

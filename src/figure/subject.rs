@@ -1,8 +1,8 @@
 use super::pixel_ray::{PixelRay, pixel_rays};
 use crate::chapter::{Asked, Chapter};
 use crate::extract::{
-    CameraAxes, ImageShape, MatteTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind, ShapeTable, SphereTable,
-    ViewRectangle, camera_entity,
+    CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind, ShapeTable,
+    SphereTable, ViewRectangle, camera_entity,
 };
 use crate::intersect::Hits;
 use crate::plan::Table;
@@ -142,9 +142,9 @@ fn lens(scene: &World) -> Result<Lens> {
 
 /// The colours of shapes of one kind, in the order of that kind's table.
 fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
-    let (shapes, mattes) = (ShapeTable::extract(scene)?, MatteTable::extract(scene)?);
+    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
     let of_kind = (0..shapes.kind.len()).filter(|&shape| shapes.kind[shape] == kind);
-    Ok(of_kind.map(|shape| mattes.colour[shapes.matte[shape] as usize]).collect())
+    Ok(of_kind.map(|shape| materials.colour[shapes.material[shape] as usize]).collect())
 }
 
 fn balls(scene: &World) -> Result<Vec<Ball>> {

@@ -1,5 +1,5 @@
 use super::hits::shape_evidence;
-use super::{Hits, NO_SHAPE, Surfaces};
+use super::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
 use crate::extract::{ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
@@ -29,8 +29,8 @@ column! {
 }
 
 column! {
-    /// The rows whose surface is matte, ascending.
-    pub struct MatteRows("matte rows", "rows of the tile", "rows", Ray) {
+    /// The rows whose surface sends on light, ascending.
+    pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
     }
@@ -46,11 +46,12 @@ pub fn classify_hits(
         Option<&mut SphereRows>,
         Option<&mut EllipsoidRows>,
         Option<&mut PlaneRows>,
-        Option<&mut MatteRows>,
+        Option<&mut MaterialRows>,
         Option<&mut Surfaces>,
+        Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, mattes, surfaces) in &mut tiles {
+    for (hits, spheres, ellipsoids, planes, materials, surfaces, uvs) in &mut tiles {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
         }
@@ -60,11 +61,16 @@ pub fn classify_hits(
         if let Some(mut list) = planes {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Plane);
         }
-        if let Some(mut list) = mattes {
+        if let Some(mut list) = materials {
             list_rows(hits, &mut list.row, |_| true);
         }
         if let Some(mut surfaces) = surfaces {
             blank_misses(hits, &mut surfaces);
+        }
+        if let Some(mut uvs) = uvs {
+            let (u, v) = uvs.slices_mut(hits.rows());
+            u.fill(0.0);
+            v.fill(0.0);
         }
     }
 }
@@ -82,11 +88,11 @@ fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) 
 
 fn blank_misses(hits: &Hits, surfaces: &mut Surfaces) {
     let rows = hits.rows();
-    let (px, py, pz, nx, ny, nz, bound, matte) = surfaces.slices_mut(rows);
+    let (px, py, pz, nx, ny, nz, bound, material) = surfaces.slices_mut(rows);
     for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
         (px[row], py[row], pz[row]) = (0.0, 0.0, 0.0);
         (nx[row], ny[row], nz[row]) = (0.0, 0.0, 0.0);
-        (bound[row], matte[row]) = (0.0, 0);
+        (bound[row], material[row]) = (0.0, 0);
     }
 }
 
@@ -108,7 +114,7 @@ impl PlaneRows {
     }
 }
 
-impl MatteRows {
+impl MaterialRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
     }
@@ -121,8 +127,9 @@ pub fn classify_stage() -> Stage {
         .writes::<SphereRows>()
         .writes::<EllipsoidRows>()
         .writes::<PlaneRows>()
-        .writes::<MatteRows>()
+        .writes::<MaterialRows>()
         .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
         .table::<ShapeTable>()
         .when(shape_evidence)
 }

@@ -146,7 +146,7 @@ fn narrow(
 /// Where that error would turn the normal by more than u or reach farther than u of the shortest half axis, g is found
 /// again in twice as many digits.
 #[inline(always)]
-pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid, matte: u32) -> Surface {
+pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid, material: u32) -> Surface {
     let map = ellipsoid.unit_from_world;
     let mut point = origin + t * direction;
     let mut g = map * ((origin - ellipsoid.centre) + t * direction);
@@ -164,7 +164,7 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
     // The side is told where g and q are known best: along a limb of the unit space.
     let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
     let normal = if away { -across / steps } else { across / steps };
-    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
+    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }
 }
 // ANCHOR_END: ellipsoid_surface
 
@@ -180,7 +180,7 @@ pub fn fill_ellipsoid_surfaces(
             let shape = hits.shape[row] as usize;
             let ellipsoid = &ellipsoids.ellipsoid[shapes.row[shape] as usize];
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
-            let surface = ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.matte[shape]);
+            let surface = ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.material[shape]);
             surfaces.set(row, surface);
         }
     }
@@ -251,7 +251,7 @@ mod tests {
         let surface = at(&plain);
         let from_centre = surface.position.as_dvec3() - plain.centre;
         let gradient = from_centre / DVec3::new(1.0, 4.0, 16.0);
-        assert!(gradient.normalize().as_vec3().distance(surface.normal) < 1e-7 && surface.matte == 7);
+        assert!(gradient.normalize().as_vec3().distance(surface.normal) < 1e-7 && surface.material == 7);
         assert!((surface.normal.length() - 1.0).abs() < 1e-6 && surface.bound > 0.0 && surface.bound < 1e-4);
         assert!(surface.normal.dot(Vec3::Z) > 0.0);
     }

@@ -13,7 +13,7 @@ mod sphere;
 mod surface;
 mod wide;
 
-pub use classify::{EllipsoidRows, MatteRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use classify::{EllipsoidRows, MaterialRows, PlaneRows, SphereRows, classify_hits, classify_stage};
 pub use ellipsoid::{
     ellipsoid_evidence, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage, ellipsoid_t, ellipsoid_verdict,
     intersect_ellipsoids,
@@ -23,7 +23,7 @@ pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
 pub use sphere::{
     Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,
 };
-pub use surface::{Surface, Surfaces, offset_bound, offset_origin, sum_of_parts};
+pub use surface::{Surface, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
 pub use wide::{wide_ellipsoid_point, wide_ellipsoid_t, wide_sphere_t};
 
 use crate::plan::Stage;

@@ -61,7 +61,7 @@ pub fn fill_plane_surfaces(
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let point = origin + hits.t[row] * direction;
             let bound = offset_bound(point, origin, planes.offset[plane].abs());
-            surfaces.set(row, Surface::facing(direction, point, planes.normal[plane], bound, shapes.matte[shape]));
+            surfaces.set(row, Surface::facing(direction, point, planes.normal[plane], bound, shapes.material[shape]));
         }
     }
 }

@@ -187,7 +187,7 @@ pub fn fill_sphere_surfaces(
             // A sphere smaller than the spacing of numbers at its place may have no normal left; any serves it.
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
             let bound = offset_bound(point, origin, sum_of_parts(centre) + radius);
-            surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.matte[shape]));
+            surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.material[shape]));
         }
     }
 }

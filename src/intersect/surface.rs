@@ -19,8 +19,25 @@ column! {
         nz: f32,
         /// How far along the normal a new ray must start to be off the surface for certain.
         bound: f32,
-        /// The row of the matte table.
-        matte: u32,
+        /// The row of the material table.
+        material: u32,
+    }
+}
+
+column! {
+    /// Where on its shape each ray hit, in the shape's own two coordinates; exists where something reads it.
+    pub struct SurfaceUvs("uv", "on the shape", "of the shape's own", Ray) {
+        /// The first coordinate.
+        u: f64,
+        /// The second.
+        v: f64,
+    }
+}
+
+impl SurfaceUvs {
+    /// Each coordinate's part after the point.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.u[row], self.v[row], 0.0].map(|part| (part - part.floor()) as f32)
     }
 }
 
@@ -33,17 +50,17 @@ pub struct Surface {
     pub normal: Vec3,
     /// The hit's error bound along the normal.
     pub bound: f32,
-    /// The row of the matte table.
-    pub matte: u32,
+    /// The row of the material table.
+    pub material: u32,
 }
 
 impl Surface {
     // ANCHOR: facing
     /// The surface at an f64 point, its normal turned to the side that a ray of this direction came from.
     #[inline(always)]
-    pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, bound: f32, matte: u32) -> Self {
+    pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, bound: f32, material: u32) -> Self {
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
-        Self { position: point.as_vec3(), normal: normal.as_vec3(), bound, matte }
+        Self { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }
     }
     // ANCHOR_END: facing
 }
@@ -90,7 +107,7 @@ impl Surfaces {
         (self.px[row], self.py[row], self.pz[row]) = surface.position.into();
         (self.nx[row], self.ny[row], self.nz[row]) = surface.normal.into();
         self.bound[row] = surface.bound;
-        self.matte[row] = surface.matte;
+        self.material[row] = surface.material;
     }
 
     /// Reads a row.
@@ -100,7 +117,7 @@ impl Surfaces {
             position: Vec3::new(self.px[row], self.py[row], self.pz[row]),
             normal: Vec3::new(self.nx[row], self.ny[row], self.nz[row]),
             bound: self.bound[row],
-            matte: self.matte[row],
+            material: self.material[row],
         }
     }
 }

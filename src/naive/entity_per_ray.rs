@@ -5,7 +5,7 @@
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
 use crate::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MatteTable, PinholeLens, PlaneTable, ShapeKind,
+    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind,
     ShapeTable, SphereTable,
 };
 use crate::film::Film;
@@ -77,7 +77,7 @@ impl EntityPerRay {
         share::<SphereTable>(&mut world, scene)?;
         share::<PlaneTable>(&mut world, scene)?;
         share::<ShapeTable>(&mut world, scene)?;
-        share::<MatteTable>(&mut world, scene)?;
+        share::<MaterialTable>(&mut world, scene)?;
         share::<BackgroundTable>(&mut world, scene)?;
         let image = share::<ImageShape>(&mut world, scene)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
@@ -188,7 +188,7 @@ fn describe(
             continue;
         }
         let shape = hit.shape as usize;
-        let (row, matte) = (shapes.row[shape] as usize, shapes.matte[shape]);
+        let (row, material) = (shapes.row[shape] as usize, shapes.material[shape]);
         let [origin, direction] = ray.0.map(|part| part.as_dvec3());
         let point = origin + hit.t * direction;
         let (normal, size) = match shapes.kind[shape] {
@@ -200,19 +200,19 @@ fn describe(
             // No ellipsoid is here, as `spawn` has made sure.
             ShapeKind::Plane | ShapeKind::Ellipsoid => (planes.normal[row], planes.offset[row].abs()),
         };
-        surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), matte);
+        surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), material);
     }
 }
 
 fn shade(
-    mattes: Res<Shared<MatteTable>>,
+    materials: Res<Shared<MaterialTable>>,
     background: Res<Shared<BackgroundTable>>,
     mut rays: Query<(&Hit, &Surface, &mut Radiance)>,
 ) {
     for (hit, surface, mut radiance) in &mut rays {
         radiance.0 = match hit.shape {
             NO_SHAPE => background.radiance,
-            _ => mattes.colour[surface.0.matte as usize].map(|part| part as f32),
+            _ => materials.colour[surface.0.material as usize].map(|part| part as f32),
         };
     }
 }

@@ -95,6 +95,8 @@ pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
         let row = decide(scene, stage, view, &wanted);
         if row.kept {
             wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.name));
+            let asked = stage.reads_where.iter().filter(|(_, predicate)| predicate(scene).needed);
+            wanted.extend(asked.map(|(column, _)| column.name));
             if let (true, Some(column)) = (stage.reads_view, view) {
                 wanted.insert(column.name);
             }
@@ -141,8 +143,11 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         let words: Vec<String> = stage.writes.iter().map(|column| format!("`{}`", column.name)).collect();
         (false, format!("nothing that runs reads {}", words.join(" or ")))
     };
-    let (columns, tables) =
-        if kept { (read, stage.tables.iter().map(|table| table.name).collect()) } else { (Vec::new(), Vec::new()) };
+    let (columns, tables) = if kept {
+        (read, stage.tables_for(scene).iter().map(|table| table.name).collect())
+    } else {
+        (Vec::new(), Vec::new())
+    };
     PlanRow { stage: stage.name, kept, reason, count: evidence.count, columns, tables }
 }
 
@@ -200,9 +205,9 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
                     columns.push(*column);
                 }
             }
-            for table in &stage.tables {
-                if !tables.contains(table) {
-                    tables.push(*table);
+            for table in stage.tables_for(scene) {
+                if !tables.contains(&table) {
+                    tables.push(table);
                 }
             }
             stages.push(stage.clone());

@@ -32,10 +32,14 @@ pub struct Stage {
     pub reads: Vec<ColumnKind>,
     /// Columns it reads where they exist.
     pub reads_if: Vec<ColumnKind>,
+    /// Columns it reads where they exist, and for which the scene itself must give a reason.
+    pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
     /// Tables it reads.
     pub tables: Vec<TableKind>,
+    /// Tables it reads where the scene gives a reason for them.
+    pub tables_where: Vec<(TableKind, fn(&World) -> Evidence)>,
     /// Whether it reads the column that a `View` asks for.
     pub reads_view: bool,
     /// Whether a scene needs it.
@@ -57,8 +61,10 @@ impl Stage {
             kind: StageKind::Exact,
             reads: Vec::new(),
             reads_if: Vec::new(),
+            reads_where: Vec::new(),
             writes: Vec::new(),
             tables: Vec::new(),
+            tables_where: Vec::new(),
             reads_view: false,
             when: |_| Evidence::always("every picture needs it"),
             system: Arc::new(move || system.clone().into_configs()),
@@ -77,6 +83,12 @@ impl Stage {
         self
     }
 
+    /// It reads this column where it exists, and it asks for it only where the scene gives a reason.
+    pub fn reads_where<C: Column>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+        self.reads_where.push((ColumnKind::of::<C>(), predicate));
+        self
+    }
+
     /// It writes this column.
     pub fn writes<C: Column>(mut self) -> Self {
         self.writes.push(ColumnKind::of::<C>());
@@ -87,6 +99,18 @@ impl Stage {
     pub fn table<T: Table>(mut self) -> Self {
         self.tables.push(TableKind::of::<T>());
         self
+    }
+
+    /// It reads this table where the scene gives a reason for it.
+    pub fn table_where<T: Table>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+        self.tables_where.push((TableKind::of::<T>(), predicate));
+        self
+    }
+
+    /// The tables it reads of this scene.
+    pub fn tables_for(&self, scene: &World) -> Vec<TableKind> {
+        let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
+        self.tables.iter().chain(asked.map(|(table, _)| table)).copied().collect()
     }
 
     /// It reads whatever column a `View` asks for.

@@ -6,6 +6,7 @@
 
 mod camera;
 mod ndc;
+mod place_samples;
 mod raster;
 mod screen;
 mod world;
@@ -15,6 +16,7 @@ pub use camera::{
     orthographic_stage, perspective_stage,
 };
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use place_samples::{PixelSamples, SampleNumber, place_samples, place_samples_stage, sampling_evidence};
 pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
 pub use world::{WorldRays, fill_world, world_stage};
@@ -23,5 +25,7 @@ use crate::plan::Stage;
 
 /// All of ray generation as one closed box, for chapters that have not opened it yet.
 pub fn stages() -> Vec<Stage> {
-    vec![raster_stage(), ndc_stage(), screen_stage(), perspective_stage(), orthographic_stage(), world_stage()]
+    let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
+    stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
+    stages
 }

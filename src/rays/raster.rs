@@ -1,4 +1,5 @@
-use crate::plan::{Column, Stage, TileSystems, column};
+use super::sampling_evidence;
+use crate::plan::{Column, Evidence, Stage, StageKind, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
@@ -78,7 +79,13 @@ pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
 // ANCHOR: raster_stage
 /// The stage on offer.
 pub fn raster_stage() -> Stage {
-    Stage::new("Place raster points", TileSystems::Raster, fill_raster).writes::<RasterPoints>()
+    Stage::new("Place raster points", TileSystems::Raster, fill_raster)
+        .kind(StageKind::Alternative)
+        .writes::<RasterPoints>()
+        .when(|scene| match sampling_evidence(scene) {
+            samples if samples.needed => Evidence { needed: false, ..samples },
+            _ => Evidence::always("every picture needs it"),
+        })
 }
 // ANCHOR_END: raster_stage
 

@@ -62,10 +62,11 @@ pub(super) fn run_in_one_world(
     tables: &[ExtractedTable],
     execution: &Execution,
     film: &mut Film,
+    samples: u32,
 ) -> Vec<Lap> {
     let mut frame = RenderWorld::new(plan, tables, film.tiles.len(), execution, &[]);
     swap_all(&mut frame, film);
-    frame.run();
+    frame.run_samples(samples);
     swap_all(&mut frame, film);
     frame.world.remove_resource::<StageClock>().map_or_else(Vec::new, |clock| clock.laps)
 }

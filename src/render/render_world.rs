@@ -4,7 +4,7 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::plan::{Bounce, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::Tile;
+use crate::rays::{SampleNumber, Tile};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
@@ -74,6 +74,18 @@ impl RenderWorld {
         }
     }
 
+    /// Runs every kept stage once for each of the first `samples` samples of every pixel.
+    pub fn run_samples(&mut self, samples: u32) {
+        for number in 0..samples {
+            for &tile in &self.tiles {
+                if let Some(mut sample) = self.world.get_mut::<SampleNumber>(tile) {
+                    *sample = SampleNumber(number);
+                }
+            }
+            self.run();
+        }
+    }
+
     /// Runs every kept stage once over all tiles of this world.
     pub fn run(&mut self) {
         if let Some(mut clock) = self.world.get_resource_mut::<StageClock>() {
@@ -84,7 +96,7 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn(Tile::default());
+    let mut tile = world.spawn((Tile::default(), SampleNumber::default()));
     for column in &plan.columns {
         (column.insert)(&mut tile);
     }

@@ -46,10 +46,11 @@ pub fn render(
     let image = crate::extract::ImageShape::extract(scene)?;
     let mut film = Film::new(image.width, image.height, execution.tile_side);
     let table_bytes = tables.iter().map(|table| table.bytes).sum();
+    let samples = crate::extract::SamplingTable::extract(scene)?.samples;
     let started = Instant::now();
     let (laps, threads) = match execution.worlds {
-        Worlds::PerWorker => run_workers(&plan, &tables, execution, &mut film, watch)?,
-        Worlds::One => (run_in_one_world(&plan, &tables, execution, &mut film), 1),
+        Worlds::PerWorker => run_workers(&plan, &tables, execution, &mut film, samples, watch)?,
+        Worlds::One => (run_in_one_world(&plan, &tables, execution, &mut film, samples), 1),
     };
     Ok(Rendered { plan, film, laps, threads, time: started.elapsed(), table_bytes })
 }
@@ -63,6 +64,7 @@ fn run_workers(
     tables: &[ExtractedTable],
     execution: &Execution,
     film: &mut Film,
+    samples: u32,
     watch: &dyn Watch,
 ) -> Result<(Vec<Lap>, usize)> {
     let pool = rayon::ThreadPoolBuilder::new()
@@ -74,7 +76,7 @@ fn run_workers(
         let mut worker = RenderWorld::new(plan, tables, 1, execution, &[]);
         while let Some(film_tile) = next_tile(&tiles).filter(|_| !watch.stopped()) {
             worker.swap_film(worker.tiles[0], film_tile);
-            worker.run();
+            worker.run_samples(samples);
             worker.swap_film(worker.tiles[0], film_tile);
             watch.tile_done();
         }

@@ -20,6 +20,7 @@ mod point_light;
 mod refusal;
 mod request;
 mod resolution;
+mod sampling;
 mod sphere;
 
 pub use angle::Degrees;
@@ -39,4 +40,5 @@ pub use point_light::PointLight;
 pub use refusal::Refusal;
 pub use request::{Statistics, TracePixel, View};
 pub use resolution::Resolution;
+pub use sampling::{Filter, Sampler, Sampling};
 pub use sphere::Sphere;

@@ -1,6 +1,6 @@
 use super::Radiance;
-use crate::extract::{MatteTable, matte_evidence};
-use crate::intersect::{MatteRows, Surfaces, shape_evidence};
+use crate::extract::{MaterialTable, material_evidence};
+use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -8,11 +8,11 @@ use bevy_ecs::prelude::*;
 // ANCHOR: shade_flat
 /// Gives every row the colour of the surface that it hit, as if colour were light: the picture of a scene in which
 /// nothing shines.
-pub fn shade_flat(mattes: Res<Shared<MatteTable>>, mut tiles: Query<(&Surfaces, &MatteRows, &mut Radiance)>) {
+pub fn shade_flat(materials: Res<Shared<MaterialTable>>, mut tiles: Query<(&Surfaces, &MaterialRows, &mut Radiance)>) {
     for (surfaces, list, mut radiance) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let [r, g, b] = mattes.colour[surfaces.matte[row] as usize];
+            let [r, g, b] = materials.colour[surfaces.material[row] as usize];
             (radiance.r[row], radiance.g[row], radiance.b[row]) = (r as f32, g as f32, b as f32);
         }
     }
@@ -24,19 +24,19 @@ pub fn flat_stage() -> Stage {
     Stage::new("Show surfaces unlit", TileSystems::Shade, shade_flat)
         .kind(StageKind::Alternative)
         .reads::<Surfaces>()
-        .reads::<MatteRows>()
+        .reads::<MaterialRows>()
         .reads::<Radiance>()
         .writes::<Radiance>()
-        .table::<MatteTable>()
+        .table::<MaterialTable>()
         .when(|scene| {
-            let matter = matter_evidence(scene);
+            let material = shown_evidence(scene);
             let lights = Evidence::of::<PointLight>(scene, "point light");
-            if matter.needed { Evidence { needed: !lights.needed, ..lights }.and(matter) } else { matter }
+            if material.needed { Evidence { needed: !lights.needed, ..lights }.and(material) } else { material }
         })
 }
 
 /// Evidence that there is a surface to be shown.
-pub(super) fn matter_evidence(scene: &World) -> Evidence {
+pub(super) fn shown_evidence(scene: &World) -> Evidence {
     let shapes = shape_evidence(scene);
-    if shapes.needed { matte_evidence(scene) } else { shapes }
+    if shapes.needed { material_evidence(scene) } else { shapes }
 }

@@ -1,6 +1,6 @@
 use super::{Radiance, ShadowHits};
-use crate::extract::{MatteTable, PointLightTable, matte_evidence};
-use crate::intersect::{MatteRows, NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
+use crate::extract::{MaterialTable, PointLightTable, material_evidence};
+use crate::intersect::{MaterialRows, NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -92,14 +92,14 @@ pub fn shadow_reach(distance: f64) -> f32 {
 /// Fills a tile's light rays.
 pub fn aim_at_lights(
     lights: Res<Shared<PointLightTable>>,
-    mattes: Res<Shared<MatteTable>>,
-    mut tiles: Query<(&Surfaces, &MatteRows, &mut LightRays)>,
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
 ) {
     for (surfaces, list, mut rays) in &mut tiles {
         let mut length = 0;
         rays.slices_mut(list.rows() * lights.position.len());
         for light in 0..lights.position.len() {
-            length = aim_rows(surfaces, &list.row, &lights, light, &mattes, &mut rays, length);
+            length = aim_rows(surfaces, &list.row, &lights, light, &materials, &mut rays, length);
         }
         rays.slices_mut(length);
     }
@@ -114,7 +114,7 @@ fn aim_rows(
     rows: &[u32],
     lights: &PointLightTable,
     light: usize,
-    mattes: &MatteTable,
+    materials: &MaterialTable,
     rays: &mut LightRays,
     length: usize,
 ) -> usize {
@@ -126,7 +126,7 @@ fn aim_rows(
         let surface = surfaces.get(row as usize);
         let aimed = aim(&surface, position);
         let distance_squared = aimed.distance * aimed.distance;
-        let colour = mattes.colour[surface.matte as usize];
+        let colour = materials.colour[surface.material as usize];
         let brings = reflected_radiance(colour, intensity, aimed.cosine, distance_squared);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = aimed.origin.into();
@@ -162,10 +162,10 @@ pub fn add_light(mut tiles: Query<(&LightRays, Option<&ShadowHits>, &mut Radianc
 pub fn aim_stage() -> Stage {
     Stage::new("Aim at lights", TileSystems::Aim, aim_at_lights)
         .reads::<Surfaces>()
-        .reads::<MatteRows>()
+        .reads::<MaterialRows>()
         .writes::<LightRays>()
         .table::<PointLightTable>()
-        .table::<MatteTable>()
+        .table::<MaterialTable>()
         .when(lit_evidence)
 }
 
@@ -180,7 +180,7 @@ pub fn light_stage() -> Stage {
         .when(lit_evidence)
 }
 
-/// Evidence that there is a light and matter that it can fall on.
+/// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
-    Evidence::of::<PointLight>(scene, "point light").and(matte_evidence(scene))
+    Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene))
 }

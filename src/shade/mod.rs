@@ -5,12 +5,14 @@
 //! Space: render space.
 
 mod background;
+mod colour;
 mod flat;
 mod light;
 mod radiance;
 mod shadow;
 
 pub use background::{add_background, background_stage};
+pub use colour::SurfaceColours;
 pub use flat::{flat_stage, shade_flat};
 pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance, shadow_reach};
 pub use radiance::{Radiance, start_radiance, start_stage};
@@ -30,5 +32,5 @@ pub fn stages() -> Vec<Stage> {
 
 /// A surface's own colour, whether the scene has lights or not, and what is behind everything.
 pub fn unlit_stages() -> Vec<Stage> {
-    vec![start_stage(), background_stage(), flat_stage().when(flat::matter_evidence)]
+    vec![start_stage(), background_stage(), flat_stage().when(flat::shown_evidence)]
 }

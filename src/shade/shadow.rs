@@ -1,5 +1,5 @@
 use super::LightRays;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, matte_evidence};
+use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, material_evidence};
 use crate::intersect::{
     HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres, sphere_evidence,
 };
@@ -92,5 +92,5 @@ pub fn shadow_evidence(scene: &World) -> Evidence {
     Evidence::among::<With<PointLight>>(scene, "shadow-casting light", |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
     })
-    .and(matte_evidence(scene))
+    .and(material_evidence(scene))
 }

@@ -8,7 +8,7 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MatteTable, PinholeLens, PlaneTable, PointLightTable,
+    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable,
     ShapeKind, ShapeTable, SphereTable,
 };
 use pinhole::film::{Film, FilmTile};
@@ -30,7 +30,7 @@ pub struct Scene {
     spheres: SphereTable,
     planes: PlaneTable,
     shapes: ShapeTable,
-    mattes: MatteTable,
+    materials: MaterialTable,
     lights: PointLightTable,
     background: BackgroundTable,
 }
@@ -49,7 +49,7 @@ impl Scene {
             spheres: Table::extract(world)?,
             planes: Table::extract(world)?,
             shapes: Table::extract(world)?,
-            mattes: Table::extract(world)?,
+            materials: Table::extract(world)?,
             lights: Table::extract(world)?,
             background: Table::extract(world)?,
         })
@@ -94,7 +94,7 @@ fn radiance(scene: &Scene, x: u32, y: u32) -> [f32; 3] {
 
 #[inline(always)]
 fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
-    let (row, matte) = (scene.shapes.row[shape] as usize, scene.shapes.matte[shape]);
+    let (row, material) = (scene.shapes.row[shape] as usize, scene.shapes.material[shape]);
     let point = DVec3::ZERO + t * direction;
     let (normal, size) = match scene.shapes.kind[shape] {
         ShapeKind::Sphere => {
@@ -105,7 +105,7 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
         // There are no ellipsoids here, as `extract` has made sure.
         ShapeKind::Plane | ShapeKind::Ellipsoid => (scene.planes.normal[row], scene.planes.offset[row].abs()),
     };
-    Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), matte)
+    Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), material)
 }
 
 #[inline(always)]
@@ -118,7 +118,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         let direction = (to_light * (1.0 / distance)).as_vec3().as_dvec3();
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
-            let colour = scene.mattes.colour[surface.matte as usize];
+            let colour = scene.materials.colour[surface.material as usize];
             let brings = reflected_radiance(colour, scene.lights.intensity[light], cosine, distance * distance);
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;

@@ -1,8 +1,8 @@
 //! From a ray to the shadow ray that leaves its hit, through the kit's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
-use crate::extract::{EllipsoidTable, MatteTable, PointLightTable, ShapeKind, ShapeTable};
-use crate::intersect::{self, Hits, MatteRows, NO_SHAPE, Surface, Surfaces};
+use crate::extract::{EllipsoidTable, MaterialKind, MaterialTable, PointLightTable, ShapeKind, ShapeTable};
+use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
 use crate::measure::ray_aim::{AimedRay, Draws};
@@ -52,8 +52,8 @@ impl ShadowStages {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light = [shade::aim_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
-        stages.to_light.share(MatteTable { colour: vec![[0.5; 3]] });
-        let mut first = MatteRows::default();
+        stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], colour: vec![[0.5; 3]] });
+        let mut first = MaterialRows::default();
         first.slices_mut(1)[0] = 0;
         stages.to_light.put(first);
         stages
@@ -82,7 +82,7 @@ impl ShadowStages {
 
     fn shapes(&mut self, kind: ShapeKind, count: usize) {
         let row = (0..count as u32).collect();
-        let table = ShapeTable { kind: vec![kind; count], row, matte: vec![0; count], name: Vec::new() };
+        let table = ShapeTable { kind: vec![kind; count], row, material: vec![0; count], name: Vec::new() };
         self.to_surface.share(table);
     }
 

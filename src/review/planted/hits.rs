@@ -1,7 +1,7 @@
 //! Slips between rays and surfaces.
 
 use crate::extract::{EllipsoidTable, PlaneTable, ShapeTable, SphereTable};
-use crate::intersect::{EllipsoidRows, Hits, MatteRows, PlaneRows, SphereRows, Surfaces, ellipsoid_t};
+use crate::intersect::{EllipsoidRows, Hits, MaterialRows, PlaneRows, SphereRows, Surfaces, ellipsoid_t};
 use crate::plan::{Column, Shared};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
@@ -80,7 +80,7 @@ fn pairs(rows: usize, shapes: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// The first shape, number 0, taken for no shape.
-pub fn zero_is_none(mut tiles: Query<(&Hits, &mut MatteRows)>) {
+pub fn zero_is_none(mut tiles: Query<(&Hits, &mut MaterialRows)>) {
     for (hits, mut list) in &mut tiles {
         list.row.retain(|&row| hits.shape[row as usize] != 0);
     }

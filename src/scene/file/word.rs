@@ -1,6 +1,6 @@
 use crate::scene::{
-    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution, Sphere,
-    Statistics, View,
+    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
+    Sampling, Sphere, Statistics, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -22,6 +22,7 @@ const WORDS: &[Word] = &[
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
+    Word::of::<Sampling>("sampling"),
     Word::of::<Matte>("matte"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),

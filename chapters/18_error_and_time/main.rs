@@ -1,0 +1,40 @@
+//! How wrong, after how long.
+
+use bevy_ecs::prelude::*;
+use pinhole::scene::*;
+use pinhole::{Chapter, intersect, rays, shade};
+
+fn main() -> pinhole::Result {
+    pinhole::run(chapter())
+}
+
+// ANCHOR: chapter
+/// The scene, and the stages on offer.
+pub fn chapter() -> Chapter {
+    Chapter::new("18_error_and_time", "how wrong, after how long", scene)
+        .offer(rays::stages())
+        .offer(intersect::stages())
+        .offer(shade::stages())
+}
+// ANCHOR_END: chapter
+
+// ANCHOR: scene
+fn scene(world: &mut World) {
+    world.spawn((
+        Name::new("camera"),
+        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+    ));
+    for (name, x, z, colour) in [
+        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
+        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
+        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
+    ] {
+        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
+    }
+    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
+    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
+    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
+    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
+}
+// ANCHOR_END: scene

@@ -1,0 +1,36 @@
+use super::camera::camera_entity;
+use super::check::kind_and_name;
+use crate::plan::Table;
+use crate::scene::{Refusal, Sampler, Sampling};
+use bevy_ecs::prelude::*;
+
+/// How the camera samples its pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SamplingTable {
+    /// Samples a pixel.
+    pub samples: u32,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// Where they come from.
+    pub sampler: Sampler,
+}
+
+impl Table for SamplingTable {
+    const NAME: &'static str = "sampling";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let camera = camera_entity(scene)?;
+        let Some(&Sampling { samples, seed, sampler, .. }) = scene.get::<Sampling>(camera) else {
+            return Ok(Self { samples: 1, ..Self::default() });
+        };
+        if samples == 0 {
+            let who = kind_and_name(scene, "camera", camera);
+            return Err(Refusal::new(who, "samples", "0", "each pixel must have at least 1 sample"));
+        }
+        Ok(Self { samples, seed, sampler })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

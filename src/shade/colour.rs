@@ -1,0 +1,21 @@
+use crate::plan::column;
+
+column! {
+    /// The share of light that each surface sends on equally in all directions; exists where it is not the material's
+    /// own colour everywhere.
+    pub struct SurfaceColours("colour", "surface", "linear Rec. 709", Ray) {
+        /// Red, from 0 to 1.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+    }
+}
+
+impl SurfaceColours {
+    /// The colour itself, without the curve that the picture gets.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
+    }
+}
