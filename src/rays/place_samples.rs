@@ -26,20 +26,24 @@ impl PixelSamples {
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleNumber(pub u32);
 
-/// Fills a tile's raster points with one sample of each of its pixels.
+/// On a tile's entity: the rows of its film that take part in the next run, ascending.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
+pub struct ActivePixels(pub Vec<u32>);
+
+/// Fills a tile's raster points with one sample of each of its active pixels.
 pub fn place_samples(
     sampling: Res<Shared<SamplingTable>>,
-    mut tiles: Query<(&Tile, &SampleNumber, &mut RasterPoints, &mut PixelSamples)>,
+    mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut RasterPoints, &mut PixelSamples)>,
 ) {
-    for (tile, &SampleNumber(number), mut raster, mut samples) in &mut tiles {
-        let rows = tile.rows();
+    for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples) in &mut tiles {
+        let rows = active.len();
         let (xs, ys) = raster.slices_mut(rows);
         let (of_pixel, sample) = samples.slices_mut(rows);
-        for row in 0..rows {
-            let pixel = tile.pixel_of(row);
+        for (row, &film_row) in active.iter().enumerate() {
+            let pixel = tile.pixel_of(film_row as usize);
             xs[row] = f64::from(pixel[0]) + uniform(sampling.seed, pixel, number, Purpose::PixelX);
             ys[row] = f64::from(pixel[1]) + uniform(sampling.seed, pixel, number, Purpose::PixelY);
-            (of_pixel[row], sample[row]) = (row as u32, number);
+            (of_pixel[row], sample[row]) = (film_row, number);
         }
     }
 }

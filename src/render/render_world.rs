@@ -3,8 +3,8 @@ use super::{Execution, follow_bounces};
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
-use crate::plan::{Bounce, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::{SampleNumber, Tile};
+use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
+use crate::rays::{ActivePixels, PixelSamples, SampleNumber, Tile};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
@@ -69,6 +69,10 @@ impl RenderWorld {
         if let Some(mut place) = entity.get_mut::<Tile>() {
             *place = film.tile;
         }
+        if let Some(mut active) = entity.get_mut::<ActivePixels>() {
+            active.0.clear();
+            active.0.extend(0..film.tile.rows() as u32);
+        }
         if let Some(mut own) = entity.get_mut::<FilmTile>() {
             mem::swap(&mut *own, film);
         }
@@ -96,7 +100,10 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn((Tile::default(), SampleNumber::default()));
+    let mut tile = world.spawn(Tile::default());
+    if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
+        tile.insert((SampleNumber::default(), ActivePixels::default()));
+    }
     for column in &plan.columns {
         (column.insert)(&mut tile);
     }
