@@ -10,6 +10,7 @@ mod background;
 mod camera;
 mod check;
 mod ellipsoid;
+mod layers;
 mod material;
 mod plane;
 mod point_light;
@@ -24,6 +25,7 @@ pub use camera::{
     eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;

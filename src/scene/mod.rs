@@ -7,11 +7,13 @@
 //! Spaces: right-handed, y up; a camera looks down its own −z with +x to the right of the image.
 //! Units: lengths in scene units, angles in [`Degrees`], colours in linear Rec. 709.
 
+mod adaptive;
 mod angle;
 mod background;
 mod camera;
 mod colour;
 mod file;
+mod layers;
 mod matte;
 mod name;
 mod placement;
@@ -23,6 +25,7 @@ mod resolution;
 mod sampling;
 mod sphere;
 
+pub use adaptive::Adaptive;
 pub use angle::Degrees;
 pub use background::Background;
 pub use bevy_ecs::entity_disabling::Disabled;
@@ -32,6 +35,7 @@ pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
 pub use colour::Rgb;
 pub use file::{FileProblem, PlaceInFile, SceneFile, scene_text, words};
 pub use glam::DQuat;
+pub use layers::{LayerKind, Layers};
 pub use matte::{Matte, UsedByShapes, UsesMaterial};
 pub use name::called;
 pub use placement::{LookAt, Placement};
