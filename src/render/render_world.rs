@@ -1,4 +1,5 @@
 use super::clock::{StageClock, clock_hook};
+use super::steps::Run;
 use super::{Execution, follow_bounces};
 use crate::Result;
 use crate::extract::validate;
@@ -69,25 +70,33 @@ impl RenderWorld {
         if let Some(mut place) = entity.get_mut::<Tile>() {
             *place = film.tile;
         }
-        if let Some(mut active) = entity.get_mut::<ActivePixels>() {
-            active.0.clear();
-            active.0.extend(0..film.tile.rows() as u32);
-        }
         if let Some(mut own) = entity.get_mut::<FilmTile>() {
             mem::swap(&mut *own, film);
         }
     }
 
-    /// Runs every kept stage once for each of the first `samples` samples of every pixel.
-    pub fn run_samples(&mut self, samples: u32) {
-        for number in 0..samples {
-            for &tile in &self.tiles {
-                if let Some(mut sample) = self.world.get_mut::<SampleNumber>(tile) {
-                    *sample = SampleNumber(number);
-                }
-            }
-            self.run();
+    /// Says which pixels of a tile take part in the next run, and by which sample; how many they are.
+    pub fn activate(&mut self, tile: Entity, run: &Run, planned: Option<&[u32]>) -> usize {
+        let mut entity = self.world.entity_mut(tile);
+        let place = entity.get::<Tile>().copied().unwrap_or_default();
+        if let Some(mut number) = entity.get_mut::<SampleNumber>() {
+            *number = SampleNumber(run.sample);
         }
+        match entity.get_mut::<ActivePixels>() {
+            Some(mut active) => {
+                run.rows(place, planned, &mut active.0);
+                active.0.len()
+            }
+            None => place.rows(),
+        }
+    }
+
+    /// Lets a tile take no part in the next run.
+    pub fn rest(&mut self, tile: Entity) -> usize {
+        if let Some(mut active) = self.world.get_mut::<ActivePixels>(tile) {
+            active.0.clear();
+        }
+        0
     }
 
     /// Runs every kept stage once over all tiles of this world.
