@@ -4,7 +4,7 @@ use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
-use crate::scene::{Resolution, Sampling, Statistics, View};
+use crate::scene::{Adaptive, Layers, MOST_SAMPLES, Resolution, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -69,7 +69,7 @@ impl Chapter {
 }
 
 /// What a reader may change about a chapter's scene from the command line.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Asked {
     /// Another number of pixels.
     pub resolution: Option<Resolution>,
@@ -79,6 +79,12 @@ pub struct Asked {
     pub statistics: bool,
     /// Samples a pixel.
     pub samples: Option<u32>,
+    /// Whether samples go on for as long as there is time, where their number is not asked for.
+    pub endless: bool,
+    /// The error that each pixel is to have.
+    pub error: Option<f64>,
+    /// What else to keep of every pixel.
+    pub layers: Option<Layers>,
 }
 
 impl Asked {
@@ -92,9 +98,17 @@ impl Asked {
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
         }
-        if let Some(samples) = self.samples {
+        let endless = self.endless || self.error.is_some();
+        if let Some(samples) = self.samples.or(endless.then_some(MOST_SAMPLES)) {
             let sampling = camera.get::<Sampling>().copied().unwrap_or_default();
             camera.insert(Sampling { samples, ..sampling });
+        }
+        if let Some(error) = self.error {
+            let adaptive = camera.get::<Adaptive>().copied().unwrap_or_default();
+            camera.insert(Adaptive { error, ..adaptive });
+        }
+        if let Some(layers) = self.layers.clone() {
+            camera.insert(layers);
         }
         if self.statistics {
             camera.insert(Statistics);

@@ -1,9 +1,11 @@
+use super::span::span;
 use crate::chapter::Asked;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::scene::{Resolution, TracePixel};
+use crate::scene::{Layers, Resolution, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// pinhole: a ray tracing book you can run
 #[derive(Parser)]
@@ -237,6 +239,12 @@ pub struct SceneOptions {
     /// Rays through each pixel (default: what the scene says, or one through its centre)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub samples: Option<u32>,
+    /// Take as many samples of each pixel as bring its relative standard error down to E (such as 0.01)
+    #[arg(long, value_name = "E")]
+    pub error: Option<f64>,
+    /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
+    #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
+    pub layers: Option<Layers>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -249,6 +257,15 @@ pub struct RenderOptions {
     /// Where to write, ending in .png or .exr (default: both, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Take samples for so long, such as 500ms, 10s or 2m
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub time: Option<Duration>,
+    /// Continue from the checkpoint beside the picture, to the same bits as if it had not been stopped
+    #[arg(long)]
+    pub resume: bool,
+    /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub write_every: Option<Duration>,
     /// Print time and rays of every stage as JSON, and nothing else
     #[arg(long, conflicts_with = "quiet")]
     pub stats: bool,
@@ -270,7 +287,21 @@ pub struct ExampleArguments {
 
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { resolution: self.size, view: self.view.clone(), statistics, samples: self.samples }
+        Asked {
+            resolution: self.size,
+            view: self.view.clone(),
+            statistics,
+            samples: self.samples,
+            endless: false,
+            error: self.error,
+            layers: self.layers.clone(),
+        }
+    }
+}
+
+impl RenderOptions {
+    pub fn asked(&self, statistics: bool) -> Asked {
+        Asked { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
 }
 

@@ -6,6 +6,7 @@
 //! f64, so that a scene far from the world's origin loses nothing.
 //! After this no stage looks at a component of the scene again.
 
+mod adaptive;
 mod background;
 mod camera;
 mod check;
@@ -19,6 +20,7 @@ mod sampling;
 mod shape;
 mod sphere;
 
+pub use adaptive::{adaptive_of, check_layers};
 pub use background::BackgroundTable;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
@@ -58,6 +60,8 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     PointLightTable::extract(scene)?;
     BackgroundTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;
+    adaptive_of(scene)?;
+    check_layers(scene)?;
     Ok(())
 }
 

@@ -17,6 +17,13 @@ pub struct Rejected {
     pub radiance: [f32; 3],
 }
 
+impl Rejected {
+    /// What comes first: by the sample, then line by line from the top.
+    fn place(&self) -> [u32; 3] {
+        [self.sample, self.pixel[1], self.pixel[0]]
+    }
+}
+
 /// The film of one tile: sums in f64 and the count of samples, a row a pixel.
 ///
 /// Sums are added to in the order of the samples, so neither threads nor tile size can change a bit of them.
@@ -65,13 +72,14 @@ impl FilmTile {
         }
     }
 
+    /// Remembered are those that come first by sample and then by pixel, whatever the order in which they are traced.
     #[cold]
     fn reject(&mut self, row: usize, radiance: [f32; 3]) {
         self.rejected += 1;
-        if self.first_rejected.len() < REMEMBERED {
-            let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
-            self.first_rejected.push(rejected);
-        }
+        let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
+        let at = self.first_rejected.partition_point(|earlier| earlier.place() <= rejected.place());
+        self.first_rejected.insert(at, rejected);
+        self.first_rejected.truncate(REMEMBERED);
     }
 
     /// The mean radiance of a row; black where no sample joined.
@@ -160,8 +168,17 @@ impl Film {
     }
 
     /// The mean radiance of a pixel, linear Rec. 709.
+    ///
+    /// While the first samples are under way, a pixel that has none yet shows the nearest one up and to the left that has.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
         let (tile, row) = self.place(x, y);
+        let waits = self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < 4);
+        if !waits {
+            return self.tiles[tile].mean(row);
+        }
+        let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
+        let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
+        let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
         self.tiles[tile].mean(row)
     }
 
@@ -184,7 +201,10 @@ impl Film {
     /// All samples that could not join: how many, and the first few.
     pub fn rejected(&self) -> (u64, Vec<Rejected>) {
         let count = self.tiles.iter().map(|tile| tile.rejected).sum();
-        (count, self.tiles.iter().flat_map(|tile| tile.first_rejected.iter().copied()).take(REMEMBERED).collect())
+        let mut first: Vec<Rejected> = self.tiles.iter().flat_map(|tile| tile.first_rejected.clone()).collect();
+        first.sort_by_key(Rejected::place);
+        first.truncate(REMEMBERED);
+        (count, first)
     }
 
     /// Bytes that its sums and counts take, and what holds them together.

@@ -122,6 +122,18 @@ impl RenderUnderWay {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
+    /// Lays the film aside for one of pilot samples, whose random numbers are others.
+    pub fn begin_pilot(&mut self) {
+        let film = Film { pilot: true, ..self.film.emptied() };
+        self.take(film);
+    }
+
+    /// Throws the pilot's samples away and begins anew, with as many samples for each pixel as have been decided.
+    pub fn begin_planned(&mut self, planned: Vec<Vec<u32>>) {
+        let film = Film { planned, ..self.film.emptied() };
+        self.take(film);
+    }
+
     /// Continues from another film of the same plan and scene, such as a checkpoint's.
     pub fn take(&mut self, film: Film) {
         self.execution.tile_side = film.tile_side;
@@ -187,8 +199,10 @@ impl RenderWorld {
         let tile = self.tiles[0];
         self.swap_share(tile, share);
         for run in runs(*share.done, to) {
-            if self.activate(tile, &run, share.planned) > 0 {
+            let active = self.activate(tile, &run, share.planned);
+            if active > 0 {
                 self.run();
+                watch.traced(active as u64);
             }
         }
         self.swap_share(tile, share);

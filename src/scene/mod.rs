@@ -25,7 +25,7 @@ mod resolution;
 mod sampling;
 mod sphere;
 
-pub use adaptive::Adaptive;
+pub use adaptive::{Adaptive, MOST_SAMPLES};
 pub use angle::Degrees;
 pub use background::Background;
 pub use bevy_ecs::entity_disabling::Disabled;
@@ -33,7 +33,7 @@ pub use bevy_ecs::hierarchy::ChildOf;
 pub use bevy_ecs::name::Name;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
 pub use colour::Rgb;
-pub use file::{FileProblem, PlaceInFile, SceneFile, scene_text, words};
+pub use file::{FileProblem, PlaceInFile, SceneFile, fingerprint, scene_text, words};
 pub use glam::DQuat;
 pub use layers::{LayerKind, Layers};
 pub use matte::{Matte, UsedByShapes, UsesMaterial};
