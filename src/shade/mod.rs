@@ -17,7 +17,8 @@ pub use flat::{flat_stage, shade_flat};
 pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance, shadow_reach};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
+    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
 
 use crate::plan::Stage;
@@ -26,7 +27,13 @@ use crate::plan::Stage;
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), background_stage(), flat_stage()];
     stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), ellipsoid_shadow_stage()]);
-    stages.extend([plane_shadow_stage(), light_stage()]);
+    stages.extend([
+        plane_shadow_stage(),
+        disk_shadow_stage(),
+        rectangle_shadow_stage(),
+        cuboid_shadow_stage(),
+        light_stage(),
+    ]);
     stages
 }
 
