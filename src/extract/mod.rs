@@ -10,6 +10,7 @@ mod background;
 mod camera;
 mod check;
 mod ellipsoid;
+mod exact_sum;
 mod material;
 mod plane;
 mod point_light;
@@ -17,6 +18,7 @@ mod pose;
 mod sampling;
 mod shape;
 mod sphere;
+mod triangle;
 
 pub use background::BackgroundTable;
 pub use camera::{
@@ -24,6 +26,7 @@ pub use camera::{
     eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
@@ -34,6 +37,7 @@ pub use pose::{
 pub use sampling::SamplingTable;
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
+pub use triangle::{Facet, TriangleTable, VertexNormalTable};
 
 use crate::plan::{Evidence, Table};
 use crate::scene::{Matte, Refusal, UsesMaterial, View};
@@ -53,6 +57,8 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
+    TriangleTable::extract(scene)?;
+    VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     BackgroundTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;

@@ -1,7 +1,7 @@
 use super::plane::plane_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::Sphere;
+use crate::scene::{Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -83,5 +83,5 @@ pub fn start_stage() -> Stage {
 
 /// Evidence that the scene holds a shape of any kind.
 pub fn shape_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Sphere>(scene, "sphere").or(plane_evidence(scene))
+    Evidence::of::<Sphere>(scene, "sphere").or(plane_evidence(scene)).or(Evidence::of::<Triangle>(scene, "triangle"))
 }

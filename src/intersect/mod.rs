@@ -9,21 +9,34 @@ mod classify;
 mod ellipsoid;
 mod hits;
 mod plane;
+mod shading_normal;
 mod sphere;
 mod surface;
+mod triangle;
+mod triangle_exact;
+mod triangle_surface;
 mod wide;
 
-pub use classify::{EllipsoidRows, MaterialRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use classify::{EllipsoidRows, MaterialRows, PlaneRows, SphereRows, TriangleRows, classify_hits, classify_stage};
 pub use ellipsoid::{
     ellipsoid_evidence, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage, ellipsoid_t, ellipsoid_verdict,
     intersect_ellipsoids,
 };
 pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
+pub use shading_normal::{
+    ShadingNormals, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
+};
 pub use sphere::{
     Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,
 };
 pub use surface::{Surface, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
+pub use triangle::{
+    Edges, Shear, edges, intersect_triangles, longest_axis, triangle_evidence, triangle_stage, triangle_t,
+    triangle_verdict,
+};
+pub use triangle_exact::exact_triangle_t;
+pub use triangle_surface::{Meeting, triangle_surface, triangle_surface_stage};
 pub use wide::{wide_ellipsoid_point, wide_ellipsoid_t, wide_sphere_t};
 
 use crate::plan::Stage;
@@ -32,5 +45,6 @@ use crate::plan::Stage;
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), sphere_stage(), ellipsoid_stage(), plane_stage(), classify_stage()];
     stages.extend([sphere_surface_stage(), ellipsoid_surface_stage(), plane_surface_stage()]);
+    stages.extend([triangle_stage(), triangle_surface_stage(), shading_normal_stage()]);
     stages
 }

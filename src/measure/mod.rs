@@ -19,5 +19,6 @@ pub mod oracle_camera;
 pub mod oracle_ellipsoid;
 pub mod oracle_plane;
 pub mod oracle_sphere;
+pub mod oracle_triangle;
 pub mod ray_aim;
 pub mod sweep;

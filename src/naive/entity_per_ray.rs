@@ -6,7 +6,7 @@
 
 use crate::extract::{
     BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind,
-    ShapeTable, SphereTable,
+    ShapeTable, SphereTable, TriangleTable,
 };
 use crate::film::Film;
 use crate::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
@@ -70,6 +70,10 @@ impl EntityPerRay {
         if !EllipsoidTable::extract(scene)?.shape.is_empty() {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(Refusal::new("the scene", "shapes", "an unevenly scaled sphere", accepted));
+        }
+        if !TriangleTable::extract(scene)?.shape.is_empty() {
+            let accepted = "one entity a ray knows evenly scaled spheres and planes only";
+            return Err(Refusal::new("the scene", "shapes", "a triangle", accepted));
         }
         let mut world = World::new();
         share::<PinholeLens>(&mut world, scene)?;
@@ -197,8 +201,8 @@ fn describe(
                 let outward = (point - centre).try_normalize().unwrap_or(-direction);
                 (outward, sum_of_parts(centre) + spheres.radius[row])
             }
-            // No ellipsoid is here, as `spawn` has made sure.
-            ShapeKind::Plane | ShapeKind::Ellipsoid => (planes.normal[row], planes.offset[row].abs()),
+            // No other kind is here, as `spawn` has made sure.
+            _ => (planes.normal[row], planes.offset[row].abs()),
         };
         surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), material);
     }

@@ -30,6 +30,8 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// Normals by which light falls, where they are not the surfaces' own.
+    Normal,
     /// What a ray that met nothing brings back.
     Background,
     /// Rays from surfaces towards lights.
@@ -48,7 +50,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -58,6 +60,7 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Normal,
         Self::Background,
         Self::Aim,
         Self::Unblock,

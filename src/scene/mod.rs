@@ -22,6 +22,7 @@ mod request;
 mod resolution;
 mod sampling;
 mod sphere;
+mod triangle;
 
 pub use angle::Degrees;
 pub use background::Background;
@@ -42,3 +43,4 @@ pub use request::{Statistics, TracePixel, View};
 pub use resolution::Resolution;
 pub use sampling::{Filter, Sampler, Sampling};
 pub use sphere::Sphere;
+pub use triangle::Triangle;

@@ -18,6 +18,7 @@ pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, ref
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
     ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    triangle_shadow_stage,
 };
 
 use crate::plan::Stage;
@@ -27,6 +28,7 @@ pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), background_stage(), flat_stage()];
     stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([plane_shadow_stage(), light_stage()]);
+    stages.push(triangle_shadow_stage());
     stages
 }
 

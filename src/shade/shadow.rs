@@ -1,7 +1,8 @@
 use super::LightRays;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, material_evidence};
+use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, TriangleTable, material_evidence};
 use crate::intersect::{
-    HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres, sphere_evidence,
+    HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres,
+    intersect_triangles, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::scene::{Plane, PointLight};
@@ -85,6 +86,17 @@ pub fn plane_shadow_stage() -> Stage {
         .writes::<ShadowHits>()
         .table::<PlaneTable>()
         .when(|scene| Evidence::of::<Plane>(scene, "plane").and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with triangles.
+pub fn triangle_shadow_stage() -> Stage {
+    let intersect = intersect_triangles::<LightRays, ShadowHits>;
+    Stage::new("Look for triangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<TriangleTable>()
+        .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
 }
 
 /// Evidence that a light casts shadows on matter.

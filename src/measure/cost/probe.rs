@@ -2,7 +2,8 @@
 
 use crate::Result;
 use crate::extract::{
-    CameraAxes, Ellipsoid, EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable, camera_entity,
+    CameraAxes, Ellipsoid, EllipsoidTable, Facet, PlaneTable, ShapeKind, ShapeTable, SphereTable, TriangleTable,
+    camera_entity,
 };
 use crate::film::film_stage;
 use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
@@ -12,6 +13,7 @@ use crate::measure::oracle_camera::{ExactCamera, ExactPoint};
 use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess};
 use crate::measure::oracle_plane::{Plane, plane_hit};
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
+use crate::measure::oracle_triangle::triangle_hit;
 use crate::plan::{Stage, Table};
 use crate::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
 use crate::render::{Inspection, inspect};
@@ -73,6 +75,7 @@ enum ExactShape {
     Sphere(Sphere),
     Plane(Plane),
     Ellipsoid(Ellipsoid),
+    Triangle(Facet, DVec3),
 }
 
 impl Exact {
@@ -84,6 +87,7 @@ impl Exact {
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
         let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
         let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
+        let triangles = TriangleTable::extract(scene)?;
         let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
             (ShapeKind::Sphere, row) => {
                 ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
@@ -92,6 +96,7 @@ impl Exact {
                 ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
             }
             (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
+            (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
         };
         let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
         Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
@@ -103,8 +108,8 @@ impl Exact {
 struct Worst {
     points: [Option<f64>; 4],
     world: Option<[f64; 2]>,
-    hits: [OfKind; 3],
-    surfaces: [Option<f64>; 3],
+    hits: [OfKind; 4],
+    surfaces: [Option<f64>; 4],
 }
 
 /// The worst error of one kind of shape's hits.
@@ -198,6 +203,7 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Sphere(sphere) => sphere_hit(origin, direction, *sphere),
             ExactShape::Plane(plane) => plane_hit(origin, direction, *plane),
             ExactShape::Ellipsoid(ellipsoid) => ellipsoid_hit(origin, direction, ellipsoid),
+            ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
             nearest = Some((number, t));
@@ -206,12 +212,13 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
     nearest
 }
 
-/// 0 for a sphere, 1 for a plane, 2 for an ellipsoid.
+/// 0 for a sphere, 1 for a plane, 2 for an ellipsoid, 3 for a triangle.
 fn kind(shape: &ExactShape) -> usize {
     match shape {
         ExactShape::Sphere(_) => 0,
         ExactShape::Plane(_) => 1,
         ExactShape::Ellipsoid(_) => 2,
+        ExactShape::Triangle(..) => 3,
     }
 }
 
@@ -251,6 +258,10 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let gradient = 2.0 * (map.transpose() * (map * (place - ellipsoid.centre))).length();
             excess(place, ellipsoid).to_f64().abs() / gradient / (U * place.length())
         }
+        ExactShape::Triangle(facet, normal) => {
+            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
+            above.to_f64().abs() / (U * position.as_dvec3().length())
+        }
     };
     note(&mut worst.surfaces[kind(shape)], off);
 }
@@ -269,17 +280,19 @@ impl Worst {
         let world = self.world.map(|[pixels, radians]| format!("{pixels:.1e} px, {radians:.1e} rad"));
         words.extend(world.map(|world| (rays::world_stage().name, world)));
         let hit_stages = [intersect::sphere_stage(), intersect::plane_stage(), intersect::ellipsoid_stage()];
-        let hit_stages = hit_stages.map(|stage| stage.name);
-        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
+        let hit_stages = hit_stages.into_iter().chain([intersect::triangle_stage()]).map(|stage| stage.name);
+        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.zip(self.hits) {
             let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
-        let [sphere, plane, ellipsoid] = self.surfaces;
+        let [sphere, plane, ellipsoid, triangle] = self.surfaces;
         let of_sphere = sphere.map(|worst| format!("{worst:.2} u of |c| + r off it"));
         let of_ellipsoid = ellipsoid.map(|worst| format!("{worst:.2} u of |p| off it"));
         let of_plane = plane.map(|worst| format!("{worst:.2} u of |p| off it"));
         words.extend(of_sphere.map(|error| (intersect::sphere_surface_stage().name, error)));
         words.extend(of_ellipsoid.map(|error| (intersect::ellipsoid_surface_stage().name, error)));
+        let of_triangle = triangle.map(|worst| format!("{worst:.2} u of |p| off it"));
+        words.extend(of_triangle.map(|error| (intersect::triangle_surface_stage().name, error)));
         words.extend(of_plane.map(|error| (intersect::plane_surface_stage().name, error)));
         words
     }

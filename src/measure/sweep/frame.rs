@@ -1,7 +1,7 @@
 //! A frame of a sweep: every pixel's ray, hit and light, and how two frames differ.
 
 use crate::Result;
-use crate::extract::{EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable};
+use crate::extract::{EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable, TriangleTable};
 use crate::film::FilmTile;
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::measure::film_bits::FilmBits;
@@ -61,6 +61,7 @@ struct Shapes {
     spheres: SphereTable,
     planes: PlaneTable,
     ellipsoids: EllipsoidTable,
+    triangles: TriangleTable,
 }
 
 impl Shapes {
@@ -70,6 +71,7 @@ impl Shapes {
             spheres: SphereTable::extract(scene)?,
             planes: PlaneTable::extract(scene)?,
             ellipsoids: EllipsoidTable::extract(scene)?,
+            triangles: TriangleTable::extract(scene)?,
         })
     }
 
@@ -85,6 +87,7 @@ impl Shapes {
                 let map = ellipsoid.unit_from_world;
                 map.transpose() * (map * (point - ellipsoid.centre))
             }
+            ShapeKind::Triangle => self.triangles.normal[row],
         }
     }
 }
