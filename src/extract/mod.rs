@@ -12,6 +12,7 @@ mod check;
 mod cuboid;
 mod disk;
 mod ellipsoid;
+mod exact_sum;
 mod filter;
 mod flat;
 mod layers;
@@ -23,6 +24,7 @@ mod rectangle;
 mod sampling;
 mod shape;
 mod sphere;
+mod triangle;
 mod uv_space;
 
 pub use background::BackgroundTable;
@@ -33,6 +35,7 @@ pub use camera::{
 pub use cuboid::{CuboidTable, Slabs};
 pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use flat::Flat;
 pub use layers::{LayerTable, layer_evidence};
@@ -47,6 +50,7 @@ pub use rectangle::RectangleTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
+pub use triangle::{Facet, TriangleTable, VertexNormalTable};
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 
 use crate::plan::{Evidence, Table};
@@ -71,6 +75,8 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     DiskTable::extract(scene)?;
     RectangleTable::extract(scene)?;
     CuboidTable::extract(scene)?;
+    TriangleTable::extract(scene)?;
+    VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     BackgroundTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;

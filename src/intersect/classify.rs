@@ -53,6 +53,14 @@ column! {
 }
 
 column! {
+    /// The rows that hit a triangle, ascending.
+    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
     /// The rows whose surface sends on light, ascending.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
@@ -73,12 +81,15 @@ pub fn classify_hits(
         Option<&mut DiskRows>,
         Option<&mut RectangleRows>,
         Option<&mut CuboidRows>,
+        Option<&mut TriangleRows>,
         Option<&mut MaterialRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, materials, surfaces, uvs) in &mut tiles {
+    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, triangles, materials, surfaces, uvs) in
+        &mut tiles
+    {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
         }
@@ -96,6 +107,9 @@ pub fn classify_hits(
         }
         if let Some(mut list) = cuboids {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Cuboid);
+        }
+        if let Some(mut list) = triangles {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
             list_rows(hits, &mut list.row, |_| true);
@@ -168,6 +182,12 @@ impl CuboidRows {
     }
 }
 
+impl TriangleRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl MaterialRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -184,6 +204,7 @@ pub fn classify_stage() -> Stage {
         .writes::<DiskRows>()
         .writes::<RectangleRows>()
         .writes::<CuboidRows>()
+        .writes::<TriangleRows>()
         .writes::<MaterialRows>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()

@@ -28,6 +28,7 @@ mod request;
 mod resolution;
 mod sampling;
 mod sphere;
+mod triangle;
 
 pub use adaptive::Adaptive;
 pub use angle::Degrees;
@@ -54,3 +55,4 @@ pub use request::{Statistics, TracePixel, View};
 pub use resolution::Resolution;
 pub use sampling::{Sampler, Sampling};
 pub use sphere::Sphere;
+pub use triangle::Triangle;

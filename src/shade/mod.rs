@@ -20,7 +20,7 @@ pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_st
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
     ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
-    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
 };
 
 use crate::plan::Stage;
@@ -30,7 +30,7 @@ pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), start_light_stage(), background_stage(), flat_stage()];
     stages.extend([point_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage(), plane_shadow_stage()]);
-    stages.extend([disk_shadow_stage(), rectangle_shadow_stage(), cuboid_shadow_stage()]);
+    stages.extend([disk_shadow_stage(), rectangle_shadow_stage(), cuboid_shadow_stage(), triangle_shadow_stage()]);
     stages.push(light_stage());
     stages
 }

@@ -1,6 +1,6 @@
 use crate::scene::{
     Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
-    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, View,
+    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -21,6 +21,7 @@ const WORDS: &[Word] = &[
     Word::of::<Disk>("disk"),
     Word::of::<Rectangle>("rectangle"),
     Word::of::<Cuboid>("cuboid"),
+    Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
