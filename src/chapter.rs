@@ -4,7 +4,7 @@ use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
-use crate::scene::{Adaptive, Layers, MOST_SAMPLES, Resolution, Sampling, Statistics, View};
+use crate::scene::{Adaptive, Layers, OPEN_END, Resolution, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -99,7 +99,7 @@ impl Asked {
             camera.insert(View { column });
         }
         let endless = self.endless || self.error.is_some();
-        if let Some(samples) = self.samples.or(endless.then_some(MOST_SAMPLES)) {
+        if let Some(samples) = self.samples.or(endless.then_some(OPEN_END)) {
             let sampling = camera.get::<Sampling>().copied().unwrap_or_default();
             camera.insert(Sampling { samples, ..sampling });
         }

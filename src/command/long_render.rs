@@ -8,7 +8,7 @@ use crate::film::{
 };
 use crate::plan::{Plan, Table};
 use crate::render::{Limits, Outcome, RenderUnderWay, film_key, render_in_passes};
-use crate::scene::MOST_SAMPLES;
+use crate::scene::OPEN_END;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::fs;
@@ -143,7 +143,7 @@ fn resume(
 pub fn tell_outcome(outcome: &Outcome, render_samples: u32, target: Option<f64>, out: &mut dyn Write) -> Result {
     let time = told(outcome.time);
     if outcome.out_of_time {
-        let asked = if render_samples == MOST_SAMPLES { "at most " } else { "" };
+        let asked = if render_samples == OPEN_END { "at most " } else { "" };
         writeln!(out, "the time is up: {} of {asked}{render_samples} samples a pixel in {time}", outcome.samples)?;
     } else if target.is_none() {
         writeln!(out, "{} samples a pixel in {time}", outcome.samples)?;

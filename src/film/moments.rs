@@ -88,7 +88,7 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
 /// Whether anyone asks how noisy the pixels are.
 pub fn variance_evidence(scene: &World) -> Evidence {
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
-    let layer = layer_evidence(scene, "layer of variance", |kind| kind == LayerKind::Variance);
+    let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)
 }
 

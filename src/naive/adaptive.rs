@@ -56,7 +56,7 @@ mod tests {
         const RENDERS: u32 = 20_000;
         for share in [0.02, 0.1, 0.5, 0.9] {
             let white = |seed: u64, render: u32, sample: u32| {
-                f64::from(u8::from(uniform(seed, [render, 0], sample, Purpose::PixelX) < share))
+                f64::from(u8::from(uniform(seed, [render, 0], sample, Purpose::Pixel) < share))
             };
             let naive = repeated(RENDERS, |render| mean_until(|sample| white(1, render, sample), 8, 400, 0.1));
             let two_stage = repeated(RENDERS, |render| {

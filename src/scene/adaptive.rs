@@ -2,7 +2,7 @@ use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Where samples run out that nobody has counted: those of a time or of an error alone.
-pub const MOST_SAMPLES: u32 = 65_536;
+pub const OPEN_END: u32 = 65_536;
 
 /// On the camera, beside `Sampling`: each pixel gets as many samples as its own noise asks for.
 ///

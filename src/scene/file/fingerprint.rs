@@ -1,5 +1,5 @@
 use super::word::Word;
-use crate::scene::{ChildOf, Disabled, Name, Sampling, Statistics, UsesMaterial};
+use crate::scene::{ChildOf, Disabled, Name, Sampler, Sampling, Statistics, UsesMaterial};
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
 use std::any::TypeId;
@@ -31,7 +31,9 @@ pub fn fingerprint(scene: &World) -> String {
             }
         }
         if let Some(sampling) = entity.get::<Sampling>() {
-            text += &format!(" {:?}", Sampling { samples: 0, ..*sampling });
+            // A stratified pixel's grid is made for its number of samples.
+            let samples = if sampling.sampler == Sampler::Stratified { sampling.samples } else { 0 };
+            text += &format!(" {:?}", Sampling { samples, ..*sampling });
         }
         text.push('\n');
     }

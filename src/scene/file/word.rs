@@ -1,6 +1,6 @@
 use crate::scene::{
-    Adaptive, Background, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Resolution, Sampling, Sphere, Statistics, View,
+    Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
+    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -18,6 +18,10 @@ const WORDS: &[Word] = &[
     Word::of::<OrthographicCamera>("orthographic_camera"),
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
+    Word::of::<Disk>("disk"),
+    Word::of::<Rectangle>("rectangle"),
+    Word::of::<Cuboid>("cuboid"),
+    Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
