@@ -207,9 +207,12 @@ impl Film {
         (count, first)
     }
 
-    /// Bytes that its sums and counts take, and what holds them together.
+    /// Bytes that its sums, counts, moments and layers take, and what holds them together.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
-        self.tiles.iter().map(|tile| tile.rows() * a_row + size_of::<FilmTile>()).sum()
+        let sums: usize = self.tiles.iter().map(|tile| tile.rows() * a_row + size_of::<FilmTile>()).sum();
+        let moments = self.moments.iter().map(|own| own.rows() * 3 * size_of::<f64>() + size_of::<FilmMoments>());
+        let planned = self.planned.iter().map(|own| own.len() * size_of::<u32>());
+        sums + moments.chain(planned).chain(self.layers.iter().map(FilmLayers::bytes)).sum::<usize>()
     }
 }

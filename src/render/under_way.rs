@@ -32,7 +32,7 @@ pub struct RenderUnderWay {
 }
 
 /// One tile's share of the film.
-struct Share<'f> {
+pub(super) struct Share<'f> {
     film: &'f mut FilmTile,
     moments: Option<&'f mut FilmMoments>,
     layers: Option<&'f mut FilmLayers>,
@@ -167,7 +167,7 @@ impl RenderUnderWay {
 }
 
 /// A film with the columns that the plan keeps beside sums and counts.
-fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
+pub(super) fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
     let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
     if keeps(FilmMoments::NAME) {
@@ -180,7 +180,7 @@ fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
     film
 }
 
-fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send {
+pub(super) fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send {
     let mut moments = film.moments.iter_mut();
     let mut layers = film.layers.iter_mut();
     let mut planned = film.planned.iter();
@@ -236,7 +236,8 @@ impl RenderWorld {
         }
     }
 
-    fn swap_share(&mut self, tile: Entity, share: &mut Share<'_>) {
+    /// Lends a tile's share of the film to its entity, or takes it back: the two change places.
+    pub(super) fn swap_share(&mut self, tile: Entity, share: &mut Share<'_>) {
         self.swap_film(tile, share.film);
         let mut entity = self.world.entity_mut(tile);
         if let (Some(moments), Some(mut own)) = (&mut share.moments, entity.get_mut::<FilmMoments>()) {
