@@ -13,7 +13,7 @@ mod sphere;
 mod surface;
 mod wide;
 
-pub use classify::{EllipsoidRows, MaterialRows, PlaneRows, SphereRows, classify_hits, classify_stage};
+pub use classify::{EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, SphereRows, classify_hits, classify_stage};
 pub use ellipsoid::{
     ellipsoid_evidence, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage, ellipsoid_t, ellipsoid_verdict,
     intersect_ellipsoids,

@@ -5,7 +5,7 @@
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
 use crate::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind,
+    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, NO_ROW, PinholeLens, PlaneTable, ShapeKind,
     ShapeTable, SphereTable,
 };
 use crate::film::Film;
@@ -70,6 +70,10 @@ impl EntityPerRay {
         if !EllipsoidTable::extract(scene)?.shape.is_empty() {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(Refusal::new("the scene", "shapes", "an unevenly scaled sphere", accepted));
+        }
+        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+            let accepted = "one entity a ray knows shapes that reflect light only";
+            return Err(Refusal::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
         share::<PinholeLens>(&mut world, scene)?;

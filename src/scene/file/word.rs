@@ -1,6 +1,6 @@
 use crate::scene::{
-    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
-    Sampling, Sphere, Statistics, View,
+    Background, BlinnPhong, DirectionalLight, Emissive, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Phong,
+    Placement, Plane, PointLight, Resolution, Sampling, Sphere, SpotLight, Statistics, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -19,11 +19,16 @@ const WORDS: &[Word] = &[
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
     Word::of::<PointLight>("point_light"),
+    Word::of::<DirectionalLight>("directional_light"),
+    Word::of::<SpotLight>("spot_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Matte>("matte"),
+    Word::of::<Phong>("phong"),
+    Word::of::<BlinnPhong>("blinn_phong"),
+    Word::of::<Emissive>("emissive"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
     Word::of::<Statistics>("statistics"),
