@@ -10,18 +10,25 @@ mod background;
 mod blinn_phong;
 mod camera;
 mod check;
+mod cuboid;
 mod directional_light;
+mod disk;
 mod ellipsoid;
 mod emissive;
+mod filter;
+mod flat;
+mod layers;
 mod material;
 mod phong;
 mod plane;
 mod point_light;
 mod pose;
+mod rectangle;
 mod sampling;
 mod shape;
 mod sphere;
 mod spot_light;
+mod uv_space;
 
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
@@ -29,9 +36,14 @@ pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
 };
+pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
+pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use emissive::{EmissiveTable, emissive_evidence};
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use flat::Flat;
+pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
 pub use phong::{PhongTable, phong_peak};
 pub use plane::PlaneTable;
@@ -40,10 +52,12 @@ pub use pose::{
     Pose, ahead, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
     world_from_entity,
 };
-pub use sampling::SamplingTable;
+pub use rectangle::RectangleTable;
+pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 pub use spot_light::{SpotLightTable, versine_of_half};
+pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 
 use crate::plan::Table;
 use crate::scene::{Refusal, View};
@@ -57,12 +71,16 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
+    FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     EmissiveTable::extract(scene)?;
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
+    DiskTable::extract(scene)?;
+    RectangleTable::extract(scene)?;
+    CuboidTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;
     SpotLightTable::extract(scene)?;

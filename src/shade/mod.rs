@@ -30,7 +30,8 @@ pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
+    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 
@@ -39,16 +40,10 @@ use crate::plan::Stage;
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), start_light_stage(), background_stage(), flat_stage()];
-    stages.extend([
-        point_light_stage(),
-        directional_light_stage(),
-        spot_light_stage(),
-        start_shadow_stage(),
-        sphere_shadow_stage(),
-        ellipsoid_shadow_stage(),
-    ]);
-    stages.extend([plane_shadow_stage(), light_stage()]);
-    stages.extend([phong_stage(), blinn_phong_stage(), emissive_stage()]);
+    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), start_shadow_stage()]);
+    stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
+    stages.extend([plane_shadow_stage(), disk_shadow_stage(), rectangle_shadow_stage(), cuboid_shadow_stage()]);
+    stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
     stages
 }
 

@@ -1,6 +1,7 @@
 use crate::scene::{
-    Background, BlinnPhong, DirectionalLight, Emissive, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Phong,
-    Placement, Plane, PointLight, Resolution, Sampling, Sphere, SpotLight, Statistics, View,
+    Adaptive, Background, BlinnPhong, Cuboid, DirectionalLight, Disk, Emissive, Layers, LookAt, Matte,
+    OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Resolution, Sampling,
+    Sphere, SpotLight, Statistics, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -18,6 +19,9 @@ const WORDS: &[Word] = &[
     Word::of::<OrthographicCamera>("orthographic_camera"),
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
+    Word::of::<Disk>("disk"),
+    Word::of::<Rectangle>("rectangle"),
+    Word::of::<Cuboid>("cuboid"),
     Word::of::<PointLight>("point_light"),
     Word::of::<DirectionalLight>("directional_light"),
     Word::of::<SpotLight>("spot_light"),
@@ -25,12 +29,14 @@ const WORDS: &[Word] = &[
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
+    Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
     Word::of::<Phong>("phong"),
     Word::of::<BlinnPhong>("blinn_phong"),
     Word::of::<Emissive>("emissive"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
+    Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),
 ];
 // ANCHOR_END: words
