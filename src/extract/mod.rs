@@ -11,6 +11,7 @@ mod camera;
 mod check;
 mod ellipsoid;
 mod filter;
+mod layers;
 mod material;
 mod plane;
 mod point_light;
@@ -26,6 +27,7 @@ pub use camera::{
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;

@@ -1,5 +1,5 @@
 use crate::scene::{
-    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
+    Adaptive, Background, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
     Sampling, Sphere, Statistics, View,
 };
 use bevy_ecs::prelude::*;
@@ -23,9 +23,11 @@ const WORDS: &[Word] = &[
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
+    Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
+    Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),
 ];
 // ANCHOR_END: words
