@@ -120,8 +120,7 @@ fn read_film<S: Read>(numbers: &mut Numbers<S>, length: u64) -> io::Result<Film>
     if tile_side == 0 || pixels.saturating_mul(28) > length || keeps > 15 {
         return Err(io::ErrorKind::InvalidData.into());
     }
-    let kinds: Vec<LayerKind> =
-        LayerKind::ALL.into_iter().filter(|&kind| kind_bits >> kind as u32 & 1 == 1).collect();
+    let kinds: Vec<LayerKind> = LayerKind::ALL.into_iter().filter(|&kind| kind_bits >> kind as u32 & 1 == 1).collect();
     let mut film = Film::new(width, height, tile_side);
     if keeps & 1 != 0 {
         film.moments = film.tiles.iter().map(|tile| FilmMoments::new(tile.tile.rows())).collect();

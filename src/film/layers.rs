@@ -127,7 +127,9 @@ impl Known<'_> {
             LayerKind::ShadingNormalCamera => to_camera(shading_normal()),
             LayerKind::Uv => self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
             LayerKind::Albedo => self.albedo(row),
-            LayerKind::DepthAlongRay => alone(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length())),
+            LayerKind::DepthAlongRay => {
+                alone(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length()))
+            }
             LayerKind::DepthAlongAxis => {
                 let backward = self.table.world_from_camera.z_axis;
                 alone(self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row]))))
@@ -139,9 +141,7 @@ impl Known<'_> {
     fn albedo(&self, row: usize) -> DVec3 {
         match (self.colours, self.materials, self.surfaces) {
             (Some(colours), _, _) => DVec3::new(colours.r[row], colours.g[row], colours.b[row]),
-            (None, Some(materials), Some(surfaces)) => {
-                DVec3::from(materials.colour[surfaces.material[row] as usize])
-            }
+            (None, Some(materials), Some(surfaces)) => DVec3::from(materials.colour[surfaces.material[row] as usize]),
             _ => DVec3::ZERO,
         }
     }

@@ -188,7 +188,10 @@ fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
 fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
     let names = view_names(&stages);
-    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && column.lifetime != Lifetime::Film);
+    let found = offer
+        .iter()
+        .flat_map(|stage| &stage.writes)
+        .find(|column| column.name == asked && column.lifetime != Lifetime::Film);
     found.copied().ok_or_else(|| PlanError::NoSuchView {
         asked: asked.into(),
         why: format!("the columns on offer are {}", names.join(", ")),

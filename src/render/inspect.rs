@@ -38,7 +38,13 @@ pub fn inspect_tile(scene: &World, offer: &[Stage], pixel: [u32; 2], hooks: &[Ho
     let side = Execution::default().tile_side;
     let [x, y] = pixel.map(|along| along / side * side);
     let tile = Tile { x, y, width: side.min(image.width - x), height: side.min(image.height - y) };
-    let film = Film { width: image.width, height: image.height, tile_side: side, tiles: vec![FilmTile::new(tile)], ..Film::default() };
+    let film = Film {
+        width: image.width,
+        height: image.height,
+        tile_side: side,
+        tiles: vec![FilmTile::new(tile)],
+        ..Film::default()
+    };
     inspect_film(scene, offer, image, film, hooks)
 }
 

@@ -32,12 +32,7 @@ impl Rendered {
 /// Renders a scene by the stages on offer that it needs.
 ///
 /// Errors: a refused scene, no plan, or a stop by the one who watches.
-pub fn render(
-    scene: &World,
-    offer: &[Stage],
-    execution: &Execution,
-    watch: &dyn Watch,
-) -> Result<Rendered> {
+pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
     let mut under_way = RenderUnderWay::begin(scene, offer, execution)?;
     under_way.advance(under_way.steps(), watch)?;
     Ok(under_way.finish())

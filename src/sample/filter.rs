@@ -117,7 +117,8 @@ mod tests {
     /// The integral of f(x) h(x) over that of f, by Simpson's rule on each side of where f turns.
     fn convolved(filter: Filter, h: impl Fn(f64) -> f64, kink: f64) -> f64 {
         let (radius, turn) = (radius_of(filter), turning_place(filter));
-        let mut ends = vec![-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
+        let mut ends =
+            vec![-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
         ends.sort_by(f64::total_cmp);
         let mut sum = 0.0;
         for pair in ends.windows(2) {
@@ -176,10 +177,15 @@ mod tests {
                 let ratio = top / bottom;
                 let spread = samples.iter().map(|s| (s[0] - ratio * s[1]).powi(2)).sum::<f64>() / n;
                 let error = (spread / n).sqrt() / bottom.abs();
-                assert!((ratio - truth).abs() <= 4.0 * error + 1e-6, "{filter:?}, function {which}: {ratio} for {truth}");
+                assert!(
+                    (ratio - truth).abs() <= 4.0 * error + 1e-6,
+                    "{filter:?}, function {which}: {ratio} for {truth}"
+                );
                 tried += 1;
             }
         }
-        eprintln!("filters: {tried} convolutions estimated by {SAMPLES} signed samples each, all within 4 standard errors");
+        eprintln!(
+            "filters: {tried} convolutions estimated by {SAMPLES} signed samples each, all within 4 standard errors"
+        );
     }
 }

@@ -1,6 +1,6 @@
 use crate::scene::{
-    Adaptive, Background, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
-    Sampling, Sphere, Statistics, View,
+    Adaptive, Background, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
+    Resolution, Sampling, Sphere, Statistics, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
