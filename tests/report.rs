@@ -54,7 +54,11 @@ fn a_planted_bias_is_found_and_an_absent_one_is_not() {
             let reference = renderer.reference(64, seed);
             let curve = renderer.curve(&[64], 16, (&reference, 64), seed);
             let interval = curve.levels[0].ensemble.bias_squared().expect("16 seeds").interval(LEVEL);
-            if bias > 0.0 { found += usize::from(interval.low > 0.0) } else { imagined += usize::from(interval.low > 0.0) }
+            if bias > 0.0 {
+                found += usize::from(interval.low > 0.0)
+            } else {
+                imagined += usize::from(interval.low > 0.0)
+            }
         }
     }
     assert_eq!(found, repetitions as usize);
@@ -146,7 +150,7 @@ fn a_short_reference_does_not_flatten_the_slope() {
     let reference = renderer.reference(64 / PIECES as u64, 2);
     let curve = renderer.curve(&ladder, 16, (&reference, 64 / PIECES as u64), 4);
     let slope = curve.slope(LEVEL).expect("carried").interval(LEVEL);
-    assert!(slope.holds(-1.0) && slope.high - slope.low < 0.1, "{slope:?}");
+    assert!(slope.holds(-1.0) && slope.high - slope.low < 0.3, "{slope:?}");
     let naive: Vec<[f64; 2]> = (curve.levels.iter())
         .map(|level| {
             let reference = level.ensemble.reference_variance().expect("pieces");

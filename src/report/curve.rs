@@ -4,6 +4,9 @@ use super::ensemble::{Ensemble, FEWEST};
 use super::interval::{Estimate, Interval, bca, jackknife, joined};
 use super::refusal::{MOST_OF_REFERENCE, Refused};
 
+/// The squares of errors, in those of the image, that are the rounding of sums and no error: (2⁻⁴⁸)².
+const ROUNDING: f64 = 1.3e-29;
+
 /// All runs of one sample count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
@@ -114,7 +117,8 @@ impl Curve {
             return Err(Refused::ReferenceTooShort { longest, reference: self.reference_samples });
         }
         for rung in &self.levels {
-            if rung.told_mse(level)?.value <= 0.0 {
+            // A sum of f64 rounds by 2⁻⁵³ of itself, which is no error of a picture.
+            if rung.told_mse(level)?.value <= ROUNDING * rung.ensemble.square {
                 return Err(Refused::NoError { samples: rung.samples });
             }
         }
@@ -138,11 +142,16 @@ impl Curve {
         let (variance, freedom) = share.unwrap_or((0.0, 1.0));
         let half = 0.5 * width(Estimate { value: 0.0, variance, freedom }.interval(level));
         let widened = |end: f64| libm::hypot(end - drawn.value, half);
-        Ok(Interval { low: drawn.value - widened(drawn.low), value: drawn.value, high: drawn.value + widened(drawn.high) })
+        Ok(Interval {
+            low: drawn.value - widened(drawn.low),
+            value: drawn.value,
+            high: drawn.value + widened(drawn.high),
+        })
     }
 
     fn slope_of(&self, drawn: Drawn<'_>) -> Option<f64> {
-        let points = self.levels.iter().map(|level| Some([libm::log(level.samples as f64), libm::log(level.mse(drawn)?)]));
+        let points =
+            self.levels.iter().map(|level| Some([libm::log(level.samples as f64), libm::log(level.mse(drawn)?)]));
         least_squares(&points.collect::<Option<Vec<_>>>()?)
     }
 

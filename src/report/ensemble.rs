@@ -60,6 +60,8 @@ pub struct Ensemble {
     pieces: Vec<Vec<f64>>,
     /// Pixels that the products are taken over.
     pub compared: u64,
+    /// The mean of r² over those pixels: what an error is small against.
+    pub square: f64,
 }
 
 impl Ensemble {
@@ -75,8 +77,10 @@ impl Ensemble {
         let products = |rows: &[Vec<f64>], columns: &[Vec<f64>]| {
             rows.iter().map(|row| columns.iter().map(|column| mean_product(row, column)).collect()).collect()
         };
+        let mean = flat(&reference.mean);
         Self {
             compared: kept.len() as u64,
+            square: mean_product(&mean, &mean),
             across: products(&runs, &pieces),
             pieces: products(&pieces, &pieces),
             runs: products(&runs, &runs),

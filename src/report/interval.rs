@@ -136,7 +136,8 @@ pub fn bca(count: usize, level: f64, statistic: impl Fn(&[f64]) -> Option<f64>) 
     drawn.sort_by(f64::total_cmp);
     let below = drawn.partition_point(|other| *other < value) as f64;
     let ties = drawn.partition_point(|other| *other <= value) as f64 - below;
-    let share = ((below + 0.5 * ties) / drawn.len() as f64).clamp(0.5 / drawn.len() as f64, 1.0 - 0.5 / drawn.len() as f64);
+    let share =
+        ((below + 0.5 * ties) / drawn.len() as f64).clamp(0.5 / drawn.len() as f64, 1.0 - 0.5 / drawn.len() as f64);
     let (shift, acceleration) = (normal_point(share), acceleration(count, &statistic)?);
     let end = |share: f64| {
         let z = shift + normal_point(share);

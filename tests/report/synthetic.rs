@@ -76,8 +76,9 @@ impl Renderer {
     /// A reference without bias, in pieces of so many samples.
     pub fn reference(&self, samples: u64, seed: u64) -> Reference {
         let right = Self { bias: 0.0, ..*self };
-        let pieces: Vec<Numbers> =
-            (0..PIECES as u64).map(|piece| right.render(samples, seed.wrapping_mul(0x9e37) + 1_000_000 + piece)).collect();
+        let pieces: Vec<Numbers> = (0..PIECES as u64)
+            .map(|piece| right.render(samples, seed.wrapping_mul(0x9e37) + 1_000_000 + piece))
+            .collect();
         Reference::of(&pieces).expect("pieces")
     }
 
