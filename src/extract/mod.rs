@@ -10,6 +10,7 @@ mod background;
 mod camera;
 mod check;
 mod ellipsoid;
+mod filter;
 mod material;
 mod plane;
 mod point_light;
@@ -24,6 +25,7 @@ pub use camera::{
     eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
@@ -31,7 +33,7 @@ pub use pose::{
     Pose, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
     world_from_entity,
 };
-pub use sampling::SamplingTable;
+pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 
@@ -48,6 +50,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
+    FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     SphereTable::extract(scene)?;
