@@ -23,6 +23,7 @@ const ORDER: [&str; 18] = [
     "figure",
     "review",
     "measure",
+    "report",
     "exercise",
     "command",
 ];
