@@ -10,13 +10,22 @@ mod background;
 mod camera;
 mod check;
 mod ellipsoid;
+mod environment;
+mod gradient;
+mod image_file;
+mod image_texture;
 mod material;
+mod pixel_steps;
 mod plane;
 mod point_light;
 mod pose;
+mod pyramid;
 mod sampling;
 mod shape;
 mod sphere;
+mod srgb;
+mod texture;
+mod two_colours;
 
 pub use background::BackgroundTable;
 pub use camera::{
@@ -24,16 +33,28 @@ pub use camera::{
     eye, half_extent, tan_half,
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use environment::EnvironmentTable;
+pub use gradient::GradientTable;
+pub use image_file::Texels;
+pub use image_texture::ImageTable;
 pub use material::{MaterialKind, MaterialTable};
+pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
 pub use pose::{
     Pose, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
     world_from_entity,
 };
+pub use pyramid::{Pyramid, halved};
 pub use sampling::SamplingTable;
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
+pub use srgb::linear_from_srgb;
+pub use texture::{
+    Laid, NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMaps, by_uv_evidence, filtered_evidence,
+    texture_evidence, texture_of_kind,
+};
+pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 
 use crate::plan::{Evidence, Table};
 use crate::scene::{Matte, Refusal, UsesMaterial, View};
@@ -42,7 +63,7 @@ use std::collections::BTreeSet;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
-/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, background, view.
+/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
     CameraAxes::extract(scene)?;
@@ -54,7 +75,14 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
     PointLightTable::extract(scene)?;
+    TextureMaps::extract(scene)?;
+    CheckerTable::extract(scene)?;
+    StripesTable::extract(scene)?;
+    image_texture::check_images(scene)?;
+    background::check_one_kind(scene)?;
     BackgroundTable::extract(scene)?;
+    GradientTable::extract(scene)?;
+    EnvironmentTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;
     Ok(())
 }

@@ -12,7 +12,8 @@ mod png;
 mod whole_file;
 
 pub use accumulate::{add_to_film, film_stage};
-pub use develop::{Curve, byte_from_linear, linear_from_srgb, srgb_from_linear};
+pub use crate::extract::linear_from_srgb;
+pub use develop::{Curve, byte_from_linear, srgb_from_linear};
 pub use exr::write_exr;
 pub use film_tile::{Film, FilmTile, Rejected};
 pub use png::{png_bytes, png_bytes_by, png_url, write_png};

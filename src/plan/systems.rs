@@ -30,6 +30,12 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// What a pixel covers of the surface.
+    Footprint,
+    /// Each surface's own colour, and where on its texture it is.
+    Colour,
+    /// Textures colour their own rows, in any order.
+    Texture,
     /// What a ray that met nothing brings back.
     Background,
     /// Rays from surfaces towards lights.
@@ -48,7 +54,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 19] = [
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -58,6 +64,9 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Footprint,
+        Self::Colour,
+        Self::Texture,
         Self::Background,
         Self::Aim,
         Self::Unblock,
@@ -70,6 +79,9 @@ impl TileSystems {
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
     /// independently of the others.
     pub fn order_free(self) -> bool {
-        matches!(self, Self::Start | Self::Intersect | Self::Surface | Self::Occlude)
+        matches!(
+            self,
+            Self::Start | Self::Intersect | Self::Surface | Self::Footprint | Self::Colour | Self::Texture | Self::Occlude
+        )
     }
 }

@@ -5,26 +5,50 @@
 //! Space: render space.
 
 mod background;
+mod checker;
 mod colour;
+mod environment;
 mod flat;
+mod footprint;
+mod gradient;
+mod image_texture;
 mod light;
+mod lookup;
 mod radiance;
 mod shadow;
+mod surface_colour;
+mod texture_point;
 
 pub use background::{add_background, background_stage};
+pub use checker::{
+    box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
+    wave_mean,
+};
 pub use colour::SurfaceColours;
+pub use environment::{
+    add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
+};
 pub use flat::{flat_stage, shade_flat};
+pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
+pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
+pub use image_texture::{colour_images, image_stage};
 pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, reflected_radiance, shadow_reach};
+pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
     ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
+pub use surface_colour::{colour_stage, colour_surfaces};
+pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
 
 use crate::plan::Stage;
 
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_stage(), background_stage(), flat_stage()];
+    let mut stages = vec![start_stage()];
+    stages.extend(colour_stages());
+    stages.extend(background_stages());
+    stages.push(flat_stage());
     stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([plane_shadow_stage(), light_stage()]);
     stages
@@ -33,4 +57,14 @@ pub fn stages() -> Vec<Stage> {
 /// A surface's own colour, whether the scene has lights or not, and what is behind everything.
 pub fn unlit_stages() -> Vec<Stage> {
     vec![start_stage(), background_stage(), flat_stage().when(flat::shown_evidence)]
+}
+
+/// Surfaces with colours of their own: textures, and what a pixel covers of them.
+pub fn colour_stages() -> Vec<Stage> {
+    vec![footprint_stage(), colour_stage(), lay_stage(), checker_stage(), stripes_stage(), image_stage()]
+}
+
+/// What is behind everything, of every kind.
+pub fn background_stages() -> Vec<Stage> {
+    vec![background_stage(), gradient_stage(), environment_stage()]
 }

@@ -1,6 +1,6 @@
 use crate::scene::{
-    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
-    Sampling, Sphere, Statistics, View,
+    Background, Checker, Environment, Gradient, ImageTexture, LookAt, Matte, OrthographicCamera, PerspectiveCamera,
+    Placement, Plane, PointLight, Resolution, Sampling, Sphere, Statistics, Stripes, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -24,7 +24,12 @@ const WORDS: &[Word] = &[
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Matte>("matte"),
+    Word::of::<Checker>("checker"),
+    Word::of::<Stripes>("stripes"),
+    Word::of::<ImageTexture>("image_texture"),
     Word::of::<Background>("background"),
+    Word::of::<Gradient>("gradient"),
+    Word::of::<Environment>("environment"),
     Word::of::<View>("view"),
     Word::of::<Statistics>("statistics"),
 ];
