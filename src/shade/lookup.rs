@@ -1,9 +1,9 @@
 //! Points of an image → a colour.
 
-use super::{TexturePoint, box_width};
+use super::TexturePoint;
 use crate::extract::{Pyramid, Texels};
 use crate::scene::Wrap;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// Between a and b; a where the share is 0, and what both are where they are the same.
 #[inline(always)]
