@@ -11,6 +11,7 @@ mod camera;
 mod check;
 mod ellipsoid;
 mod environment;
+mod filter;
 mod gradient;
 mod image_file;
 mod image_texture;
@@ -34,6 +35,7 @@ pub use camera::{
 };
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use environment::EnvironmentTable;
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
@@ -46,7 +48,7 @@ pub use pose::{
     world_from_entity,
 };
 pub use pyramid::{Pyramid, halved};
-pub use sampling::SamplingTable;
+pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 pub use srgb::linear_from_srgb;
@@ -69,6 +71,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
+    FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     SphereTable::extract(scene)?;

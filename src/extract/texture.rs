@@ -60,7 +60,9 @@ pub fn texture_of_kind<T: Texture>(scene: &World, noun: &str, such: impl Fn(&T) 
     let shapes = shape_entities(scene);
     let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
     let reached: BTreeSet<Entity> = used.chain(shapes.iter().copied()).collect();
-    Evidence::among::<With<T>>(scene, noun, |entity| reached.contains(&entity.id()) && entity.get::<T>().is_some_and(&such))
+    Evidence::among::<With<T>>(scene, noun, |entity| {
+        reached.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
+    })
 }
 
 /// Evidence that a shape is made of a material with a texture of any kind.

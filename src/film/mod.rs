@@ -11,8 +11,8 @@ mod film_tile;
 mod png;
 mod whole_file;
 
-pub use accumulate::{add_to_film, film_stage};
 pub use crate::extract::linear_from_srgb;
+pub use accumulate::{add_to_film, film_stage};
 pub use develop::{Curve, byte_from_linear, srgb_from_linear};
 pub use exr::write_exr;
 pub use film_tile::{Film, FilmTile, Rejected};

@@ -81,7 +81,13 @@ impl TileSystems {
     pub fn order_free(self) -> bool {
         matches!(
             self,
-            Self::Start | Self::Intersect | Self::Surface | Self::Footprint | Self::Colour | Self::Texture | Self::Occlude
+            Self::Start
+                | Self::Intersect
+                | Self::Surface
+                | Self::Footprint
+                | Self::Colour
+                | Self::Texture
+                | Self::Occlude
         )
     }
 }

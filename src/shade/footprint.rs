@@ -38,10 +38,7 @@ impl Footprints {
     /// The steps of a row: to the right, down.
     #[inline(always)]
     pub fn get(&self, row: usize) -> [DVec3; 2] {
-        [
-            DVec3::new(self.rx[row], self.ry[row], self.rz[row]),
-            DVec3::new(self.dx[row], self.dy[row], self.dz[row]),
-        ]
+        [DVec3::new(self.rx[row], self.ry[row], self.rz[row]), DVec3::new(self.dx[row], self.dy[row], self.dz[row])]
     }
 }
 

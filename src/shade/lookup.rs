@@ -47,9 +47,7 @@ pub fn nearest_texel(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
 pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
     let point = texel_point(image, at, wrap) - 0.5;
     let (corner, share) = (point.floor(), point - point.floor());
-    let row = |y: f64| {
-        between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), share.x)
-    };
+    let row = |y: f64| between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), share.x);
     between(row(corner.y), row(corner.y + 1.0), share.y)
 }
 // ANCHOR_END: bilinear
