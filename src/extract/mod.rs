@@ -9,9 +9,12 @@
 mod background;
 mod camera;
 mod check;
+mod cuboid;
+mod disk;
 mod ellipsoid;
 mod environment;
 mod filter;
+mod flat;
 mod gradient;
 mod image_file;
 mod image_texture;
@@ -21,21 +24,27 @@ mod plane;
 mod point_light;
 mod pose;
 mod pyramid;
+mod rectangle;
 mod sampling;
 mod shape;
 mod sphere;
 mod srgb;
 mod texture;
 mod two_colours;
+mod uv_slope;
+mod uv_space;
 
 pub use background::BackgroundTable;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
 };
+pub use cuboid::{CuboidTable, Slabs};
+pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use environment::EnvironmentTable;
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use flat::Flat;
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
@@ -48,15 +57,18 @@ pub use pose::{
     world_from_entity,
 };
 pub use pyramid::{Pyramid, halved};
+pub use rectangle::RectangleTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 pub use srgb::linear_from_srgb;
 pub use texture::{
-    Laid, NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMaps, by_uv_evidence, filtered_evidence,
-    texture_evidence, texture_of_kind,
+    Laid, NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
+    filtered_evidence, texture_evidence, texture_of_kind,
 };
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
+pub use uv_slope::{UvSlope, UvSlopes, most_of};
+pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 
 use crate::plan::{Evidence, Table};
 use crate::scene::{Matte, Refusal, UsesMaterial, View};
@@ -77,6 +89,9 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;
     PlaneTable::extract(scene)?;
+    DiskTable::extract(scene)?;
+    RectangleTable::extract(scene)?;
+    CuboidTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     TextureMaps::extract(scene)?;
     CheckerTable::extract(scene)?;

@@ -86,6 +86,16 @@ pub fn by_uv_evidence(scene: &World) -> Evidence {
         .or(texture_of_kind::<ImageTexture>(scene, "image by uv", |texture| texture.by == TextureBy::Uv))
 }
 
+/// Evidence that a texture is laid along uv and filtered.
+pub fn filtered_by_uv_evidence(scene: &World) -> Evidence {
+    fn such<T: Texture>(texture: &T) -> bool {
+        texture.by() == TextureBy::Uv && texture.filter()
+    }
+    texture_of_kind(scene, "filtered checker by uv", such::<Checker>)
+        .or(texture_of_kind(scene, "filtered stripe pattern by uv", such::<Stripes>))
+        .or(texture_of_kind(scene, "filtered image by uv", such::<ImageTexture>))
+}
+
 /// What a texture's coordinates are made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Laid {
@@ -136,7 +146,7 @@ impl Table for TextureMaps {
 fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
     if let Some(checker) = scene.get::<Checker>(material) {
         let size = size_of_texture::<Checker>(scene, material, checker.size)?;
-        return Ok(two_colours(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
+        return Ok(laid_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
     }
     if let Some(stripes) = scene.get::<Stripes>(material) {
         let size = size_of_texture::<Stripes>(scene, material, stripes.size)?;
@@ -154,18 +164,18 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
             return Err(Refusal::new(who, "across", triple(stripes.across), accepted));
         }
         let row = (across / longest).normalize() / size;
-        return Ok(two_colours(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
+        return Ok(laid_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
     }
     if let Some(image) = scene.get::<ImageTexture>(material) {
         let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
-        let laid = if image.by == TextureBy::Uv { Laid::AlongUv } else { Laid::OnFaces };
-        return Ok(TextureMap { laid, matrix: DMat3::from_diagonal(DVec3::splat(1.0 / size)), shift: DVec3::ZERO });
+        let map = laid_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
+        return Ok(if image.by == TextureBy::Space { TextureMap { laid: Laid::OnFaces, ..map } } else { map });
     }
     Ok(TextureMap::default())
 }
 
-/// In space a cell's middle is at the origin, along uv its corner.
-fn two_colours(by: TextureBy, matrix: DMat3) -> TextureMap {
+/// In space a cell's or image's middle is at the origin, along uv its corner.
+fn laid_by(by: TextureBy, matrix: DMat3) -> TextureMap {
     match by {
         TextureBy::Uv => TextureMap { laid: Laid::AlongUv, matrix, shift: DVec3::ZERO },
         TextureBy::Space => TextureMap { laid: Laid::InSpace, matrix, shift: DVec3::splat(0.5) },

@@ -6,7 +6,7 @@ use crate::extract::Ellipsoid;
 use glam::DVec3;
 
 /// A number as the unevaluated sum of two f64.
-type Wide = (f64, f64);
+pub(super) type Wide = (f64, f64);
 
 // ANCHOR: wide_sphere_t
 /// The smallest t > 0 at which O + tR lies on a sphere, or infinity, to about 100 bits before rounding.
@@ -93,14 +93,14 @@ fn to_unit(ellipsoid: &Ellipsoid, v: [Wide; 3]) -> [Wide; 3] {
 }
 
 /// a + b without any error (Knuth, *The Art of Computer Programming* vol. 2, 4.2.2).
-fn two_sum(a: f64, b: f64) -> Wide {
+pub(super) fn two_sum(a: f64, b: f64) -> Wide {
     let sum = a + b;
     let b_seen = sum - a;
     (sum, (a - (sum - b_seen)) + (b - b_seen))
 }
 
 /// a · b without any error (Dekker 1971), each factor cut into halves of 26 bits.
-fn two_product(a: f64, b: f64) -> Wide {
+pub(super) fn two_product(a: f64, b: f64) -> Wide {
     const CUT: f64 = 134_217_729.0;
     let halves = |x: f64| {
         let high = x * CUT - (x * CUT - x);
@@ -111,23 +111,23 @@ fn two_product(a: f64, b: f64) -> Wide {
     (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
-fn add(a: Wide, b: Wide) -> Wide {
+pub(super) fn add(a: Wide, b: Wide) -> Wide {
     let (sum, error) = two_sum(a.0, b.0);
     let (low, lower) = two_sum(a.1, b.1);
     let (sum, error) = two_sum(sum, error + low);
     two_sum(sum, error + lower)
 }
 
-fn multiply(a: Wide, b: Wide) -> Wide {
+pub(super) fn multiply(a: Wide, b: Wide) -> Wide {
     let (product, error) = two_product(a.0, b.0);
     two_sum(product, error + (a.0 * b.1 + a.1 * b.0))
 }
 
-fn negated(a: Wide) -> Wide {
+pub(super) fn negated(a: Wide) -> Wide {
     (-a.0, -a.1)
 }
 
-fn dot(a: [Wide; 3], b: [Wide; 3]) -> Wide {
+pub(super) fn dot(a: [Wide; 3], b: [Wide; 3]) -> Wide {
     add(add(multiply(a[0], b[0]), multiply(a[1], b[1])), multiply(a[2], b[2]))
 }
 

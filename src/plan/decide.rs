@@ -144,7 +144,8 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         (false, format!("nothing that runs reads {}", words.join(" or ")))
     };
     let (columns, tables) = if kept {
-        (read, stage.tables_for(scene).iter().map(|table| table.name).collect())
+        let tables = stage.tables_for(scene, &read);
+        (read, tables.iter().map(|table| table.name).collect())
     } else {
         (Vec::new(), Vec::new())
     };
@@ -205,7 +206,7 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
                     columns.push(*column);
                 }
             }
-            for table in stage.tables_for(scene) {
+            for table in stage.tables_for(scene, &row.columns) {
                 if !tables.contains(&table) {
                     tables.push(table);
                 }

@@ -40,6 +40,8 @@ pub struct Stage {
     pub tables: Vec<TableKind>,
     /// Tables it reads where the scene gives a reason for them.
     pub tables_where: Vec<(TableKind, fn(&World) -> Evidence)>,
+    /// Tables it reads where a column that it writes is read.
+    pub tables_with: Vec<(TableKind, ColumnKind)>,
     /// Whether it reads the column that a `View` asks for.
     pub reads_view: bool,
     /// Whether a scene needs it.
@@ -65,6 +67,7 @@ impl Stage {
             writes: Vec::new(),
             tables: Vec::new(),
             tables_where: Vec::new(),
+            tables_with: Vec::new(),
             reads_view: false,
             when: |_| Evidence::always("every picture needs it"),
             system: Arc::new(move || system.clone().into_configs()),
@@ -107,10 +110,18 @@ impl Stage {
         self
     }
 
-    /// The tables it reads of this scene.
-    pub fn tables_for(&self, scene: &World) -> Vec<TableKind> {
+    /// It reads this table only to write that column, so only where the column is read.
+    pub fn table_with<T: Table, C: Column>(mut self) -> Self {
+        self.tables_with.push((TableKind::of::<T>(), ColumnKind::of::<C>()));
+        self
+    }
+
+    /// The tables it reads of this scene, where of the columns that it writes these are read.
+    pub fn tables_for(&self, scene: &World, columns: &[&'static str]) -> Vec<TableKind> {
         let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
-        self.tables.iter().chain(asked.map(|(table, _)| table)).copied().collect()
+        let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(&column.name));
+        let more = asked.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
+        self.tables.iter().chain(more).copied().collect()
     }
 
     /// It reads whatever column a `View` asks for.

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 /// On a material: the colours of an image file, in place of the material's own colour.
 ///
-/// The image's lower left corner is at (0, 0), its x grows with the first coordinate, its y upward with the second.
-/// By space the two are those of the shape's axes across which the surface faces: x and y on a side that faces ±z,
-/// z and y on one that faces ±x, x and z on one that faces ±y; seen from outside, the image is never mirrored.
+/// By uv its upper left corner is at (0, 0), its x grows with u, and its y, downward, with v.
+/// By space its middle is at the shape's origin, and it is laid along the two axes of the side that the surface faces, as on
+/// a cuboid: upright on sides that face x or z, and seen from outside never mirrored.
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImageTexture {
@@ -15,7 +15,7 @@ pub struct ImageTexture {
     pub file: String,
     /// How wide the image is, in units of uv or of the shape's space, above 0.
     ///
-    /// By uv it is as high as it is wide; by space as high as its pixels are square.
+    /// By uv it is as high as it is wide; by space its texels are square.
     pub size: f64,
     /// What it is laid along.
     pub by: TextureBy,

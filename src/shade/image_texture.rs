@@ -1,10 +1,11 @@
 use super::lookup::{image_mean, nearest_texel};
-use super::{SurfaceColours, TexturePoints};
+use super::{SurfaceColours, TexturePoint, TexturePoints};
 use crate::extract::{ImageTable, NO_TEXTURE, texture_of_kind};
 use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::scene::ImageTexture;
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 
 /// Colours the rows of materials that have an image.
 pub fn colour_images(
@@ -21,8 +22,9 @@ pub fn colour_images(
             let texture = texture as usize;
             let (pyramid, wrap) = (&images.pyramid[texture], images.wrap[texture]);
             let mut at = points.get(row);
-            at.point.y *= images.aspect[texture];
-            at.steps.iter_mut().for_each(|step| step.y *= images.aspect[texture]);
+            if images.aspect[texture] != 1.0 {
+                at = about_the_middle(at, images.aspect[texture]);
+            }
             let colour = if images.filter[texture] {
                 image_mean(pyramid, &at, wrap)
             } else {
@@ -31,6 +33,14 @@ pub fn colour_images(
             colours.set(row, colour);
         }
     }
+}
+
+/// The same with its second coordinate stretched about the image's middle.
+#[inline(always)]
+fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
+    let stretched = |step: DVec3| DVec3::new(step.x, step.y * aspect, step.z);
+    let point = DVec3::new(at.point.x, 0.5 + (at.point.y - 0.5) * aspect, 0.0);
+    TexturePoint { point, steps: at.steps.map(stretched) }
 }
 
 /// The stage on offer.

@@ -20,12 +20,12 @@ fn wrapped(at: f64, side: usize, wrap: Wrap) -> usize {
     }
 }
 
-/// A point of the unit square as a point of the image in texels, rows downward.
+/// A point of the unit square as a point of the image in texels.
 #[inline(always)]
 fn texel_point(image: &Texels, at: DVec2, wrap: Wrap) -> DVec2 {
     // First what counts, then the scale: far from the origin the product would lose it.
     let at = if wrap == Wrap::Repeat { at - at.floor() } else { at };
-    DVec2::new(at.x * image.width as f64, (1.0 - at.y) * image.height as f64)
+    DVec2::new(at.x * image.width as f64, at.y * image.height as f64)
 }
 
 #[inline(always)]
@@ -34,7 +34,7 @@ fn texel(image: &Texels, x: f64, y: f64, wrap: Wrap) -> [f64; 3] {
     image.rgb[y * image.width + x].map(f64::from)
 }
 
-/// The texel that a point of the unit square lies in.
+/// The texel that a point of the unit square lies in; (0, 0) is the image's upper left corner.
 pub fn nearest_texel(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
     let point = texel_point(image, at, wrap);
     texel(image, point.x.floor(), point.y.floor(), wrap)

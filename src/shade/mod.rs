@@ -36,7 +36,8 @@ pub use light::{LightRays, add_light, aim_at_lights, aim_stage, light_stage, ref
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, ellipsoid_shadow_stage, plane_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
+    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
 };
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
@@ -50,7 +51,13 @@ pub fn stages() -> Vec<Stage> {
     stages.extend(background_stages());
     stages.push(flat_stage());
     stages.extend([aim_stage(), start_shadow_stage(), sphere_shadow_stage(), ellipsoid_shadow_stage()]);
-    stages.extend([plane_shadow_stage(), light_stage()]);
+    stages.extend([
+        plane_shadow_stage(),
+        disk_shadow_stage(),
+        rectangle_shadow_stage(),
+        cuboid_shadow_stage(),
+        light_stage(),
+    ]);
     stages
 }
 

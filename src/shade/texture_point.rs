@@ -1,5 +1,8 @@
 use super::Footprints;
-use crate::extract::{Laid, ShapeSpaces, TextureMap, TextureMaps, by_uv_evidence, texture_evidence};
+use crate::extract::{
+    Laid, ShapeSpaces, TextureMap, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence, most_of,
+    texture_evidence,
+};
 use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
@@ -76,32 +79,28 @@ impl TexturePoints {
 /// A step through a matrix; a step without end has none in any direction.
 #[inline(always)]
 fn mapped(matrix: DMat3, step: DVec3) -> DVec3 {
-    let there = matrix * step;
-    if there.is_finite() { there } else { DVec3::INFINITY }
+    ended(matrix * step)
 }
 
-// ANCHOR: face_from_space
-/// The two axes of a shape's space that an image is laid along on a side that faces this way, as rows.
-///
-/// The side belongs to the axis that its normal has most of; the image stands upright on sides that face x or z, and from
-/// outside it is not mirrored.
-pub fn face_from_space(normal: DVec3) -> DMat3 {
-    let size = normal.abs();
-    let (right, up) = if size.z >= size.x && size.z >= size.y {
-        (DVec3::X * normal.z.signum(), DVec3::Y)
-    } else if size.x >= size.y {
-        (DVec3::NEG_Z * normal.x.signum(), DVec3::Y)
-    } else {
-        (DVec3::X, DVec3::NEG_Z * normal.y.signum())
-    };
-    DMat3::from_cols(right, up, DVec3::ZERO).transpose()
+#[inline(always)]
+fn ended(step: DVec3) -> DVec3 {
+    if step.is_finite() { step } else { DVec3::INFINITY }
 }
-// ANCHOR_END: face_from_space
+
+/// The two axes of a shape's space that an image is laid along on a side that faces this way, as rows: those of the side
+/// of a cuboid across the axis that the normal has most of.
+#[inline(always)]
+pub fn face_from_space(normal: DVec3) -> DMat3 {
+    let axis = most_of(normal);
+    let [right, down] = face_axes(axis, normal[axis] < 0.0);
+    DMat3::from_cols(right, down, DVec3::ZERO).transpose()
+}
 
 /// Fills where on its texture each row is.
 pub fn lay_textures(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
+    slopes: Option<Res<Shared<UvSlopes>>>,
     mut tiles: Query<(
         &WorldRays,
         &Hits,
@@ -124,7 +123,12 @@ pub fn lay_textures(
                 Laid::Nowhere => continue,
                 Laid::AlongUv => {
                     let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
-                    TexturePoint { point: uv, steps: [DVec3::ZERO; 2] }
+                    let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
+                        let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
+                        let normal = surfaces.get(row).normal.as_dvec3();
+                        [0, 1].map(|way| ended(slopes.slope[shape].step(at.point, normal, steps[way], at.steps[way])))
+                    });
+                    TexturePoint { point: uv, steps }
                 }
                 Laid::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps),
                 Laid::OnFaces => {
@@ -168,6 +172,7 @@ pub fn lay_stage() -> Stage {
         .writes::<TexturePoints>()
         .table::<TextureMaps>()
         .table::<ShapeSpaces>()
+        .table_where::<UvSlopes>(filtered_by_uv_evidence)
         .when(texture_evidence)
 }
 
@@ -179,10 +184,10 @@ mod tests {
     fn from_outside_no_face_mirrors_the_image() {
         let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
         for side in sides {
-            let face = face_from_space(side);
-            let (right, up) = (face.row(0), face.row(1));
-            assert_eq!(right.cross(up), side, "right and up are seen as such from outside");
-            assert!(side.y != 0.0 || up == DVec3::Y, "it stands upright");
+            let face = face_from_space(side * 0.8 + DVec3::new(0.1, -0.2, 0.3));
+            let (right, down) = (face.row(0), face.row(1));
+            assert_eq!(down.cross(right), side, "right and down are seen as such from outside");
+            assert!(side.y != 0.0 || down == DVec3::NEG_Y, "it stands upright");
         }
     }
 }

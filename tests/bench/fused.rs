@@ -8,8 +8,8 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable,
-    ShapeKind, ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
+    ShapeTable, SphereTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
@@ -39,9 +39,11 @@ impl Scene {
     /// Reads the same tables as the kit.
     ///
     /// # Panics
-    /// When the scene holds an ellipsoid, which this loop does not know.
+    /// When the scene holds a shape that this loop does not know.
     pub fn extract(world: &World) -> Result<Self, Refusal> {
-        assert!(EllipsoidTable::extract(world)?.shape.is_empty(), "the scenes that are measured hold no ellipsoid");
+        let kinds = ShapeTable::extract(world)?.kind;
+        let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
+        assert!(known, "the scenes that are measured hold spheres and planes only");
         Ok(Self {
             image: Table::extract(world)?,
             lens: Table::extract(world)?,
@@ -102,8 +104,8 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
             (outward, sum_of_parts(centre) + scene.spheres.radius[row])
         }
-        // There are no ellipsoids here, as `extract` has made sure.
-        ShapeKind::Plane | ShapeKind::Ellipsoid => (scene.planes.normal[row], scene.planes.offset[row].abs()),
+        // Nothing but planes is left, as `extract` has made sure.
+        _ => (scene.planes.normal[row], scene.planes.offset[row].abs()),
     };
     Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), material)
 }

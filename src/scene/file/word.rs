@@ -1,6 +1,7 @@
 use crate::scene::{
-    Background, Checker, Environment, Gradient, ImageTexture, LookAt, Matte, OrthographicCamera, PerspectiveCamera,
-    Placement, Plane, PointLight, Resolution, Sampling, Sphere, Statistics, Stripes, View,
+    Background, Checker, Cuboid, Disk, Environment, Gradient, ImageTexture, LookAt, Matte, OrthographicCamera,
+    PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, Stripes,
+    View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -18,6 +19,9 @@ const WORDS: &[Word] = &[
     Word::of::<OrthographicCamera>("orthographic_camera"),
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
+    Word::of::<Disk>("disk"),
+    Word::of::<Rectangle>("rectangle"),
+    Word::of::<Cuboid>("cuboid"),
     Word::of::<PointLight>("point_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
