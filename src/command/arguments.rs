@@ -53,6 +53,8 @@ pub enum Command {
     Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+    /// Draw an image that a chapter reads from a file; without a name, list them
+    Draw(DrawImage),
     /// Print what to type in other programs to get a chapter's camera there, and how to come back
     Conventions(CompareConventions),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
@@ -184,6 +186,15 @@ pub struct DrawFigure {
     /// The figure's name, such as 05_pinhole
     pub name: Option<String>,
     /// Where to write the SVG (default: out/<name>.svg)
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct DrawImage {
+    /// The image's file name, such as card.png
+    pub name: Option<String>,
+    /// Where to write it (default: out/<name>)
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub output: Option<PathBuf>,
 }

@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod conventions;
 mod cost;
+mod draw;
 mod export;
 mod extremes;
 mod figure;
@@ -45,6 +46,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
     match arguments.command {
         None => render::render_cover(chapters, out),
         Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
+        Some(Command::Draw(asked)) => draw::draw_image(&asked, out),
         Some(Command::List) => list::list(chapters, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
         Some(Command::Render(asked)) => {
