@@ -4,7 +4,7 @@ use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
-use crate::scene::{Adaptive, Layers, OPEN_END, Resolution, Sampling, Statistics, View};
+use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -77,14 +77,41 @@ pub struct Asked {
     pub view: Option<String>,
     /// Whether stages are timed and counted.
     pub statistics: bool,
-    /// Samples a pixel.
-    pub samples: Option<u32>,
+    /// How pixels are sampled.
+    pub sampling: AskedSampling,
     /// Whether samples go on for as long as there is time, where their number is not asked for.
     pub endless: bool,
     /// The error that each pixel is to have.
     pub error: Option<f64>,
     /// What else to keep of every pixel.
     pub layers: Option<Layers>,
+}
+
+/// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
+/// default and then what is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AskedSampling {
+    /// Samples a pixel.
+    pub samples: Option<u32>,
+    /// Another seed.
+    pub seed: Option<u64>,
+    /// Where the random numbers come from.
+    pub sampler: Option<Sampler>,
+    /// What a sample counts for.
+    pub filter: Option<Filter>,
+}
+
+impl AskedSampling {
+    /// What it makes of a camera's sampling; nothing where nothing is asked.
+    pub fn of(&self, own: Option<&Sampling>) -> Option<Sampling> {
+        let Sampling { samples, seed, sampler, filter } = own.copied().unwrap_or_default();
+        (*self != Self::default()).then(|| Sampling {
+            samples: self.samples.unwrap_or(samples),
+            seed: self.seed.unwrap_or(seed),
+            sampler: self.sampler.unwrap_or(sampler),
+            filter: self.filter.unwrap_or(filter),
+        })
+    }
 }
 
 impl Asked {
@@ -98,10 +125,12 @@ impl Asked {
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
         }
-        let endless = self.endless || self.error.is_some();
-        if let Some(samples) = self.samples.or(endless.then_some(OPEN_END)) {
-            let sampling = camera.get::<Sampling>().copied().unwrap_or_default();
-            camera.insert(Sampling { samples, ..sampling });
+        let mut asked = self.sampling;
+        if self.endless || self.error.is_some() {
+            asked.samples = asked.samples.or(Some(OPEN_END));
+        }
+        if let Some(sampling) = asked.of(camera.get::<Sampling>()) {
+            camera.insert(sampling);
         }
         if let Some(error) = self.error {
             let adaptive = camera.get::<Adaptive>().copied().unwrap_or_default();

@@ -23,8 +23,7 @@ pub fn samples_for(variance: f64, mean_square: f64, error: f64) -> u32 {
 pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
     let of_pixel = |x: u32, y: u32| {
         let (tile, row) = pilot.place(x, y);
-        let count = pilot.tiles[tile].count[row];
-        mean_of(pilot.moments.get(tile).map_or([0.0; 3], |moments| moments.variance(row, count)))
+        mean_of(pilot.moments.get(tile).map_or([0.0; 3], |own| own.variance(&pilot.tiles[tile], row)))
     };
     let pooled = |x: u32, y: u32| {
         let columns = x.saturating_sub(1)..=(x + 1).min(pilot.width - 1);
@@ -41,7 +40,7 @@ pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
     let of_tile = |tile: &crate::film::FilmTile| {
         let of_row = |row: usize| {
             let [x, y] = tile.tile.pixel_of(row);
-            samples_for(pooled(x, y), mean_square(tile.mean_f64(row)), error)
+            samples_for(pooled(x, y), mean_square(tile.shown_f64(row)), error)
         };
         (0..tile.tile.rows()).map(of_row).collect()
     };
@@ -78,7 +77,7 @@ pub fn achieved(film: &Film, target: f64, most: u32) -> Achieved {
     for (number, tile) in film.tiles.iter().enumerate() {
         for row in 0..tile.tile.rows() {
             let variance = mean_of(film.variance_of_mean(number, row));
-            let square = variance / (mean_square(tile.mean_f64(row)) + EPSILON);
+            let square = variance / (mean_square(tile.shown_f64(row)) + EPSILON);
             let above = square > target * target;
             let wanted_more = film.planned.get(number).is_some_and(|planned| planned[row] > most);
             squares += square;
