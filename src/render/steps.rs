@@ -25,6 +25,7 @@ pub struct Run {
     lattices: [usize; 2],
 }
 
+// ANCHOR: runs
 /// The runs that bring a tile from `done` steps to `to`.
 ///
 /// Lattices that follow each other are run at once, since a pixel's sums do not depend on its neighbours'.
@@ -35,6 +36,7 @@ pub fn runs(done: u32, to: u32) -> Vec<Run> {
     let later = later.map(|step| Run { sample: step - (WHOLE - 1), lattices: [0, LATTICES.len()] });
     first.into_iter().chain(later).collect()
 }
+// ANCHOR_END: runs
 
 impl Run {
     /// The first sample of all pixels.
