@@ -59,7 +59,9 @@ pub fn place_samples(
 
         let (xs, ys) = raster.slices_mut(rows);
         match sampling.sampler {
-            Sampler::Independent => draw_points(Independent::new(number, 0, Purpose::Pixel), sampling.seed, tile, xs, ys),
+            Sampler::Independent => {
+                draw_points(Independent::new(number, 0, Purpose::Pixel), sampling.seed, tile, xs, ys)
+            }
             Sampler::Stratified => {
                 let draw = Stratified::new(number, sampling.samples, 0, Purpose::Pixel);
                 draw_points(draw, sampling.seed, tile, xs, ys);

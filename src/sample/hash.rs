@@ -73,7 +73,8 @@ mod tests {
                 // Small numbers, as scenes have them.
                 let (seed, x, y) = (u64::from(trial % 7), trial % 61, trial / 61);
                 let (dimension, sample) = (trial % 16, trial % 251);
-                let one = |word: u32| if flipped >= 64 && (flipped - 64) / 32 == word { 1 << (flipped % 32) } else { 0 };
+                let one =
+                    |word: u32| if flipped >= 64 && (flipped - 64) / 32 == word { 1 << (flipped % 32) } else { 0 };
                 let other_seed = if flipped < 64 { seed ^ 1 << flipped } else { seed };
                 let other = at(other_seed, x ^ one(0), y ^ one(1), dimension ^ one(2), sample ^ one(3));
                 let changed = other ^ at(seed, x, y, dimension, sample);

@@ -136,7 +136,9 @@ mod tests {
                 worst = worst.max((chi - freedom) / (2.0 * freedom).sqrt());
             }
         }
-        eprintln!("permutations: pairs of 8 counts × {KEYS} keys, worst χ² {worst:.2} standard deviations above its mean");
+        eprintln!(
+            "permutations: pairs of 8 counts × {KEYS} keys, worst χ² {worst:.2} standard deviations above its mean"
+        );
         assert!(worst < 5.0);
     }
 

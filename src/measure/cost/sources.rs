@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 7] = ["plan", "extract", "rays", "intersect", "shade", "film", "render"];
+const FOLDERS: [&str; 8] = ["plan", "extract", "sample", "rays", "intersect", "shade", "film", "render"];
 
 /// A fingerprint (FNV-1a, 64 bits) of the sources that decide what a chapter's stages cost: those of the stages and of
 /// the loop that runs them, and the chapter's own. The ends of lines do not count.
@@ -53,6 +53,11 @@ fn list(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
 
 fn missing(path: &Path) -> Error {
     Error::Usage(format!("the sources that this was built from are not here ({} cannot be read)", path.display()))
+}
+
+/// The same hash of any bytes.
+pub fn fingerprint(bytes: &[u8]) -> String {
+    format!("{:016x}", fnv(OFFSET_BASIS, bytes))
 }
 
 const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
