@@ -157,15 +157,16 @@ fn no_such<T>(kind: &str, name: &str, all: &[(&'static str, T)]) -> Error {
 /// The subject itself, then each rival: the subject with another sampler or filter, or another scene.
 fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolution) -> Result<Vec<Variant<'c>>> {
     let asked = move || Asked { resolution: Some(size), view: None, ..Asked::default() };
-    let of = |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
-        let world = subject.picture_world(&asked());
-        validate(&world).map_err(|refusal| subject.placed(refusal.into(), &asked()))?;
-        let camera = camera_entity(&world)?;
-        let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
-        change(&mut sampling);
-        let scene = Box::new(move || subject.picture_world(&asked()));
-        Ok(Variant { name, sampling, stages: subject.stages(), scene, reference })
-    };
+    let of =
+        |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
+            let world = subject.picture_world(&asked());
+            validate(&world).map_err(|refusal| subject.placed(refusal.into(), &asked()))?;
+            let camera = camera_entity(&world)?;
+            let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
+            change(&mut sampling);
+            let scene = Box::new(move || subject.picture_world(&asked()));
+            Ok(Variant { name, sampling, stages: subject.stages(), scene, reference })
+        };
     let mut variants = vec![of(subject, String::new(), &|_| (), 0)?];
     for rival in rivals {
         let own = variants.len();

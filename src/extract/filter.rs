@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 /// Cells on each lobe of a filter's table.
 ///
 /// With so many the area under |f| up to a sampled place is right to 1e-6 of the whole; a test measures it.
-const CELLS: usize = 128;
+const CELLS: usize = 192;
 
 /// How samples are spread about a pixel's centre.
 #[derive(Clone, Debug, Default, PartialEq)]

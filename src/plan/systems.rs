@@ -30,8 +30,18 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// Normals by which light falls, where they are not the surfaces' own.
+    Normal,
+    /// What a pixel covers of the surface.
+    Footprint,
+    /// Each surface's own colour, and where on its texture it is.
+    Colour,
+    /// Textures colour their own rows, in any order.
+    Texture,
     /// What a ray that met nothing brings back.
     Background,
+    /// What else is asked of a pixel is taken down, before the light goes on its way.
+    Layers,
     /// Rays from surfaces towards lights.
     Aim,
     /// Every light counts as seen, before anything is met on the way to it.
@@ -42,13 +52,15 @@ pub enum TileSystems {
     Shade,
     /// Where a reader asked to see a column, it is painted instead.
     View,
+    /// How far radiance lies from the mean of what the film holds, before it joins.
+    Moments,
     /// Radiance joins the film's sums.
     Film,
 }
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: &[Self] = &[
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -58,18 +70,33 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Normal,
+        Self::Footprint,
+        Self::Colour,
+        Self::Texture,
         Self::Background,
+        Self::Layers,
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
         Self::Shade,
         Self::View,
+        Self::Moments,
         Self::Film,
     ];
 
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
     /// independently of the others.
     pub fn order_free(self) -> bool {
-        matches!(self, Self::Start | Self::Intersect | Self::Surface | Self::Occlude)
+        matches!(
+            self,
+            Self::Start
+                | Self::Intersect
+                | Self::Surface
+                | Self::Footprint
+                | Self::Colour
+                | Self::Texture
+                | Self::Occlude
+        )
     }
 }

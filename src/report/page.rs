@@ -4,7 +4,7 @@ use super::deviation::RELATIVE_MSE;
 use super::pictures::Shown;
 use super::plot::{Against, plot};
 use super::summary::{LevelSummary, Report, Told, VariantSummary};
-use super::table::{at_words, short, with_ends, with_percent};
+use super::table::{at_words, short, with_ends, with_half, with_percent};
 use crate::review::escape;
 use std::fmt::Write;
 use std::io;
@@ -89,7 +89,7 @@ fn levels(body: &mut String, variant: &VariantSummary) {
             level.samples.to_string(),
             with_percent(&level.mse),
             with_percent(&level.variance),
-            with_percent(&level.bias_squared),
+            with_half(&level.bias_squared),
             with_percent(&level.efficiency),
             format!("{} ±{:.0}%", milliseconds(level.render.median.value), half_percent(level)),
             milliseconds(level.render.mad),
@@ -200,7 +200,8 @@ fn reference(body: &mut String, report: &Report) {
          of seeds {}; runs have seeds {}. The longest run has {:.1} % of its samples. Its own variance V_ref is known from \
          its pieces and subtracted from every MSE, which is the mean over pairs of pieces A, B of (X − A)(X − B). \
          bias² is the mean of (Xᵢ − A)(Xⱼ − B) over pairs of runs and of pieces, so it can come out negative. \
-         {}, V_ref's part subtracted; MAE as measured. Trimmed: without the 0.1 % of pixels that add most.</p>",
+         {}, V_ref's part subtracted; MAE as measured. Trimmed: without the 0.1 % of pixels that add most. A variant of \
+         another filter or scene has a reference of its own, as it converges to another image.</p>",
         ladder.reference_samples(),
         ladder.pieces,
         seeds[1],

@@ -95,7 +95,11 @@ pub fn plot(report: &Report, against: Against) -> Drawing {
         words(&mut svg, DVec2::new(right + 10.0, y), "start", 13.0, colour, &variant.name);
     }
     let [width, height] = report.size;
-    let foot = format!("scene {}, {width} × {height} pixels · {}", report.name, report.provenance.command);
+    let (seeds, samples) = (report.ladder.seeds, report.ladder.reference_samples());
+    let foot = format!(
+        "scene {}, {width} × {height} pixels; {seeds} seeds a point; reference of {samples} samples",
+        report.name
+    );
     svg.finish(&format!("MSE of {} against {}", report.name, against.words()), &foot)
 }
 

@@ -209,19 +209,24 @@ fn flags(report: &Report) -> Vec<String> {
     if load > 0.5 * cores {
         flags.push(format!("the machine was busy: load {load:.2} on {cores} cores"));
     }
-    for variant in &report.variants {
-        for level in &variant.levels {
-            let (name, samples, variation) = (&variant.name, level.samples, level.render.variation);
-            if variation > STEADY {
-                let percent = 100.0 * variation;
-                flags.push(format!("{name} at {samples} samples: times scatter by {percent:.0} % of their mean"));
-            }
-            let busy = level.whole.median.value / (level.wall * report.threads as f64);
-            if (1.0 - busy).abs() > WAITING {
-                let percent = 100.0 * busy;
-                flags.push(format!("{name} at {samples} samples: CPU time is {percent:.0} % of wall time × threads"));
-            }
+    let levels = || report.variants.iter().flat_map(|it| it.levels.iter().map(move |level| (&it.name, level)));
+    let all = levels().count();
+    let mut flag = |what: &str, allowed: f64, of: &dyn Fn(&LevelSummary) -> f64| {
+        let beyond = levels().filter(|(_, level)| of(level) > allowed).count();
+        let worst = levels().max_by(|one, other| of(one.1).total_cmp(&of(other.1)));
+        if let Some((name, level)) = worst.filter(|_| beyond > 0) {
+            let percent = 100.0 * of(level);
+            flags.push(format!(
+                "{what} by more than {:.0} % in {beyond} of {all} rows; the worst, {name} at {} samples, by {percent:.0} %",
+                100.0 * allowed,
+                level.samples
+            ));
         }
-    }
+    };
+    flag("times of one row scatter about their mean", STEADY, &|level| level.render.variation);
+    let threads = report.threads as f64;
+    flag("CPU time differs from wall time × threads", WAITING, &|level| {
+        (1.0 - level.whole.median.value / (level.wall * threads)).abs()
+    });
     flags
 }

@@ -29,6 +29,14 @@ pub fn with_percent(told: &Told) -> String {
     }
 }
 
+/// A number that may be near 0, with half the width of its interval.
+pub fn with_half(told: &Told) -> String {
+    match told.value() {
+        Some(Interval { low, value, high }) => format!("{} ±{}", short(value), short(0.5 * (high - low))),
+        None => "refused".into(),
+    }
+}
+
 /// A number with the ends of its interval.
 pub fn with_ends(told: &Told) -> String {
     match told {
@@ -62,17 +70,17 @@ impl fmt::Display for Report {
             writeln!(f, "\n{}", variant.name)?;
             writeln!(
                 f,
-                "{:>7}  {:<15} {:<15} {:<15} {:>9} {:>9}  {:<15} {:>9}",
+                "{:>7}  {:<14} {:<14} {:<18} {:>9} {:>9}  {:<14} {:>9}",
                 "samples", "MSE", "variance", "bias²", "relMSE", "ms CPU", "1/(MSE·T)", "top 0.1 %"
             )?;
             for level in &variant.levels {
                 writeln!(
                     f,
-                    "{:>7}  {:<15} {:<15} {:<15} {:>9} {:>9}  {:<15} {:>7.1} %",
+                    "{:>7}  {:<14} {:<14} {:<18} {:>9} {:>9}  {:<14} {:>7.1} %",
                     level.samples,
                     with_percent(&level.mse),
                     with_percent(&level.variance),
-                    with_percent(&level.bias_squared),
+                    with_half(&level.bias_squared),
                     short(level.rel_mse),
                     short(1e3 * level.render.median.value),
                     with_percent(&level.efficiency),

@@ -124,3 +124,105 @@ impl Draw for Sobol {
         [0, 1].map(|axis| owen_scrambled(self.reversed[axis], seeds[axis]).reverse_bits())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs of dimensions that one purpose draws together.
+    fn pairs() -> Vec<[u32; 2]> {
+        let two = |purpose: &Purpose| purpose.numbers() == 2;
+        Purpose::ALL.into_iter().filter(two).map(|purpose| [0, 1].map(|n| purpose.dimension(0) + n)).collect()
+    }
+
+    /// The smallest t for which 2ᵐ points are a (t, m, 2)-net: each box of area 2ᵗ⁻ᵐ with sides of powers of two holds 2ᵗ.
+    fn quality(points: &[[u32; 2]]) -> u32 {
+        let m = points.len().trailing_zeros();
+        let is_net = |t: u32| {
+            (0..=m - t).all(|across| {
+                let down = m - t - across;
+                let mut count = vec![0_u32; 1 << (m - t)];
+                for point in points {
+                    let cell = |fraction: u32, digits: u32| (u64::from(fraction) >> (32 - digits)) as usize;
+                    count[cell(point[0], across) << down | cell(point[1], down)] += 1;
+                }
+                count.iter().all(|&count| count == 1 << t)
+            })
+        };
+        (0..=m).find(|&t| is_net(t)).unwrap_or(m)
+    }
+
+    fn degree(dimension: u32) -> u32 {
+        if dimension == 0 { 0 } else { JOE_KUO[dimension as usize - 1].0 as u32 }
+    }
+
+    #[test]
+    fn first_points_are_those_of_the_literature() {
+        // Points 0 to 7 of the first three dimensions, in eighths, in the order of their numbers (not of Gray codes).
+        let known = [[0, 4, 2, 6, 1, 5, 3, 7], [0, 4, 6, 2, 5, 1, 3, 7], [0, 4, 6, 2, 3, 7, 5, 1]];
+        for (dimension, eighths) in (0..).zip(known) {
+            let own: Vec<u32> = (0..8).map(|n| sobol_bits(n, dimension).reverse_bits() >> 29).collect();
+            assert_eq!(own, eighths, "dimension {dimension}");
+        }
+    }
+
+    /// Every block of 2ᵐ samples has one in each 2⁻ᵐ of an axis; a pixel's two numbers one in every box of area 2⁻ᵐ;
+    /// other pairs, 2ᵗ in every box of 2ᵗ⁻ᵐ with the t that theory allows (Niederreiter 1987: degrees less 1, summed).
+    #[test]
+    fn nets() {
+        let (mut tried, mut worst) = (0, Vec::new());
+        for purpose in Purpose::ALL.into_iter().filter(|purpose| purpose.numbers() == 2) {
+            let [first, second] = [0, 1].map(|n| degree(purpose.dimension(0) + n));
+            let allowed = first.saturating_sub(1) + second.saturating_sub(1);
+            let mut largest = 0;
+            for m in 0..=10_u32 {
+                for (seed, block, leg) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 5, 0), (4, 0, 1), (5, 3, 2)] {
+                    let pixel = PixelKey::new(seed, [7, 11]);
+                    let numbers = block << m..(block + 1) << m;
+                    let points: Vec<_> = numbers.map(|n| Sobol::new(n, leg, purpose).two(pixel)).collect();
+                    for axis in 0..2 {
+                        let own: Vec<[u32; 2]> = points.iter().map(|point| [point[axis], 0]).collect();
+                        let mut cells: Vec<u64> = own.iter().map(|p| u64::from(p[0]) >> (32 - m)).collect();
+                        cells.sort_unstable();
+                        assert!(cells.iter().copied().eq(0..1 << m), "{purpose:?}, axis {axis}, 2^{m} points");
+                    }
+                    let t = quality(&points);
+                    assert!(t <= allowed, "{purpose:?}, 2^{m} points, leg {leg}: t = {t}, but {allowed} is allowed");
+                    (largest, tried) = (largest.max(t), tried + 1);
+                }
+            }
+            worst.push(format!("{purpose:?} {largest} of {allowed}"));
+        }
+        assert!(worst[0].ends_with("0 of 0"), "the pixel's numbers are a (0, m, 2)-net");
+        eprintln!("nets: {tried} blocks of 2^0 to 2^10 samples; largest t: {}", worst.join(", "));
+    }
+
+    /// Unscrambled points are those of the crate sobol_burley, and its scrambled pairs have the t of ours.
+    #[test]
+    fn agrees_with_sobol_burley() {
+        let (mut points, mut compared) = (0, 0);
+        for dimension in 0..DIMENSIONS {
+            for number in 0..1_u32 << 16 {
+                let theirs = sobol_burley::parts::sobol_rev(number.reverse_bits(), dimension);
+                assert_eq!(sobol_bits(number, dimension), theirs, "{number} in dimension {dimension}");
+                points += 1;
+            }
+        }
+        for pair in pairs() {
+            for m in 0..=10_u32 {
+                let theirs = |n: u32, d: u32| {
+                    // Exact: 24 bits of an f32 from 0 to 1.
+                    ((f64::from(sobol_burley::sample(n, d, 9)) * f64::from(1 << 24)) as u32) << 8
+                };
+                let burley: Vec<[u32; 2]> = (0..1 << m).map(|n| pair.map(|d| theirs(n, d))).collect();
+                let pixel = PixelKey::new(9, [0, 0]);
+                let purpose = Purpose::ALL.into_iter().find(|purpose| purpose.dimension(0) == pair[0]);
+                let purpose = purpose.expect("a purpose");
+                let ours: Vec<[u32; 2]> = (0..1 << m).map(|n| Sobol::new(n, 0, purpose).two(pixel)).collect();
+                assert_eq!(quality(&ours), quality(&burley), "dimensions {pair:?}, 2^{m} points");
+                compared += 1;
+            }
+        }
+        eprintln!("sobol_burley: {points} coordinates equal to all 32 digits, {compared} nets of equal t");
+    }
+}

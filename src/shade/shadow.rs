@@ -1,10 +1,14 @@
 use super::LightRays;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, material_evidence};
+use crate::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
+};
 use crate::intersect::{
-    HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres, sphere_evidence,
+    HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
+    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, intersect_triangles,
+    rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{Plane, PointLight};
+use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -87,10 +91,57 @@ pub fn plane_shadow_stage() -> Stage {
         .when(|scene| Evidence::of::<Plane>(scene, "plane").and(shadow_evidence(scene)))
 }
 
+/// The stage that intersects shadow rays with disks.
+pub fn disk_shadow_stage() -> Stage {
+    let intersect = intersect_disks::<LightRays, ShadowHits>;
+    Stage::new("Look for disks in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<DiskTable>()
+        .when(|scene| disk_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with rectangles.
+pub fn rectangle_shadow_stage() -> Stage {
+    let intersect = intersect_rectangles::<LightRays, ShadowHits>;
+    Stage::new("Look for rectangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<RectangleTable>()
+        .when(|scene| rectangle_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with cuboids.
+pub fn cuboid_shadow_stage() -> Stage {
+    let intersect = intersect_cuboids::<LightRays, ShadowHits>;
+    Stage::new("Look for cuboids in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<CuboidTable>()
+        .when(|scene| cuboid_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with triangles.
+pub fn triangle_shadow_stage() -> Stage {
+    let intersect = intersect_triangles::<LightRays, ShadowHits>;
+    Stage::new("Look for triangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<TriangleTable>()
+        .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
+}
+
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among::<With<PointLight>>(scene, "shadow-casting light", |entity| {
+    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
+    Evidence::among::<Light>(scene, "shadow-casting light", |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     })
     .and(material_evidence(scene))
 }
