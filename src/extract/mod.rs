@@ -12,6 +12,7 @@ mod check;
 mod cuboid;
 mod disk;
 mod ellipsoid;
+mod filter;
 mod flat;
 mod material;
 mod plane;
@@ -31,6 +32,7 @@ pub use camera::{
 pub use cuboid::{CuboidTable, Slabs};
 pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use flat::Flat;
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
@@ -41,6 +43,7 @@ pub use pose::{
 };
 pub use rectangle::RectangleTable;
 pub use sampling::SamplingTable;
+pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
@@ -58,6 +61,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
+    FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     SphereTable::extract(scene)?;
