@@ -42,7 +42,6 @@ pub use pose::{
     world_from_entity,
 };
 pub use rectangle::RectangleTable;
-pub use sampling::SamplingTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;

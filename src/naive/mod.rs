@@ -4,11 +4,13 @@
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
 pub mod camera;
+pub mod cuboid;
 pub mod ellipsoid;
 pub mod entity_per_ray;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;
+pub mod flat;
 pub mod ndc;
 pub mod plane;
 pub mod screen;
