@@ -32,6 +32,8 @@ pub enum TileSystems {
     Surface,
     /// What a ray that met nothing brings back.
     Background,
+    /// What else is asked of a pixel is taken down, before the light goes on its way.
+    Layers,
     /// Rays from surfaces towards lights.
     Aim,
     /// Every light counts as seen, before anything is met on the way to it.
@@ -42,13 +44,15 @@ pub enum TileSystems {
     Shade,
     /// Where a reader asked to see a column, it is painted instead.
     View,
+    /// How far radiance lies from the mean of what the film holds, before it joins.
+    Moments,
     /// Radiance joins the film's sums.
     Film,
 }
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -59,11 +63,13 @@ impl TileSystems {
         Self::Classify,
         Self::Surface,
         Self::Background,
+        Self::Layers,
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
         Self::Shade,
         Self::View,
+        Self::Moments,
         Self::Film,
     ];
 

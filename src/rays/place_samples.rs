@@ -44,53 +44,70 @@ impl SampleSigns {
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleNumber(pub u32);
 
+/// On a tile's entity: the rows of its film that take part in the next run, ascending.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
+pub struct ActivePixels(pub Vec<u32>);
+
 // ANCHOR: place_samples
-/// Fills a tile's raster points with one sample of each of its pixels.
+/// Fills a tile's raster points with one sample of each of its active pixels.
 pub fn place_samples(
     sampling: Res<Shared<SamplingTable>>,
     filter: Res<Shared<FilterTable>>,
-    mut tiles: Query<(&Tile, &SampleNumber, &mut RasterPoints, &mut PixelSamples, Option<&mut SampleSigns>)>,
+    mut tiles: Query<(
+        &Tile,
+        &SampleNumber,
+        &ActivePixels,
+        &mut RasterPoints,
+        &mut PixelSamples,
+        Option<&mut SampleSigns>,
+    )>,
 ) {
-    for (tile, &SampleNumber(number), mut raster, mut samples, mut signs) in &mut tiles {
-        let rows = tile.rows();
+    for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples, mut signs) in &mut tiles {
+        let rows = active.len();
         let (of_pixel, sample) = samples.slices_mut(rows);
+        of_pixel.copy_from_slice(active);
         sample.fill(number);
-        of_pixel.iter_mut().zip(0..).for_each(|(pixel, row)| *pixel = row);
 
         let (xs, ys) = raster.slices_mut(rows);
         match sampling.sampler {
             Sampler::Independent => {
-                draw_points(Independent::new(number, 0, Purpose::Pixel), sampling.seed, tile, xs, ys)
+                draw_points(Independent::new(number, 0, Purpose::Pixel), sampling.seed, tile, active, xs, ys);
             }
             Sampler::Stratified => {
                 let draw = Stratified::new(number, sampling.samples, 0, Purpose::Pixel);
-                draw_points(draw, sampling.seed, tile, xs, ys);
+                draw_points(draw, sampling.seed, tile, active, xs, ys);
             }
-            Sampler::Sobol => draw_points(Sobol::new(number, 0, Purpose::Pixel), sampling.seed, tile, xs, ys),
+            Sampler::Sobol => {
+                draw_points(Sobol::new(number, 0, Purpose::Pixel), sampling.seed, tile, active, xs, ys);
+            }
         }
         let signs = signs.as_mut().map(|signs| signs.slices_mut(rows));
-        spread(&filter, tile, xs, ys, signs);
+        spread(&filter, tile, active, xs, ys, signs);
     }
 }
 // ANCHOR_END: place_samples
 
-/// Draws a point of the unit square for each pixel of a tile.
+/// Draws a point of the unit square for each active pixel of a tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn draw_points<D: Draw>(draw: D, seed: u64, tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
-    let lines = xs.chunks_mut(tile.width as usize).zip(ys.chunks_mut(tile.width as usize));
-    for (y, (xs, ys)) in (tile.y..).zip(lines) {
-        for (x, (across, down)) in (tile.x..).zip(xs.iter_mut().zip(ys)) {
-            let [right, below] = draw.two(PixelKey::new(seed, [x, y]));
-            (*across, *down) = (unit(right), unit(below));
-        }
+fn draw_points<D: Draw>(draw: D, seed: u64, tile: &Tile, active: &[u32], xs: &mut [f64], ys: &mut [f64]) {
+    for (&film_row, (across, down)) in active.iter().zip(xs.iter_mut().zip(ys)) {
+        let [right, below] = draw.two(PixelKey::new(seed, tile.pixel_of(film_row as usize)));
+        (*across, *down) = (unit(right), unit(below));
     }
 }
 
 /// Turns points of the unit square into raster points about their pixels' centres, spread as the filter weighs.
-fn spread(filter: &FilterTable, tile: &Tile, xs: &mut [f64], ys: &mut [f64], signs: Option<&mut [f32]>) {
+fn spread(
+    filter: &FilterTable,
+    tile: &Tile,
+    active: &[u32],
+    xs: &mut [f64],
+    ys: &mut [f64],
+    signs: Option<&mut [f32]>,
+) {
     match filter.filter {
-        Filter::Box { radius } => place(tile, xs, ys, |u| box_offset(u, radius)),
-        Filter::Tent { radius } => place(tile, xs, ys, |u| tent_offset(u, radius)),
+        Filter::Box { radius } => place(tile, active, xs, ys, |u| box_offset(u, radius)),
+        Filter::Tent { radius } => place(tile, active, xs, ys, |u| tent_offset(u, radius)),
         Filter::Gaussian { .. } | Filter::Mitchell { .. } | Filter::BlackmanHarris { .. } => {
             if let Some(signs) = signs {
                 for (sign, (x, y)) in signs.iter_mut().zip(xs.iter().zip(ys.iter())) {
@@ -98,20 +115,18 @@ fn spread(filter: &FilterTable, tile: &Tile, xs: &mut [f64], ys: &mut [f64], sig
                     *sign = if turned { -1.0 } else { 1.0 };
                 }
             }
-            place(tile, xs, ys, |u| table_offset(u, &filter.cells).0);
+            place(tile, active, xs, ys, |u| table_offset(u, &filter.cells).0);
         }
     }
 }
 
 /// A raster point is its pixel's centre and an offset, added in f64: no bit of a 24-bit number is lost up to pixel 2²⁸.
 #[inline(always)]
-fn place(tile: &Tile, xs: &mut [f64], ys: &mut [f64], offset: impl Fn(f64) -> f64) {
-    let lines = xs.chunks_mut(tile.width as usize).zip(ys.chunks_mut(tile.width as usize));
-    for (y, (xs, ys)) in (tile.y..).zip(lines) {
-        for (x, (across, down)) in (tile.x..).zip(xs.iter_mut().zip(ys)) {
-            *across = f64::from(x) + 0.5 + offset(*across);
-            *down = f64::from(y) + 0.5 + offset(*down);
-        }
+fn place(tile: &Tile, active: &[u32], xs: &mut [f64], ys: &mut [f64], offset: impl Fn(f64) -> f64) {
+    for (&film_row, (across, down)) in active.iter().zip(xs.iter_mut().zip(ys)) {
+        let [x, y] = tile.pixel_of(film_row as usize);
+        *across = f64::from(x) + 0.5 + offset(*across);
+        *down = f64::from(y) + 0.5 + offset(*down);
     }
 }
 

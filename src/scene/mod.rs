@@ -7,6 +7,7 @@
 //! Spaces: right-handed, y up; a camera looks down its own −z with +x to the right of the image.
 //! Units: lengths in scene units, angles in [`Degrees`], colours in linear Rec. 709.
 
+mod adaptive;
 mod angle;
 mod background;
 mod camera;
@@ -15,6 +16,7 @@ mod cuboid;
 mod disk;
 mod file;
 mod filter;
+mod layers;
 mod matte;
 mod name;
 mod placement;
@@ -27,6 +29,7 @@ mod resolution;
 mod sampling;
 mod sphere;
 
+pub use adaptive::Adaptive;
 pub use angle::Degrees;
 pub use background::Background;
 pub use bevy_ecs::entity_disabling::Disabled;
@@ -39,6 +42,7 @@ pub use disk::Disk;
 pub use file::{FileProblem, PlaceInFile, SceneFile, scene_text, words};
 pub use filter::Filter;
 pub use glam::DQuat;
+pub use layers::{LayerKind, Layers};
 pub use matte::{Matte, UsedByShapes, UsesMaterial};
 pub use name::called;
 pub use placement::{LookAt, Placement};

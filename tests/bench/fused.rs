@@ -16,7 +16,7 @@ use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origi
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::Refusal;
-use pinhole::shade::{reflected_radiance, shadow_reach};
+use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
 use std::sync::{Mutex, PoisonError};
 
 /// Spheres tested together.
@@ -121,7 +121,9 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
-            let brings = reflected_radiance(colour, scene.lights.intensity[light], cosine, distance * distance);
+            let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
+            // The kit keeps irradiance in a column of f32.
+            let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;
             }

@@ -1,6 +1,6 @@
 use crate::scene::{
-    Background, Cuboid, Disk, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Rectangle, Resolution, Sampling, Sphere, Statistics, View,
+    Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
+    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -26,9 +26,11 @@ const WORDS: &[Word] = &[
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
+    Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
+    Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),
 ];
 // ANCHOR_END: words
