@@ -14,10 +14,7 @@ mod disk;
 mod ellipsoid;
 mod filter;
 mod flat;
-<<<<<<< HEAD
-=======
 mod layers;
->>>>>>> issue4
 mod material;
 mod plane;
 mod point_light;
@@ -38,10 +35,7 @@ pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use flat::Flat;
-<<<<<<< HEAD
-=======
 pub use layers::{LayerTable, layer_evidence};
->>>>>>> issue4
 pub use material::{MaterialKind, MaterialTable};
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
