@@ -58,7 +58,7 @@ mod chapter;
 mod error;
 
 pub use attempt::{Attempt, StageWords};
-pub use chapter::{Asked, Chapter};
+pub use chapter::{Asked, AskedSampling, Chapter};
 pub use error::{Error, Result};
 
 /// What a chapter's `main` calls: reads the command line, renders the chapter or looks inside it.

@@ -30,6 +30,8 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// Normals by which light falls, where they are not the surfaces' own.
+    Normal,
     /// What a ray that met nothing brings back.
     Background,
     /// What else is asked of a pixel is taken down, before the light goes on its way.
@@ -52,7 +54,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -62,6 +64,7 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Normal,
         Self::Background,
         Self::Layers,
         Self::Aim,

@@ -2,7 +2,7 @@ use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{MaterialTable, material_evidence};
 use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::scene::PointLight;
+use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
@@ -39,6 +39,12 @@ impl LightRays {
     /// The direction: each part from −1 to 1 becomes 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+
+    /// The direction of a ray, exact in f64.
+    #[inline(always)]
+    pub fn direction_of(&self, ray: usize) -> DVec3 {
+        DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
     /// The irradiance that a ray brings.
@@ -122,7 +128,9 @@ pub(super) fn append_rays(
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
         reach[at] = ray.reach;
         [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
-        at += usize::from(ray.aimed.cosine > 0.0 && ray.aimed.distance > 0.0);
+        // Nearer than that the square of the distance is no ordinary number; no direction leads there.
+        let apart = ray.aimed.distance * ray.aimed.distance >= f64::MIN_POSITIVE;
+        at += usize::from(ray.aimed.cosine > 0.0 && apart);
     }
     if !casts_shadows {
         reach[length..at].fill(0.0);
@@ -189,5 +197,6 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    Evidence::of::<PointLight>(scene, "light")
+    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
+    Evidence::among::<Light>(scene, "light", |_| true)
 }

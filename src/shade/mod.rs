@@ -5,33 +5,51 @@
 //! Space: render space.
 
 mod background;
+mod blinn_phong;
 mod colour;
+mod directional_light;
+mod emissive;
 mod flat;
+mod highlight;
 mod light;
+mod phong;
 mod point_light;
 mod radiance;
 mod shadow;
+mod spot_light;
 
 pub use background::{add_background, background_stage};
+pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
 pub use colour::SurfaceColours;
+pub use directional_light::{aim_at_directional_lights, directional_light_stage, irradiance_from_direction};
+pub use emissive::{add_emission, emissive_stage};
 pub use flat::{flat_stage, shade_flat};
+pub use highlight::highlight;
 pub use light::{LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage};
+pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
     ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
-    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
 };
+pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 
 use crate::plan::Stage;
 
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), start_light_stage(), background_stage(), flat_stage()];
-    stages.extend([point_light_stage(), start_shadow_stage()]);
-    stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage(), plane_shadow_stage()]);
-    stages.extend([disk_shadow_stage(), rectangle_shadow_stage(), cuboid_shadow_stage()]);
-    stages.push(light_stage());
+    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), start_shadow_stage()]);
+    stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
+    stages.extend([
+        plane_shadow_stage(),
+        disk_shadow_stage(),
+        rectangle_shadow_stage(),
+        cuboid_shadow_stage(),
+        triangle_shadow_stage(),
+    ]);
+    stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
     stages
 }
 

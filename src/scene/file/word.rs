@@ -1,6 +1,7 @@
 use crate::scene::{
-    Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
-    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, View,
+    Adaptive, Background, BlinnPhong, Cuboid, DirectionalLight, Disk, Emissive, Layers, LookAt, Matte,
+    OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Resolution, Sampling,
+    Sphere, SpotLight, Statistics, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -21,13 +22,19 @@ const WORDS: &[Word] = &[
     Word::of::<Disk>("disk"),
     Word::of::<Rectangle>("rectangle"),
     Word::of::<Cuboid>("cuboid"),
+    Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
+    Word::of::<DirectionalLight>("directional_light"),
+    Word::of::<SpotLight>("spot_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
+    Word::of::<Phong>("phong"),
+    Word::of::<BlinnPhong>("blinn_phong"),
+    Word::of::<Emissive>("emissive"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
     Word::of::<Layers>("layers"),
