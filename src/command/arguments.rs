@@ -1,7 +1,7 @@
 use crate::chapter::{Asked, AskedSampling};
+use crate::extract::MOST_SAMPLES;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::extract::MOST_SAMPLES;
 use crate::scene::{Filter, Resolution, Sampler, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;

@@ -2,8 +2,8 @@
 
 use super::bench::{Bench, plane_table, sphere_table};
 use crate::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable, ShapeKind,
-    ShapeTable,
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
+    ShapeKind, ShapeTable,
 };
 use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
