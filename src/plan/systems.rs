@@ -54,7 +54,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: &[Self] = &[
         Self::Raster,
         Self::Ndc,
         Self::Screen,
