@@ -42,7 +42,9 @@ fn registry(offer: &[Stage]) -> (Vec<ColumnKind>, Vec<TableKind>) {
     let (mut columns, mut tables) = (Vec::new(), Vec::new());
     for stage in offer {
         columns.extend(stage.writes.iter().filter(|column| !columns.contains(*column)).copied().collect::<Vec<_>>());
-        tables.extend(stage.tables.iter().filter(|table| !tables.contains(*table)).copied().collect::<Vec<_>>());
+        let beside = stage.tables_with.iter().map(|(table, _)| table);
+        let known = stage.tables.iter().chain(beside).filter(|table| !tables.contains(*table));
+        tables.extend(known.copied().collect::<Vec<_>>());
     }
     (columns, tables)
 }
@@ -185,7 +187,8 @@ fn stages_declare_what_their_systems_touch() {
         let name = |column: &ColumnKind| format!("column {}", column.name);
         let writes: BTreeSet<String> = stage.writes.iter().map(name).collect();
         let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).map(name).collect();
-        reads.extend(stage.tables.iter().map(|table| format!("table {}", table.name)));
+        let beside = stage.tables_with.iter().map(|(table, _)| table);
+        reads.extend(stage.tables.iter().chain(beside).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
             // Its rays have origins only where the orthographic stage, an alternative, has brought its table.

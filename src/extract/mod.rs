@@ -8,6 +8,7 @@
 
 mod background;
 mod blinn_phong;
+mod bounds;
 mod camera;
 mod check;
 mod cuboid;
@@ -34,6 +35,7 @@ mod uv_space;
 
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
+pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
