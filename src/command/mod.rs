@@ -22,6 +22,7 @@ mod plan;
 mod planted;
 mod refused;
 mod render;
+mod report;
 mod review;
 mod span;
 mod subject;
@@ -30,6 +31,7 @@ mod trace;
 mod watch;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
+pub use report::has_report;
 
 use crate::chapter::Chapter;
 use crate::{Error, Result};
@@ -69,6 +71,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
         Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
+        Some(Command::Report(asked)) => report::report(chapters, &asked, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, out),
         Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, out),

@@ -9,6 +9,7 @@
 mod adaptive;
 mod background;
 mod blinn_phong;
+mod bounds;
 mod camera;
 mod check;
 mod cuboid;
@@ -46,6 +47,7 @@ mod uv_space;
 pub use adaptive::{adaptive_of, check_layers};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
+pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,

@@ -5,11 +5,13 @@
 
 pub mod adaptive;
 pub mod camera;
+pub mod cuboid;
 pub mod ellipsoid;
 pub mod entity_per_ray;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;
+pub mod flat;
 pub mod ndc;
 pub mod plane;
 pub mod screen;

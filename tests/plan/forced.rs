@@ -26,6 +26,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         .map(|on| (format!("{on:?}"), toggled(&on)))
         .collect();
     for eye in EYES {
+        scenes.push((format!("pieces, {eye:?}"), pieces(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
     }
@@ -89,6 +90,7 @@ fn forcing_a_needed_stage_off_shows() {
     let witnesses: Vec<(&str, World)> = vec![
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
+        ("pieces", pieces(Setup { size, ..Setup::default() })),
         ("stretched", stretched(Setup { size, ..Setup::default() })),
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
