@@ -1,4 +1,4 @@
-use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution};
+use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution, workers};
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};

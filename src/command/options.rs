@@ -122,7 +122,7 @@ pub fn pixel(text: &str) -> Result<TracePixel, String> {
     Ok(TracePixel { x, y })
 }
 
-fn workers(text: &str) -> Result<u16, String> {
+pub fn workers(text: &str) -> Result<u16, String> {
     let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
     number.ok_or("a number of workers is a whole number from 1 to 1024".into())
 }

@@ -1,10 +1,11 @@
+use crate::film::FIRST_SAMPLE_STEPS;
 use crate::rays::Tile;
 
 /// The lattices of a picture's first sample, by the distance of their pixels: low resolution first.
-pub const LATTICES: [u32; 4] = [8, 4, 2, 1];
+pub const LATTICES: [u32; FIRST_SAMPLE_STEPS as usize] = [8, 4, 2, 1];
 
 /// The step after which every pixel has its first sample.
-pub const WHOLE: u32 = LATTICES.len() as u32;
+pub const WHOLE: u32 = FIRST_SAMPLE_STEPS;
 
 /// How many steps bring every pixel to this many samples: the first sample takes four, each further one.
 pub fn steps_of(samples: u32) -> u32 {
