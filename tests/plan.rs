@@ -261,7 +261,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
-        ("lamp", &["Aim at lights", "Start with light seen", "Add the light that arrives"]),
+        ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
     let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
@@ -293,7 +293,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Aim at lights", "Start with light seen", "Add the light that arrives"] {
+    for stage in ["Aim at point lights", "Start with light seen", "Add the light that arrives"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
@@ -329,7 +329,7 @@ fn reasons_name_the_first_three() {
         ("Classify hits", vec![&spheres, &panes]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
-        ("Aim at lights", vec![&lamps, &mattes]),
+        ("Aim at point lights", vec![&lamps, &mattes]),
         ("Start with light seen", vec![&lamps, &mattes]),
         ("Look for spheres in the way", vec![&balls, &lamps]),
         ("Look for planes in the way", vec![&panes, &lamps]),

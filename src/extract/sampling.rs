@@ -18,6 +18,13 @@ pub struct SamplingTable {
     pub sampler: Sampler,
 }
 
+impl SamplingTable {
+    /// The same with another seed, for samples that are to be independent of these whatever the sampler.
+    pub fn for_pilot(self) -> Self {
+        Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x50_494C_4F54, ..self }
+    }
+}
+
 impl Table for SamplingTable {
     const NAME: &'static str = "sampling";
 

@@ -1,3 +1,4 @@
+use super::{FilmLayers, FilmMoments};
 use crate::plan::{Column, Lane, LaneValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
@@ -18,6 +19,8 @@ pub struct Rejected {
 
 /// The film of one tile: sums in f64 and the count of samples, a row a pixel.
 ///
+/// All samples are summed alike; those that count negatively are summed once more by themselves, so that both their
+/// weighted mean and the plain one can be told, and a tile without any keeps nothing for them.
 /// Sums are added to in the order of the samples, so neither threads nor tile size can change a bit of them.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
@@ -31,6 +34,11 @@ pub struct FilmTile {
     pub b: Vec<f64>,
     /// Samples summed.
     pub count: Vec<u32>,
+    /// Of the samples that count negatively, where the filter is negative in places: the sums of their red, green and
+    /// blue radiance; empty before the first of them.
+    pub negative: [Vec<f64>; 3],
+    /// How many of the samples count negatively; empty before the first.
+    pub negative_count: Vec<u32>,
     /// How many samples could not join.
     pub rejected: u64,
     /// The first of them.
@@ -45,10 +53,16 @@ impl FilmTile {
         Self { tile, r: zeros(), g: zeros(), b: zeros(), count: vec![0; rows], ..Self::default() }
     }
 
+    /// Whether a sample is light: no part of it negative or not finite.
+    #[inline(always)]
+    pub fn takes(radiance: [f32; 3]) -> bool {
+        radiance.iter().all(|&part| (0.0..f32::INFINITY).contains(&part))
+    }
+
     /// Adds a sample to a row, or rejects it where a part is negative or not finite.
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
-        if radiance.iter().all(|&part| (0.0..f32::INFINITY).contains(&part)) {
+        if Self::takes(radiance) {
             self.r[row] += f64::from(radiance[0]);
             self.g[row] += f64::from(radiance[1]);
             self.b[row] += f64::from(radiance[2]);
@@ -67,10 +81,67 @@ impl FilmTile {
         }
     }
 
-    /// The mean radiance of a row; black where no sample joined.
+    /// Adds a sample that counts negatively, or rejects it.
+    #[inline(never)]
+    pub fn add_negative(&mut self, row: usize, radiance: [f32; 3]) {
+        self.add(row, radiance);
+        if Self::takes(radiance) {
+            let rows = self.rows();
+            self.negative_count.resize(rows, 0);
+            self.negative_count[row] += 1;
+            for (sums, part) in self.negative.iter_mut().zip(radiance) {
+                sums.resize(rows, 0.0);
+                sums[row] += f64::from(part);
+            }
+        }
+    }
+
+    /// The radiance of a row as it is developed: the mean of its samples, each counted as the filter weighs it; black where
+    /// no sample joined.
+    ///
+    /// Where the weights' sum is not above 0, as it can be after a few samples of a filter that is negative in places, it is
+    /// the plain mean.
+    /// Where such a filter rings below 0, it is 0.
     pub fn mean(&self, row: usize) -> [f32; 3] {
+        self.weighted(row).unwrap_or_else(|| self.mean_f64(row)).map(|part| part.max(0.0) as f32)
+    }
+
+    /// The sum of a row's weights: its samples, less those that count negatively once, and once more.
+    pub fn weight(&self, row: usize) -> i64 {
+        let negative = self.negative_count.get(row).copied().unwrap_or(0);
+        i64::from(self.count[row]) - 2 * i64::from(negative)
+    }
+
+    /// The weighted mean of a row, which can be below 0; none where the weights' sum is not above 0.
+    pub fn weighted(&self, row: usize) -> Option<[f64; 3]> {
+        let weight = self.weight(row);
+        if weight <= 0 {
+            return None;
+        }
+        Some(self.weighted_sums(row).map(|sum| sum / weight as f64))
+    }
+
+    /// The sums of a row, each sample with its sign.
+    pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
+        let negative = |part: usize| self.negative[part].get(row).copied().unwrap_or(0.0);
+        [self.r[row] - 2.0 * negative(0), self.g[row] - 2.0 * negative(1), self.b[row] - 2.0 * negative(2)]
+    }
+
+    /// The plain mean of a row's samples, unrounded, whatever they count for.
+    #[inline(always)]
+    pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
-        [self.r[row] / count, self.g[row] / count, self.b[row] / count].map(|part| part as f32)
+        [self.r[row] / count, self.g[row] / count, self.b[row] / count]
+    }
+
+    /// All lanes of sums, for checkpoints.
+    pub fn sums(&self) -> [&Vec<f64>; 3] {
+        [&self.r, &self.g, &self.b]
+    }
+
+    /// The same, to be filled.
+    pub fn sums_mut(&mut self) -> [&mut Vec<f64>; 3] {
+        [&mut self.r, &mut self.g, &mut self.b]
     }
 }
 
@@ -78,19 +149,26 @@ impl Column for FilmTile {
     const NAME: &'static str = "pixel";
     const SPACE: &'static str = "film";
     const UNIT: &'static str = "summed linear Rec. 709";
-    const LIFETIME: Lifetime = Lifetime::Pixel;
+    const LIFETIME: Lifetime = Lifetime::Film;
 
     fn rows(&self) -> usize {
         self.count.len()
     }
 
     fn lanes(&self) -> Vec<Lane<'_>> {
-        vec![
+        let mut lanes = vec![
             Lane { name: "r", values: LaneValues::F64(&self.r) },
             Lane { name: "g", values: LaneValues::F64(&self.g) },
             Lane { name: "b", values: LaneValues::F64(&self.b) },
             Lane { name: "count", values: LaneValues::U32(&self.count) },
-        ]
+        ];
+        if !self.negative_count.is_empty() {
+            let names = ["negative_r", "negative_g", "negative_b"];
+            let sums = names.into_iter().zip(&self.negative);
+            lanes.extend(sums.map(|(name, sums)| Lane { name, values: LaneValues::F64(sums) }));
+            lanes.push(Lane { name: "negative_count", values: LaneValues::U32(&self.negative_count) });
+        }
+        lanes
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
@@ -99,7 +177,9 @@ impl Column for FilmTile {
 }
 
 /// The whole film: its tiles in rows of tiles, so that each can be lent to a worker.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// All of it persists: it is what a checkpoint holds.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Film {
     /// Pixels from left to right.
     pub width: u32,
@@ -109,6 +189,16 @@ pub struct Film {
     pub tile_side: u32,
     /// The tiles, left to right, then down.
     pub tiles: Vec<FilmTile>,
+    /// The second moments of each tile; none where nothing asks for them.
+    pub moments: Vec<FilmMoments>,
+    /// The layers of each tile; none where nothing asks for them.
+    pub layers: Vec<FilmLayers>,
+    /// How many steps of the render each tile has behind it.
+    pub done: Vec<u32>,
+    /// Whether its samples are those that only decide how many each pixel gets.
+    pub pilot: bool,
+    /// Samples that each pixel is to get, tile by tile, where that has been decided.
+    pub planned: Vec<Vec<u32>>,
 }
 
 impl Film {
@@ -121,14 +211,57 @@ impl Film {
                 tiles.push(FilmTile::new(Tile { x, y, width, height }));
             }
         }
-        Self { width, height, tile_side, tiles }
+        Self { width, height, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
     }
 
     /// The mean radiance of a pixel, linear Rec. 709.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
+        let (tile, row) = self.place(x, y);
+        self.tiles[tile].mean(row)
+    }
+
+    /// The tile that holds a pixel, and the pixel's row in it.
+    pub fn place(&self, x: u32, y: u32) -> (usize, usize) {
         let across = self.width.div_ceil(self.tile_side);
-        let tile = &self.tiles[(y / self.tile_side * across + x / self.tile_side) as usize];
-        tile.mean(((y - tile.tile.y) * tile.tile.width + (x - tile.tile.x)) as usize)
+        let number = (y / self.tile_side * across + x / self.tile_side) as usize;
+        let tile = &self.tiles[number].tile;
+        (number, ((y - tile.y) * tile.width + (x - tile.x)) as usize)
+    }
+
+    /// How much the mean of a pixel would vary from one render to another with other random numbers: red, green, blue;
+    /// 0 where fewer than two samples tell.
+    ///
+    /// Where some of n samples count negatively, so that the weights' sum is W, it is that of a ratio to first order:
+    /// (n V + n (M − R)²) / W² with the variance V of a sample, the plain mean M and the weighted mean R.
+    pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
+        let film = &self.tiles[tile];
+        let (count, weight) = (film.count[row], film.weight(row));
+        let variance = self.moments.get(tile).map_or([0.0; 3], |moments| moments.variance(row, count));
+        let n = f64::from(count.max(1));
+        match film.weighted(row) {
+            Some(weighted) if weight < i64::from(count) => {
+                let plain = film.mean_f64(row);
+                let apart = [0, 1, 2].map(|part| plain[part] - weighted[part]);
+                let share = n / (weight as f64 * weight as f64);
+                [0, 1, 2].map(|part| (variance[part] + apart[part] * apart[part]) * share)
+            }
+            _ => variance.map(|part| part / n),
+        }
+    }
+
+    /// Where a filter that is negative in places leaves traces: pixels whose weights' sum is not above 0, though samples
+    /// joined, and pixels a part of which came out below 0.
+    pub fn weighed_out(&self) -> (usize, usize) {
+        let signed = self.tiles.iter().filter(|tile| !tile.negative_count.is_empty());
+        let (mut without, mut below) = (0, 0);
+        for tile in signed {
+            for row in 0..tile.rows() {
+                let weighted = tile.weighted(row);
+                without += usize::from(weighted.is_none() && tile.count[row] > 0);
+                below += usize::from(weighted.is_some_and(|parts| parts.iter().any(|&part| part < 0.0)));
+            }
+        }
+        (without, below)
     }
 
     /// All samples that could not join: how many, and the first few.
@@ -140,6 +273,7 @@ impl Film {
     /// Bytes that its sums and counts take, and what holds them together.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
-        self.tiles.iter().map(|tile| tile.rows() * a_row + size_of::<FilmTile>()).sum()
+        let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
+        self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum()
     }
 }

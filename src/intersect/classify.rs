@@ -1,6 +1,6 @@
 use super::hits::shape_evidence;
 use super::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
-use crate::extract::{ShapeKind, ShapeTable};
+use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 
@@ -53,10 +53,28 @@ column! {
 }
 
 column! {
+    /// The rows that hit a triangle, ascending.
+    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
     /// The rows whose surface sends on light, ascending.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
+    }
+}
+
+column! {
+    /// The rows whose surface emits light, ascending.
+    pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+        /// The row of the table of emissive surfaces.
+        emissive: u32,
     }
 }
 
@@ -73,12 +91,28 @@ pub fn classify_hits(
         Option<&mut DiskRows>,
         Option<&mut RectangleRows>,
         Option<&mut CuboidRows>,
+        Option<&mut TriangleRows>,
         Option<&mut MaterialRows>,
+        Option<&mut EmissiveRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, materials, surfaces, uvs) in &mut tiles {
+    for (
+        hits,
+        spheres,
+        ellipsoids,
+        planes,
+        disks,
+        rectangles,
+        cuboids,
+        triangles,
+        materials,
+        emissive,
+        surfaces,
+        uvs,
+    ) in &mut tiles
+    {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
         }
@@ -97,8 +131,17 @@ pub fn classify_hits(
         if let Some(mut list) = cuboids {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Cuboid);
         }
+        if let Some(mut list) = triangles {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
+        }
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |_| true);
+            list_rows(hits, &mut list.row, |shape| shapes.material[shape] != NO_ROW);
+        }
+        if let Some(mut list) = emissive {
+            let list = &mut *list;
+            list_rows(hits, &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
+            list.emissive.clear();
+            list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
         if let Some(mut surfaces) = surfaces {
             blank_misses(hits, &mut surfaces);
@@ -150,6 +193,12 @@ impl PlaneRows {
     }
 }
 
+impl EmissiveRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl DiskRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -163,6 +212,12 @@ impl RectangleRows {
 }
 
 impl CuboidRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl TriangleRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
     }
@@ -184,7 +239,9 @@ pub fn classify_stage() -> Stage {
         .writes::<DiskRows>()
         .writes::<RectangleRows>()
         .writes::<CuboidRows>()
+        .writes::<TriangleRows>()
         .writes::<MaterialRows>()
+        .writes::<EmissiveRows>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
         .table::<ShapeTable>()

@@ -14,3 +14,4 @@ pub mod plane;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;
+pub mod triangle;

@@ -36,6 +36,8 @@ pub struct Stage {
     pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
+    /// Whether it appends rows to what it writes, where others have appended theirs before.
+    pub appends: bool,
     /// Tables it reads.
     pub tables: Vec<TableKind>,
     /// Tables it reads where the scene gives a reason for them.
@@ -65,6 +67,7 @@ impl Stage {
             reads_if: Vec::new(),
             reads_where: Vec::new(),
             writes: Vec::new(),
+            appends: false,
             tables: Vec::new(),
             tables_where: Vec::new(),
             tables_with: Vec::new(),
@@ -96,6 +99,12 @@ impl Stage {
     pub fn writes<C: Column>(mut self) -> Self {
         self.writes.push(ColumnKind::of::<C>());
         self
+    }
+
+    /// It appends rows to this column, which cannot exist without a stage that empties it first.
+    pub fn appends<C: Column>(mut self) -> Self {
+        self.appends = true;
+        self.reads::<C>().writes::<C>()
     }
 
     /// It reads this table.

@@ -30,6 +30,8 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// Normals by which light falls, where they are not the surfaces' own.
+    Normal,
     /// What a pixel covers of the surface.
     Footprint,
     /// Each surface's own colour, and where on its texture it is.
@@ -38,6 +40,8 @@ pub enum TileSystems {
     Texture,
     /// What a ray that met nothing brings back.
     Background,
+    /// What else is asked of a pixel is taken down, before the light goes on its way.
+    Layers,
     /// Rays from surfaces towards lights.
     Aim,
     /// Every light counts as seen, before anything is met on the way to it.
@@ -48,13 +52,15 @@ pub enum TileSystems {
     Shade,
     /// Where a reader asked to see a column, it is painted instead.
     View,
+    /// How far radiance lies from the mean of what the film holds, before it joins.
+    Moments,
     /// Radiance joins the film's sums.
     Film,
 }
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: &[Self] = &[
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -64,15 +70,18 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Normal,
         Self::Footprint,
         Self::Colour,
         Self::Texture,
         Self::Background,
+        Self::Layers,
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
         Self::Shade,
         Self::View,
+        Self::Moments,
         Self::Film,
     ];
 

@@ -1,8 +1,8 @@
+use super::light::light_evidence;
 use super::{Radiance, SurfaceColours};
-use crate::extract::{MaterialTable, material_evidence};
+use crate::extract::{MaterialTable, emissive_evidence, material_evidence};
 use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
 
 // ANCHOR: shade_flat
@@ -35,8 +35,8 @@ pub fn flat_stage() -> Stage {
         .table::<MaterialTable>()
         .when(|scene| {
             let material = shown_evidence(scene);
-            let lights = Evidence::of::<PointLight>(scene, "point light");
-            if material.needed { Evidence { needed: !lights.needed, ..lights }.and(material) } else { material }
+            let shining = light_evidence(scene).or(emissive_evidence(scene));
+            if material.needed { Evidence { needed: !shining.needed, ..shining }.and(material) } else { material }
         })
 }
 

@@ -1,14 +1,14 @@
 use super::LightRays;
 use crate::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, material_evidence,
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
-    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, rectangle_evidence,
-    sphere_evidence,
+    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, intersect_triangles,
+    rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{Plane, PointLight};
+use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -124,10 +124,24 @@ pub fn cuboid_shadow_stage() -> Stage {
         .when(|scene| cuboid_evidence(scene).and(shadow_evidence(scene)))
 }
 
+/// The stage that intersects shadow rays with triangles.
+pub fn triangle_shadow_stage() -> Stage {
+    let intersect = intersect_triangles::<LightRays, ShadowHits>;
+    Stage::new("Look for triangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<TriangleTable>()
+        .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
+}
+
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among::<With<PointLight>>(scene, "shadow-casting light", |entity| {
+    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
+    Evidence::among::<Light>(scene, "shadow-casting light", |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     })
     .and(material_evidence(scene))
 }

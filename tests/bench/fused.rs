@@ -8,15 +8,15 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
-    ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, DirectionalLightTable, ImageShape, MaterialKind, MaterialTable, PinholeLens,
+    PlaneTable, PointLightTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::Refusal;
-use pinhole::shade::{reflected_radiance, shadow_reach};
+use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
 use std::sync::{Mutex, PoisonError};
 
 /// Spheres tested together.
@@ -44,6 +44,10 @@ impl Scene {
         let kinds = ShapeTable::extract(world)?.kind;
         let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
         assert!(known, "the scenes that are measured hold spheres and planes only");
+        let materials: MaterialTable = Table::extract(world)?;
+        assert!(materials.kind.iter().all(|&kind| kind == MaterialKind::Matte), "they hold matte things");
+        let (directional, spot) = (DirectionalLightTable::extract(world)?, SpotLightTable::extract(world)?);
+        assert!(directional.to_light.is_empty() && spot.position.is_empty(), "and point lights");
         Ok(Self {
             image: Table::extract(world)?,
             lens: Table::extract(world)?,
@@ -51,7 +55,7 @@ impl Scene {
             spheres: Table::extract(world)?,
             planes: Table::extract(world)?,
             shapes: Table::extract(world)?,
-            materials: Table::extract(world)?,
+            materials,
             lights: Table::extract(world)?,
             background: Table::extract(world)?,
         })
@@ -121,7 +125,9 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
-            let brings = reflected_radiance(colour, scene.lights.intensity[light], cosine, distance * distance);
+            let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
+            // The kit keeps irradiance in a column of f32.
+            let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;
             }
