@@ -3,7 +3,7 @@
 mod scenes;
 
 use bevy_ecs::prelude::*;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use pinhole::extract::SamplingTable;
 use pinhole::film::{Curve, Film, write_exr, write_png};
 use pinhole::intersect::Hits;
@@ -39,6 +39,11 @@ fn shape(world: &mut World, number: usize, checker: Checker) {
         2 => world.spawn((Plane { normal: DVec3::new(0.3, 1.0, 0.4) }, placed)),
         3 => world.spawn((Disk::default(), placed)),
         4 => world.spawn((Rectangle::default(), placed)),
+        5 => {
+            let vertices = [DVec3::new(-1.0, -0.5, -1.0), DVec3::new(1.0, 0.2, -1.5), DVec3::new(0.3, -0.3, 1.8)];
+            let uvs = Some([DVec2::new(0.1, 0.2), DVec2::new(0.9, 0.3), DVec2::new(0.4, 1.3)]);
+            world.spawn((Triangle { vertices, uvs, ..Triangle::default() }, placed))
+        }
         _ => world.spawn((Cuboid::default(), placed)),
     };
 }
@@ -48,7 +53,7 @@ fn a_step_ends_where_the_neighbour_s_point_is() {
     let (mut tried, mut worst) = (0, 0.0_f64);
     for eye in EYES {
         for by in [TextureBy::Uv, TextureBy::Space] {
-            for number in 0..6 {
+            for number in 0..7 {
                 let mut world = close_up(eye, DVec3::new(1.5, 2.5, 3.0), DVec3::new(0.4, -0.1, 0.3));
                 shape(&mut world, number, Checker { by, size: 0.25, ..Checker::default() });
                 let inspection = inspect(&world, &offer(), 32).expect("inspects");
