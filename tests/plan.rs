@@ -4,6 +4,8 @@ mod scenes;
 
 #[path = "plan/forced.rs"]
 mod forced;
+#[path = "plan/textures.rs"]
+mod textures;
 #[path = "plan/views.rs"]
 mod views;
 
@@ -23,7 +25,7 @@ use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world,
-    singles_and_pairs, stretched, toggled,
+    singles_and_pairs, stretched, textured, toggled,
 };
 use std::collections::BTreeSet;
 
@@ -43,6 +45,11 @@ fn registry(offer: &[Stage]) -> (Vec<ColumnKind>, Vec<TableKind>) {
     for stage in offer {
         columns.extend(stage.writes.iter().filter(|column| !columns.contains(*column)).copied().collect::<Vec<_>>());
         tables.extend(stage.tables.iter().filter(|table| !tables.contains(*table)).copied().collect::<Vec<_>>());
+        for (table, _) in &stage.tables_where {
+            if !tables.contains(table) {
+                tables.push(*table);
+            }
+        }
     }
     (columns, tables)
 }
@@ -184,8 +191,10 @@ fn stages_declare_what_their_systems_touch() {
         }
         let name = |column: &ColumnKind| format!("column {}", column.name);
         let writes: BTreeSet<String> = stage.writes.iter().map(name).collect();
-        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).map(name).collect();
-        reads.extend(stage.tables.iter().map(|table| format!("table {}", table.name)));
+        let asked = stage.reads_where.iter().map(|(column, _)| column);
+        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).chain(asked).map(name).collect();
+        let asked = stage.tables_where.iter().map(|(table, _)| table);
+        reads.extend(stage.tables.iter().chain(asked).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
             // Its rays have origins only where the orthographic stage, an alternative, has brought its table.

@@ -50,7 +50,7 @@ fn scene(world: &mut World) {
     let file = "chapters/16_textures/evening.hdr".into();
     world.spawn((Name::new("evening"), Environment { file, turn: Degrees(-50.0), scale: 1.0 }));
     let sun = DirectionalLight { irradiance: Rgb::new(2.6, 1.8, 1.1), ..DirectionalLight::default() };
-    let from = LookAt { eye: [0.973, 0.4, 0.3].into(), target: DVec3::ZERO, ..LookAt::default() };
+    let from = LookAt { eye: [0.973, 0.4, 0.3].into(), target: [0.0; 3].into(), ..LookAt::default() };
     world.spawn((Name::new("sun"), sun, from));
     let sky = PointLight { intensity: Rgb::new(26.0, 30.0, 38.0), casts_shadows: false };
     world.spawn((Name::new("sky light"), sky, Placement::at(-3.0, 5.0, 5.0)));

@@ -53,7 +53,6 @@ impl UvSlope {
     }
 }
 
-// ANCHOR: round_step
 /// How much longitude over 2π and the angle from the top over π change along a step from a point.
 ///
 /// The derivatives of the two arc tangents that they are.
@@ -66,7 +65,6 @@ fn round_step(own: DVec3, step: DVec3) -> DVec3 {
     let from_top = (own.y * outward - across * step.y) / (across_squared + own.y * own.y);
     DVec3::new(longitude / TAU, from_top / PI, 0.0)
 }
-// ANCHOR_END: round_step
 
 /// That of a triangle with these two edges from its first corner, by u and v of its corners.
 fn flat_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {

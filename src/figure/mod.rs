@@ -8,6 +8,7 @@
 //! Beside them, the [images](DRAWN_IMAGES) that chapters read from files are drawn here.
 
 mod acne;
+mod aliasing;
 mod drawn_image;
 mod field_of_view;
 mod gallery;
@@ -69,7 +70,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 17] {
+pub fn figures() -> [Figure; 18] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -158,6 +159,12 @@ pub fn figures() -> [Figure; 17] {
             chapter: "10_light_and_shadow",
             about: "shadow rays that start where textbooks have them, in three sizes of one scene",
             draw: acne::draw,
+        },
+        Figure {
+            name: "16_aliasing",
+            chapter: "16_textures",
+            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+            draw: aliasing::draw,
         },
     ]
 }

@@ -52,7 +52,6 @@ pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
 }
 // ANCHOR_END: bilinear
 
-// ANCHOR: trilinear
 /// The colour about a point of the unit square over this many texels' width, blended from the two levels whose texels are
 /// nearest in size.
 pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 3] {
@@ -63,7 +62,6 @@ pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 
     let share = level - level.floor();
     if share == 0.0 { below } else { between(below, bilinear(&pyramid.levels[lower + 1], at, wrap), share) }
 }
-// ANCHOR_END: trilinear
 
 /// The most lookups that a long footprint gets.
 const MOST_LOOKUPS: f64 = 16.0;

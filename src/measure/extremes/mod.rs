@@ -21,6 +21,7 @@ mod shadow;
 mod shadow_stages;
 mod sphere;
 mod sphere_limits;
+mod texture;
 mod transform;
 mod transform_aim;
 mod transform_placement;
@@ -47,13 +48,16 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Textures and environments: what a pixel covers, its mean, edges of images.
+    Texture,
     /// Films: sums of samples, bytes of pictures.
     Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
+    pub const ALL: &[Self] =
+        &[Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Texture, Self::Film];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -66,6 +70,7 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
+            Self::Texture => texture::trials(),
             Self::Film => film::trials(),
         }
     }
@@ -79,6 +84,7 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Texture => "texture",
             Self::Film => "film",
         })
     }
@@ -88,8 +94,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
-        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
+        let names = || Self::ALL.iter().map(Self::to_string).collect::<Vec<_>>().join(", ");
+        Self::ALL.iter().copied().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 
