@@ -33,7 +33,7 @@ fn scene(world: &mut World) {
     let card = || ImageTexture { file: "chapters/16_textures/card.png".into(), ..ImageTexture::default() };
     let ball = (Sphere { radius: 0.9 }, Placement::at(-0.3, 0.9, 0.4));
     world.spawn((Name::new("ball"), ball, Matte::default(), card()));
-    let upright = DQuat::from_rotation_y(0.5) * DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    let upright = DQuat::from_xyzw(0.685, 0.175, -0.175, 0.685).normalize();
     let panel = Placement { orientation: upright, ..Placement::at(-2.4, 0.9, -0.6) };
     world.spawn((Name::new("panel"), Rectangle { width: 1.8, depth: 1.8 }, panel, Matte::default(), card()));
 
@@ -44,7 +44,7 @@ fn scene(world: &mut World) {
         across: [1.0, 2.0, 1.0].into(),
         ..Stripes::default()
     };
-    let block = Placement { orientation: DQuat::from_rotation_y(0.6), ..Placement::at(2.1, 0.6, 0.0) };
+    let block = Placement { orientation: DQuat::from_xyzw(0.0, 0.3, 0.0, 0.95).normalize(), ..Placement::at(2.1, 0.6, 0.0) };
     world.spawn((Name::new("block"), Cuboid { size: [1.2, 1.2, 1.2].into() }, block, Matte::default(), stripes));
 
     let file = "chapters/16_textures/evening.hdr".into();
