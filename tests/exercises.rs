@@ -92,13 +92,13 @@ fn every_stub_is_wrong() {
 }
 
 /// The chapters that ask for a function.
-fn asking(chapters: &[Chapter]) -> impl Iterator<Item = &Chapter> {
+fn that_ask(chapters: &[Chapter]) -> impl Iterator<Item = &Chapter> {
     chapters.iter().filter(|chapter| chapter.exercise.is_some())
 }
 
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solution), chapter) in solutions::ALL.iter().zip(asking(&chapters::all())) {
+    for ((name, solution), chapter) in solutions::ALL.iter().zip(that_ask(&chapters::all())) {
         let attempt = chapter.exercise.expect("an exercise");
         assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
         let signature = format!("pub fn {}(", attempt.function());

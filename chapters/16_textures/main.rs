@@ -44,7 +44,8 @@ fn scene(world: &mut World) {
         across: [1.0, 2.0, 1.0].into(),
         ..Stripes::default()
     };
-    let block = Placement { orientation: DQuat::from_xyzw(0.0, 0.3, 0.0, 0.95).normalize(), ..Placement::at(2.1, 0.6, 0.0) };
+    let block =
+        Placement { orientation: DQuat::from_xyzw(0.0, 0.3, 0.0, 0.95).normalize(), ..Placement::at(2.1, 0.6, 0.0) };
     world.spawn((Name::new("block"), Cuboid { size: [1.2, 1.2, 1.2].into() }, block, Matte::default(), stripes));
 
     let file = "chapters/16_textures/evening.hdr".into();
