@@ -120,7 +120,7 @@ fn order_of(scene: &World, offer: &[Stage], execution: &Execution) -> Vec<String
 
 #[test]
 fn every_order_that_the_schedule_allows() {
-    const SEEDS: u64 = 64;
+    const SEEDS: u64 = 128;
     for (name, scene) in pictures() {
         let expected = film(&scene);
         let timed = with_statistics(scene);
