@@ -3,7 +3,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::film_stage;
+use pinhole::film::{film_stage, layers_stage, moments_stage};
 use pinhole::look::view_stage;
 pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
@@ -69,7 +69,7 @@ pub fn offer() -> Vec<Stage> {
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
     offer.push(view_stage(&offer));
-    offer.push(film_stage());
+    offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
 }
 
@@ -244,6 +244,7 @@ pub enum Toggle {
     Background,
     View,
     Statistics,
+    Layers,
 }
 
 /// All of them.
@@ -259,6 +260,7 @@ pub const TOGGLES: [Toggle; 11] = [
     Toggle::Background,
     Toggle::View,
     Toggle::Statistics,
+    Toggle::Layers,
 ];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
@@ -312,6 +314,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Statistics) {
         world.entity_mut(camera).insert(Statistics);
+    }
+    if has(Toggle::Layers) {
+        world.entity_mut(camera).insert(Layers::all());
     }
     world
 }
