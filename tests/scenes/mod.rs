@@ -251,7 +251,7 @@ pub enum Toggle {
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 11] = [
+pub const TOGGLES: &[Toggle] = &[
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
