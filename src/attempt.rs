@@ -28,6 +28,8 @@ pub enum Attempt {
     OursFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
     /// Chapter 12: stages in order, the column asked for.
     Kept(fn(&[StageWords], &str) -> Vec<String>),
+    /// Chapter 18: a pixel's values in runs of different seeds, the truth.
+    VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
 }
 
 impl Attempt {
@@ -46,6 +48,7 @@ impl Attempt {
             Self::ReflectedRadiance(_) => "reflected_radiance",
             Self::OursFromTheirs(_) => "ours_from_theirs",
             Self::Kept(_) => "kept",
+            Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
         }
     }
 }

@@ -187,6 +187,9 @@ pub struct ReportErrors {
     /// Measure nothing: print what is kept in the chapter's folder
     #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
     pub kept: bool,
+    /// Measure nothing but what naive measurements give, beside what is right
+    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write", "kept"])]
+    pub naive: bool,
     /// With --kept: draw the plot to this SVG instead
     #[arg(short, long, value_name = "FILE", requires = "kept")]
     pub output: Option<PathBuf>,
