@@ -38,6 +38,9 @@ pub mod conventions;
 #[path = "12_how_it_is_built/exercise.rs"]
 pub mod how_it_is_built;
 
+#[path = "13_shapes/exercise.rs"]
+pub mod shapes;
+
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
@@ -76,6 +79,9 @@ pub const CONVENTIONS: Attempt = Attempt::OursFromTheirs(conventions::ours_from_
 
 /// Chapter 12.
 pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
+
+/// Chapter 13.
+pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);

@@ -1,10 +1,12 @@
+use super::span::span;
 use crate::chapter::{Asked, AskedSampling};
 use crate::extract::MOST_SAMPLES;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::scene::{Filter, Resolution, Sampler, TracePixel};
+use crate::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// pinhole: a ray tracing book you can run
 #[derive(Parser)]
@@ -289,6 +291,12 @@ pub struct SceneOptions {
     pub view: Option<String>,
     #[command(flatten)]
     pub sampling: SamplingOptions,
+    /// Take as many samples of each pixel as bring its relative standard error down to E (such as 0.01)
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub error: Option<f64>,
+    /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
+    #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
+    pub layers: Option<Layers>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -319,6 +327,15 @@ pub struct RenderOptions {
     /// Where to write, ending in .png or .exr (default: both, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Take samples for so long, such as 500ms, 10s or 2m
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub time: Option<Duration>,
+    /// Continue from the checkpoint beside the picture, to the same bits as if it had not been stopped
+    #[arg(long)]
+    pub resume: bool,
+    /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub write_every: Option<Duration>,
     /// Print time and rays of every stage as JSON, and nothing else
     #[arg(long, conflicts_with = "quiet")]
     pub stats: bool,
@@ -343,7 +360,21 @@ pub struct ExampleArguments {
 
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { resolution: self.size, view: self.view.clone(), statistics, sampling: self.sampling.asked() }
+        Asked {
+            resolution: self.size,
+            view: self.view.clone(),
+            statistics,
+            sampling: self.sampling.asked(),
+            endless: false,
+            error: self.error,
+            layers: self.layers.clone(),
+        }
+    }
+}
+
+impl RenderOptions {
+    pub fn asked(&self, statistics: bool) -> Asked {
+        Asked { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
 }
 

@@ -16,12 +16,14 @@ mod find;
 mod hints;
 mod interrupt;
 mod list;
+mod long_render;
 mod plan;
 mod planted;
 mod refused;
 mod render;
 mod report;
 mod review;
+mod span;
 mod subject;
 mod sweep;
 mod trace;
@@ -104,8 +106,8 @@ pub fn conclude(result: Result) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(Error::Interrupted) => {
-            let _ = writeln!(std::io::stderr(), "pinhole: {}", Error::Interrupted);
+        Err(stop @ (Error::Interrupted | Error::Stopped(_))) => {
+            let _ = writeln!(std::io::stderr(), "pinhole: {stop}");
             ExitCode::from(130)
         }
         Err(error) => {

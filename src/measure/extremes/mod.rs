@@ -11,8 +11,10 @@ mod camera_limits;
 mod camera_ndc;
 mod camera_table;
 mod case;
+mod cuboid;
 mod film;
 mod film_bytes;
+mod flat;
 mod frame;
 mod lamp;
 mod plane;
@@ -49,11 +51,27 @@ pub enum Group {
     Transform,
     /// Films: sums of samples, bytes of pictures.
     Film,
+    /// Rays against disks, and shadow rays off them.
+    Disk,
+    /// Rays against rectangles, and shadow rays off them.
+    Rectangle,
+    /// Rays against cuboids, and shadow rays off them.
+    Cuboid,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
+    pub const ALL: [Self; 9] = [
+        Self::Sphere,
+        Self::Plane,
+        Self::Shadow,
+        Self::Camera,
+        Self::Transform,
+        Self::Film,
+        Self::Disk,
+        Self::Rectangle,
+        Self::Cuboid,
+    ];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -67,6 +85,9 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Film => film::trials(),
+            Self::Disk => flat::trials(flat::Kind::Disk),
+            Self::Rectangle => flat::trials(flat::Kind::Rectangle),
+            Self::Cuboid => cuboid::trials(),
         }
     }
 }
@@ -80,6 +101,9 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Film => "film",
+            Self::Disk => "disk",
+            Self::Rectangle => "rectangle",
+            Self::Cuboid => "cuboid",
         })
     }
 }
