@@ -23,6 +23,7 @@ use std::time::Duration;
     cargo run --release -- trace cover --pixel 480,300\n  \
     cargo run --release -- extremes sphere\n  \
     cargo run --release -- sweep 05_pinhole\n  \
+    cargo run --release -- report 18 --quick\n  \
     cargo run --release -- export 05_pinhole\n  \
     cargo run --release -- check"
 )]
