@@ -83,6 +83,6 @@ pub fn all() -> Vec<Chapter> {
         reflection::chapter(),
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter(),
-        error_and_time::chapter(),
+        error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]
 }

@@ -20,6 +20,7 @@ use std::path::PathBuf;
     cargo run --release -- trace cover --pixel 480,300\n  \
     cargo run --release -- extremes sphere\n  \
     cargo run --release -- sweep 05_pinhole\n  \
+    cargo run --release -- report 18 --quick\n  \
     cargo run --release -- export 05_pinhole\n  \
     cargo run --release -- check"
 )]
@@ -186,6 +187,9 @@ pub struct ReportErrors {
     /// Measure nothing: print what is kept in the chapter's folder
     #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
     pub kept: bool,
+    /// Measure nothing but what naive measurements give, beside what is right
+    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write", "kept"])]
+    pub naive: bool,
     /// With --kept: draw the plot to this SVG instead
     #[arg(short, long, value_name = "FILE", requires = "kept")]
     pub output: Option<PathBuf>,

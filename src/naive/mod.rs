@@ -8,6 +8,7 @@ pub mod camera;
 pub mod cuboid;
 pub mod ellipsoid;
 pub mod entity_per_ray;
+pub mod error;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;

@@ -95,6 +95,25 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("13_shapes", Attempt::NearestBoxT(|o, d, l, m| Some(passed(o, d, l, m)?.1).filter(|&t| t > 0.0)), "far side"),
     ("13_shapes", Attempt::NearestBoxT(min_and_max), "0 by 0"),
     ("13_shapes", Attempt::NearestBoxT(first_entered), "last slab"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, squared_mean)),
+        "part of the variance",
+    ),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, squared_mean)),
+        "part of the variance",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, of_pairs)), "one less is right"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, |x| of_pairs(x).max(0.0))),
+        "cut off",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
     ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
@@ -335,4 +354,48 @@ fn first_entered(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> O
     passed(o, d, least, most)?;
     let near = |axis: usize| ((least[axis] - o[axis]) / d[axis]).min((most[axis] - o[axis]) / d[axis]);
     (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
+}
+
+fn less_truth(runs: &[f64], truth: f64) -> Vec<f64> {
+    runs.iter().map(|run| run - truth).collect()
+}
+
+fn squared_mean(off: &[f64]) -> f64 {
+    (off.iter().sum::<f64>() / off.len() as f64).powi(2)
+}
+
+fn of_pairs(off: &[f64]) -> f64 {
+    let (n, sum) = (off.len() as f64, off.iter().sum::<f64>());
+    (sum * sum - off.iter().map(|off| off * off).sum::<f64>()) / (n * (n - 1.0))
+}
+
+fn spread(off: &[f64], fewer: f64) -> f64 {
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    off.iter().map(|off| (off - mean).powi(2)).sum::<f64>() / (off.len() as f64 - fewer)
+}
+
+fn split(runs: &[f64], truth: f64, fewer: f64, bias: fn(&[f64]) -> f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [spread(&off, fewer), bias(&off)])
+}
+
+fn one_run_has_no_variance(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    match runs.len() {
+        0 => Some([0.0, 0.0]),
+        1 => Some([0.0, off[0] * off[0]]),
+        _ => Some([spread(&off, 1.0), of_pairs(&off)]),
+    }
+}
+
+fn about_the_truth(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [off.iter().map(|off| off * off).sum::<f64>() / (off.len() as f64 - 1.0), of_pairs(&off)])
+}
+
+fn squares_less_square(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let n = runs.len() as f64;
+    let squares = runs.iter().map(|run| run * run).sum::<f64>() / n;
+    let variance = (squares - squared_mean(runs)) * n / (n - 1.0);
+    (runs.len() > 1).then(|| [variance, of_pairs(&less_truth(runs, truth))])
 }

@@ -41,8 +41,13 @@ pub mod how_it_is_built;
 #[path = "13_shapes.rs"]
 pub mod shapes;
 
+<<<<<<< HEAD
 #[path = "16_textures.rs"]
 pub mod textures;
+=======
+#[path = "18_error_and_time.rs"]
+pub mod error_and_time;
+>>>>>>> rep
 
 /// By the chapter's name.
 pub const ALL: [(&str, Attempt); 14] = [
@@ -59,5 +64,9 @@ pub const ALL: [(&str, Attempt); 14] = [
     ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
     ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
+<<<<<<< HEAD
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
+=======
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+>>>>>>> rep
 ];
