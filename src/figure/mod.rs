@@ -71,9 +71,9 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 19] {
+pub fn figures() -> Vec<Figure> {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
-    [
+    vec![
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
         Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
