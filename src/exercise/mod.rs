@@ -21,6 +21,7 @@ mod pinhole;
 mod progress;
 mod question;
 mod ray;
+mod reflection;
 mod report;
 mod screen;
 mod shown;
@@ -51,5 +52,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+        Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
     }
 }

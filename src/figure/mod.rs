@@ -12,6 +12,7 @@ mod gallery;
 mod grid;
 mod hit;
 mod label;
+mod lobes;
 mod look_at;
 mod ndc;
 mod normals;
@@ -66,7 +67,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 17] {
+pub fn figures() -> [Figure; 18] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -155,6 +156,12 @@ pub fn figures() -> [Figure; 17] {
             chapter: "10_light_and_shadow",
             about: "shadow rays that start where textbooks have them, in three sizes of one scene",
             draw: acne::draw,
+        },
+        Figure {
+            name: "15_reflection",
+            chapter: "15_reflection",
+            about: "how much each reflection model sends which way",
+            draw: lobes::draw,
         },
     ]
 }

@@ -2,14 +2,19 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rgb, Sphere,
+    BlinnPhong, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane,
+    PointLight, Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
 use bevy_ecs::prelude::*;
 
 /// A chapter of this name with a scene that suits its figure.
 pub fn chapter(name: &'static str) -> Chapter {
-    let scene = if name == "04_orthographic" { parallel } else { central };
+    let scene = match name {
+        "04_orthographic" => parallel,
+        "15_reflection" => glossy,
+        _ => central,
+    };
     Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
 }
 
@@ -17,7 +22,7 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain(["09_camera_to_world", "10_light_and_shadow"])
+        .chain(["09_camera_to_world", "10_light_and_shadow", "15_reflection"])
         .map(chapter)
         .collect()
 }
@@ -28,6 +33,13 @@ fn central(world: &mut World) {
     things(world);
     let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
+}
+
+fn glossy(world: &mut World) {
+    central(world);
+    world.spawn((Sphere { radius: 0.2 }, Placement::at(-0.5, 0.2, 2.0), Phong { exponent: 20.0, ..Phong::default() }));
+    let satin = BlinnPhong { exponent: 80.0, ..BlinnPhong::default() };
+    world.spawn((Sphere { radius: 0.2 }, Placement::at(0.0, 0.2, 2.0), satin));
 }
 
 fn parallel(world: &mut World) {

@@ -9,6 +9,7 @@ pub mod entity_per_ray;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;
+pub mod light;
 pub mod ndc;
 pub mod plane;
 pub mod screen;

@@ -2,6 +2,7 @@
 
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
+use std::f64::consts::PI;
 
 /// The chapter, the wrong function, words of the remark that it must get.
 pub const ALL: &[(&str, Attempt, &str)] = &[
@@ -90,6 +91,14 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("12_how_it_is_built", Attempt::Kept(forward), "later"),
     ("12_how_it_is_built", Attempt::Kept(backward), "last to first"),
     ("12_how_it_is_built", Attempt::Kept(one_step), "only the stage"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, dot(n, l))), "faces away"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 1.0, lit(n, l))), "n + 2"),
+    (
+        "15_reflection",
+        Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, step(n, l))),
+        "cosine of the light's slant",
+    ),
+    ("15_reflection", Attempt::PhongRadiance(even_behind), "even"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
@@ -274,4 +283,25 @@ fn backward(stages: &[StageWords], asked: &str) -> Vec<String> {
 
 fn one_step(stages: &[StageWords], asked: &str) -> Vec<String> {
     only(stages, |stage| stage.needed && stage.writes.iter().any(|column| column == asked))
+}
+
+/// Chapter 15 as it should be, but for the number beside n in the factor and for what arrives.
+fn phong(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3], beside: f64, arrives: f64) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = if alpha > 0.0 { (m[2] + beside) / (2.0 * PI) * alpha.min(1.0).powf(m[2]) } else { 0.0 };
+    (m[0] / PI + m[1] * lobe) * e * arrives
+}
+
+fn lit(n: [f64; 3], l: [f64; 3]) -> f64 {
+    dot(n, l).max(0.0)
+}
+
+fn step(n: [f64; 3], l: [f64; 3]) -> f64 {
+    if dot(n, l) > 0.0 { 1.0 } else { 0.0 }
+}
+
+fn even_behind(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3]) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = (m[2] + 2.0) / (2.0 * PI) * alpha.abs().min(1.0).powf(m[2]);
+    (m[0] / PI + m[1] * lobe) * e * lit(n, l)
 }

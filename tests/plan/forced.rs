@@ -25,6 +25,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         .collect();
     for eye in EYES {
         scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() })));
+        scenes.push((format!("shining, {eye:?}"), shining(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
     }
     for (name, scene) in &scenes {
@@ -82,6 +83,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("stretched", stretched(Setup { size, ..Setup::default() })),
+        ("shining", shining(Setup { size, ..Setup::default() })),
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
     ];

@@ -15,6 +15,8 @@ mod film;
 mod film_bytes;
 mod frame;
 mod lamp;
+mod light;
+mod light_albedo;
 mod plane;
 mod print;
 mod shadow;
@@ -49,11 +51,14 @@ pub enum Group {
     Transform,
     /// Films: sums of samples, bytes of pictures.
     Film,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
+    pub const ALL: [Self; 7] =
+        [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film, Self::Light];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -67,6 +72,7 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Film => film::trials(),
+            Self::Light => light::trials(),
         }
     }
 }
@@ -80,6 +86,7 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Film => "film",
+            Self::Light => "light",
         })
     }
 }

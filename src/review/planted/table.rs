@@ -13,12 +13,14 @@ const MOST: &str = "05_pinhole";
 const PARALLEL: &str = "04_orthographic";
 /// Spheres that are scaled unevenly.
 const SCALED: &str = "09_camera_to_world";
+/// Three reflection models under three kinds of light.
+const REFLECTION: &str = "15_reflection";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 30] = [
+pub static PLANTED: [Planted; 35] = [
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
@@ -40,12 +42,17 @@ pub static PLANTED: [Planted; 30] = [
     bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
+    bug("sun-without-slant", "Aim at directional lights", "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
+    bug("spot-without-fading", "Aim at spot lights", "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
     bug("behind-counts", "Look for planes in the way", "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
+    bug("phong-forgotten", "Add Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
+    bug("blinn-phong-forgotten", "Add Blinn–Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
+    bug("emitted-twice", "Add what surfaces emit", "added twice", REFLECTION, Bug::Instead(|| light::emitted_twice.into_configs())),
     bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
     bug("added-twice", "Add to the film", "added twice, counted once", MOST, Bug::After(|| light::added_twice.into_configs())),
     bug("gamma-twice", DEVELOP, "the curve taken twice", MOST, Bug::Develop(light::gamma_twice)),
