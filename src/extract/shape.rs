@@ -3,7 +3,9 @@ use super::emissive::emissive_entities;
 use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
 use super::unevenly_scaled;
 use crate::plan::{Table, entities};
-use crate::scene::{Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, Refusal, Sphere, UsesMaterial, called};
+use crate::scene::{
+    Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called,
+};
 use bevy_ecs::prelude::*;
 
 /// The kinds of shape, in the order of their tables.
@@ -21,11 +23,13 @@ pub enum ShapeKind {
     Rectangle,
     /// A row of the cuboid table.
     Cuboid,
+    /// A row of the triangle table.
+    Triangle,
 }
 
 impl ShapeKind {
     /// How many kinds there are.
-    const COUNT: usize = 6;
+    const COUNT: usize = 7;
 }
 
 /// All shapes in spawn order; a shape's number here is the one that hits carry.
@@ -74,6 +78,7 @@ const WRITTEN: &[Written] = &[
     Written::of::<Disk>("Disk", "disk", |_, _| ShapeKind::Disk),
     Written::of::<Rectangle>("Rectangle", "rectangle", |_, _| ShapeKind::Rectangle),
     Written::of::<Cuboid>("Cuboid", "cuboid", |_, _| ShapeKind::Cuboid),
+    Written::of::<Triangle>("Triangle", "triangle", |_, _| ShapeKind::Triangle),
 ];
 
 /// The enabled entities that are a shape, in spawn order.

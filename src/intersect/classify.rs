@@ -53,6 +53,14 @@ column! {
 }
 
 column! {
+    /// The rows that hit a triangle, ascending.
+    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
     /// The rows whose surface sends on light, ascending.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
@@ -83,14 +91,27 @@ pub fn classify_hits(
         Option<&mut DiskRows>,
         Option<&mut RectangleRows>,
         Option<&mut CuboidRows>,
+        Option<&mut TriangleRows>,
         Option<&mut MaterialRows>,
         Option<&mut EmissiveRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, materials, emissive, surfaces, uvs) in
-        &mut tiles
+    for (
+        hits,
+        spheres,
+        ellipsoids,
+        planes,
+        disks,
+        rectangles,
+        cuboids,
+        triangles,
+        materials,
+        emissive,
+        surfaces,
+        uvs,
+    ) in &mut tiles
     {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
@@ -109,6 +130,9 @@ pub fn classify_hits(
         }
         if let Some(mut list) = cuboids {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Cuboid);
+        }
+        if let Some(mut list) = triangles {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
             list_rows(hits, &mut list.row, |shape| shapes.material[shape] != NO_ROW);
@@ -193,6 +217,12 @@ impl CuboidRows {
     }
 }
 
+impl TriangleRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl MaterialRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -209,6 +239,7 @@ pub fn classify_stage() -> Stage {
         .writes::<DiskRows>()
         .writes::<RectangleRows>()
         .writes::<CuboidRows>()
+        .writes::<TriangleRows>()
         .writes::<MaterialRows>()
         .writes::<EmissiveRows>()
         .writes::<Surfaces>()

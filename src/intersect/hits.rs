@@ -4,7 +4,7 @@ use super::plane::plane_evidence;
 use super::rectangle::rectangle_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::Sphere;
+use crate::scene::{Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -91,4 +91,5 @@ pub fn shape_evidence(scene: &World) -> Evidence {
         .or(disk_evidence(scene))
         .or(rectangle_evidence(scene))
         .or(cuboid_evidence(scene))
+        .or(Evidence::of::<Triangle>(scene, "triangle"))
 }

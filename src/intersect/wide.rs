@@ -2,7 +2,7 @@
 //!
 //! No fused multiply-add is used, so every machine gives the same bits.
 
-use crate::extract::Ellipsoid;
+use crate::extract::{Ellipsoid, two_product, two_sum};
 use glam::DVec3;
 
 /// A number as the unevaluated sum of two f64.
@@ -92,25 +92,6 @@ fn to_unit(ellipsoid: &Ellipsoid, v: [Wide; 3]) -> [Wide; 3] {
     [0, 1, 2].map(|axis| dot(row(axis), v))
 }
 
-/// a + b without any error (Knuth, *The Art of Computer Programming* vol. 2, 4.2.2).
-pub(super) fn two_sum(a: f64, b: f64) -> Wide {
-    let sum = a + b;
-    let b_seen = sum - a;
-    (sum, (a - (sum - b_seen)) + (b - b_seen))
-}
-
-/// a · b without any error (Dekker 1971), each factor cut into halves of 26 bits.
-pub(super) fn two_product(a: f64, b: f64) -> Wide {
-    const CUT: f64 = 134_217_729.0;
-    let halves = |x: f64| {
-        let high = x * CUT - (x * CUT - x);
-        (high, x - high)
-    };
-    let product = a * b;
-    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
 pub(super) fn add(a: Wide, b: Wide) -> Wide {
     let (sum, error) = two_sum(a.0, b.0);
     let (low, lower) = two_sum(a.1, b.1);
@@ -129,16 +110,4 @@ pub(super) fn negated(a: Wide) -> Wide {
 
 pub(super) fn dot(a: [Wide; 3], b: [Wide; 3]) -> Wide {
     add(add(multiply(a[0], b[0]), multiply(a[1], b[1])), multiply(a[2], b[2]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_a_sum_and_a_product_lose_is_in_the_second_half() {
-        assert_eq!(two_sum(1e16, 1.0), (1e16, 1.0));
-        let x = 1.0 + 2.0 * f64::EPSILON;
-        assert_eq!(two_product(x, x).1, 4.0 * f64::EPSILON * f64::EPSILON);
-    }
 }

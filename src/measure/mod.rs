@@ -25,5 +25,6 @@ pub mod oracle_ellipsoid;
 pub mod oracle_plane;
 pub mod oracle_rectangle;
 pub mod oracle_sphere;
+pub mod oracle_triangle;
 pub mod ray_aim;
 pub mod sweep;

@@ -15,3 +15,4 @@ pub mod plane;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;
+pub mod triangle;

@@ -30,6 +30,14 @@ pub enum TileSystems {
     Classify,
     /// Position, normal and error bound of what was hit; each kind fills its own rows.
     Surface,
+    /// Normals by which light falls, where they are not the surfaces' own.
+    Normal,
+    /// What a pixel covers of the surface.
+    Footprint,
+    /// Each surface's own colour, and where on its texture it is.
+    Colour,
+    /// Textures colour their own rows, in any order.
+    Texture,
     /// What a ray that met nothing brings back.
     Background,
     /// What else is asked of a pixel is taken down, before the light goes on its way.
@@ -52,7 +60,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: &[Self] = &[
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -62,6 +70,10 @@ impl TileSystems {
         Self::Intersect,
         Self::Classify,
         Self::Surface,
+        Self::Normal,
+        Self::Footprint,
+        Self::Colour,
+        Self::Texture,
         Self::Background,
         Self::Layers,
         Self::Aim,
@@ -76,6 +88,15 @@ impl TileSystems {
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
     /// independently of the others.
     pub fn order_free(self) -> bool {
-        matches!(self, Self::Start | Self::Intersect | Self::Surface | Self::Occlude)
+        matches!(
+            self,
+            Self::Start
+                | Self::Intersect
+                | Self::Surface
+                | Self::Footprint
+                | Self::Colour
+                | Self::Texture
+                | Self::Occlude
+        )
     }
 }

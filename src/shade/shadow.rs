@@ -1,11 +1,11 @@
 use super::LightRays;
 use crate::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, material_evidence,
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
-    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, rectangle_evidence,
-    sphere_evidence,
+    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, intersect_triangles,
+    rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
@@ -122,6 +122,17 @@ pub fn cuboid_shadow_stage() -> Stage {
         .writes::<ShadowHits>()
         .table::<CuboidTable>()
         .when(|scene| cuboid_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with triangles.
+pub fn triangle_shadow_stage() -> Stage {
+    let intersect = intersect_triangles::<LightRays, ShadowHits>;
+    Stage::new("Look for triangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<TriangleTable>()
+        .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
 }
 
 /// Evidence that a light casts shadows on matter.

@@ -78,7 +78,13 @@ fn lit_with(raster: Stage) -> Vec<Stage> {
     let mut stages = perspective();
     stages.extend([raster, intersect::start_stage(), intersect::sphere_stage(), intersect::plane_stage()]);
     stages.extend([intersect::classify_stage(), intersect::sphere_surface_stage(), intersect::plane_surface_stage()]);
-    stages.extend([shade::start_stage(), shade::background_stage(), shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage()]);
+    stages.extend([
+        shade::start_stage(),
+        shade::background_stage(),
+        shade::start_light_stage(),
+        shade::point_light_stage(),
+        shade::start_shadow_stage(),
+    ]);
     stages.extend([shade::sphere_shadow_stage(), shade::plane_shadow_stage(), shade::light_stage(), film_stage()]);
     stages
 }

@@ -2,8 +2,8 @@
 
 use crate::Result;
 use crate::extract::{
-    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Flat, PlaneTable, RectangleTable, ShapeKind,
-    ShapeTable, Slabs, SphereTable, camera_entity,
+    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Facet, Flat, PlaneTable, RectangleTable, ShapeKind,
+    ShapeTable, Slabs, SphereTable, TriangleTable, camera_entity,
 };
 use crate::film::film_stage;
 use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
@@ -16,6 +16,7 @@ use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess};
 use crate::measure::oracle_plane::{Plane, plane_hit};
 use crate::measure::oracle_rectangle::rectangle_hit;
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
+use crate::measure::oracle_triangle::triangle_hit;
 use crate::plan::{Stage, Table};
 use crate::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
 use crate::render::{Inspection, inspect};
@@ -80,10 +81,11 @@ enum ExactShape {
     Disk(Flat),
     Rectangle(Flat),
     Cuboid(Slabs),
+    Triangle(Facet, DVec3),
 }
 
 /// How many kinds there are.
-const KINDS: usize = 6;
+const KINDS: usize = 7;
 
 impl Exact {
     fn of(scene: &World, frame: &Inspection) -> Result<Self> {
@@ -96,6 +98,7 @@ impl Exact {
         let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
         let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
         let cuboids = CuboidTable::extract(scene)?;
+        let triangles = TriangleTable::extract(scene)?;
         let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
             (ShapeKind::Sphere, row) => {
                 ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
@@ -107,6 +110,7 @@ impl Exact {
             (ShapeKind::Disk, row) => ExactShape::Disk(disks.flat[row]),
             (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.flat[row]),
             (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
+            (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
         };
         let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
         Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
@@ -216,6 +220,7 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Disk(flat) => disk_hit(origin, direction, flat),
             ExactShape::Rectangle(flat) => rectangle_hit(origin, direction, flat),
             ExactShape::Cuboid(slabs) => cuboid_hit(origin, direction, slabs).map(|(t, _)| t),
+            ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
             nearest = Some((number, t));
@@ -233,6 +238,7 @@ fn kind(shape: &ExactShape) -> usize {
         ExactShape::Disk(_) => 3,
         ExactShape::Rectangle(_) => 4,
         ExactShape::Cuboid(_) => 5,
+        ExactShape::Triangle(..) => 6,
     }
 }
 
@@ -286,6 +292,10 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let farthest = beyond(0).max(beyond(1)).max(beyond(2));
             farthest.abs() / (U * position.as_dvec3().length())
         }
+        ExactShape::Triangle(facet, normal) => {
+            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
+            above.to_f64().abs() / (U * position.as_dvec3().length())
+        }
     };
     note(&mut worst.surfaces[kind(shape)], off);
 }
@@ -310,6 +320,7 @@ impl Worst {
             intersect::disk_stage(),
             intersect::rectangle_stage(),
             intersect::cuboid_stage(),
+            intersect::triangle_stage(),
         ]
         .map(|stage| stage.name);
         for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
@@ -323,6 +334,7 @@ impl Worst {
             (intersect::disk_surface_stage(), "|p|"),
             (intersect::rectangle_surface_stage(), "|p|"),
             (intersect::cuboid_surface_stage(), "|p|"),
+            (intersect::triangle_surface_stage(), "|p|"),
         ];
         for ((stage, size), worst) in surface_stages.into_iter().zip(self.surfaces) {
             words.extend(worst.map(|worst| (stage.name, format!("{worst:.2} u of {size} off it"))));

@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapeKind, ShapeTable, SphereTable,
+    TriangleTable,
 };
 use crate::film::FilmTile;
 use crate::intersect::{Hits, NO_SHAPE, face_of_point};
@@ -66,6 +67,7 @@ struct Shapes {
     disks: DiskTable,
     rectangles: RectangleTable,
     cuboids: CuboidTable,
+    triangles: TriangleTable,
 }
 
 impl Shapes {
@@ -78,6 +80,7 @@ impl Shapes {
             disks: DiskTable::extract(scene)?,
             rectangles: RectangleTable::extract(scene)?,
             cuboids: CuboidTable::extract(scene)?,
+            triangles: TriangleTable::extract(scene)?,
         })
     }
 
@@ -99,6 +102,7 @@ impl Shapes {
                 let slabs = &self.cuboids.slabs[row];
                 slabs.normal[face_of_point(slabs, point - slabs.centre)]
             }
+            ShapeKind::Triangle => self.triangles.normal[row],
         }
     }
 }

@@ -1,0 +1,205 @@
+use super::check::{finite_point, kind_and_name, number, triple};
+use super::exact_sum::{exact_cross, exact_difference};
+use super::{eye, normal_world_from_object, pose, shape_entities};
+use crate::plan::Table;
+use crate::scene::{Refusal, Triangle};
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
+
+/// A triangle whose least height is no more than this share of its longest edge has lost its normal to rounding.
+const LEAST_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
+/// Coordinates below this, 2⁻²⁰⁰ scene units, count as 0, so that exact arithmetic has room below them.
+const SMALLEST_COORDINATE: f64 = f64::from_bits((1023 - 200) << 52);
+/// By how much the sphere about a triangle is taken larger, so that no rounding reaches beyond it.
+const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+/// Texture coordinates where the author gives none: b₁ and b₂.
+const OWN_UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
+
+/// A triangle as the kernels read it.
+///
+/// Its corners stand in an order of their own, whatever the author's, so that the same three corners give every ray the
+/// same distance to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// The corners, from the eye.
+    pub corners: [DVec3; 3],
+    /// The largest |x| + |y| + |z| of a corner.
+    pub size: f64,
+    /// The middle of the longest edge.
+    pub centre: DVec3,
+    /// No corner is farther from the centre than this.
+    pub reach: f64,
+}
+
+impl Facet {
+    /// The triangle of three corners.
+    pub fn new(mut corners: [DVec3; 3]) -> Self {
+        corners.sort_by(order);
+        let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j]));
+        let longest = edges.into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
+        let centre = longest.map_or(corners[0], |(a, b)| a.midpoint(b));
+        let reach = corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * REACH_MARGIN;
+        Self { corners, size, centre, reach }
+    }
+
+    /// (B − A) × (C − A), each part right to within two roundings however thin the triangle; all 0 where the corners lie
+    /// on one line.
+    pub fn cross(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
+    }
+}
+
+/// By x, then y, then z.
+fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
+}
+
+/// Triangles in render space, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleTable {
+    /// The triangles.
+    pub facet: Vec<Facet>,
+    /// The unit normal on the side to which the author's normals point, or else from which the author's corners go
+    /// round anticlockwise in the world.
+    pub normal: Vec<DVec3>,
+    /// Whether it points the other way from (B − A) × (C − A) of the facet's corners.
+    pub turned: Vec<bool>,
+    /// Texture coordinates of the facet's corners.
+    pub uvs: Vec<[DVec2; 3]>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl TriangleTable {
+    /// Appends a triangle without normals of its own, its corners in the author's order.
+    pub fn push(&mut self, corners: [DVec3; 3], uvs: [DVec2; 3], shape: u32) {
+        let mut order_of_corners = [0, 1, 2];
+        order_of_corners.sort_by(|&i, &j| order(&corners[i], &corners[j]));
+        let facet = Facet::new(corners);
+        // Every exchange of two corners turns the normal round.
+        let turned = !matches!(order_of_corners, [0, 1, 2] | [1, 2, 0] | [2, 0, 1]);
+        let cross = facet.cross();
+        // Corners that rounding has put on one line are met by no ray; any normal serves them.
+        let along = (cross / cross.abs().max_element()).try_normalize().unwrap_or(DVec3::Z);
+        self.facet.push(facet);
+        self.normal.push(if turned { -along } else { along });
+        self.turned.push(turned);
+        self.uvs.push(order_of_corners.map(|corner| uvs[corner]));
+        self.shape.push(shape);
+    }
+}
+
+impl Table for TriangleTable {
+    const NAME: &'static str = "triangles";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(triangle) = scene.get::<Triangle>(entity) else { continue };
+            let (corners, normals) = placed(scene, entity, triangle, eye)?;
+            table.push(corners, checked_uvs(scene, entity, triangle)?, shape as u32);
+            let last = table.normal.len() - 1;
+            // A mirror turns corners round, and normals not.
+            if normals.is_some_and(|normals| normals[0].dot(table.normal[last]) < 0.0) {
+                table.normal[last] = -table.normal[last];
+                table.turned[last] = !table.turned[last];
+            }
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        let row = size_of::<Facet>() + size_of::<DVec3>() + size_of::<bool>() + size_of::<[DVec2; 3]>();
+        self.facet.len() * (row + size_of::<u32>())
+    }
+}
+
+/// Normals of corners in the world, a row a triangle, in the order of [`TriangleTable`] and of its facets' corners.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VertexNormalTable {
+    /// Unit vectors, on the side of the table's normal; all 0 where the author gave none.
+    pub normals: Vec<[DVec3; 3]>,
+}
+
+impl Table for VertexNormalTable {
+    const NAME: &'static str = "vertex normals";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for entity in shape_entities(scene) {
+            let Some(triangle) = scene.get::<Triangle>(entity) else { continue };
+            let (corners, normals) = placed(scene, entity, triangle, eye)?;
+            let mut order_of_corners = [0, 1, 2];
+            order_of_corners.sort_by(|&i, &j| order(&corners[i], &corners[j]));
+            let normals = normals.unwrap_or_default();
+            table.normals.push(order_of_corners.map(|corner| normals[corner]));
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.normals.len() * size_of::<[DVec3; 3]>()
+    }
+}
+
+/// Corners and normals of a triangle in render space, in the author's order.
+///
+/// A corner depends on its own coordinates and on the placement alone: triangles that share one share its last bit.
+fn placed(
+    scene: &World,
+    entity: Entity,
+    triangle: &Triangle,
+    eye: DVec3,
+) -> Result<([DVec3; 3], Option<[DVec3; 3]>), Refusal> {
+    let who = kind_and_name(scene, "triangle", entity);
+    let pose = pose(scene, &who, entity)?;
+    let origin = finite_point(&who, "position", pose.world_from_entity.translation - eye)?;
+    let mut corners = [DVec3::ZERO; 3];
+    for (corner, vertex) in corners.iter_mut().zip(triangle.vertices) {
+        finite_point(&who, "vertices", vertex)?;
+        *corner = finite_point(&who, "vertices", pose.world_from_entity.matrix3 * vertex + origin)?
+            .map(|part| if part.abs() < SMALLEST_COORDINATE { 0.0 } else { part });
+    }
+    let [a, b, c] = triangle.vertices;
+    let edges = [b - a, c - a, c - b];
+    let longest = edges.map(|edge| edge.abs().max_element()).into_iter().fold(0.0, f64::max);
+    let across = (edges[0] / longest).cross(edges[1] / longest);
+    if longest == 0.0 || across.length() <= LEAST_HEIGHT {
+        let value = triangle.vertices.map(triple).join(", ");
+        return Err(Refusal::new(who, "vertices", value, "the three corners must not lie on one line"));
+    }
+    let Some(normals) = triangle.normals else { return Ok((corners, None)) };
+    let mut placed = [DVec3::ZERO; 3];
+    for (there, normal) in placed.iter_mut().zip(normals) {
+        let largest = normal.abs().max_element();
+        if !(largest > 0.0 && normal.is_finite()) {
+            let accepted = "each must be a finite direction other than 0";
+            return Err(Refusal::new(who, "normals", triple(normal), accepted));
+        }
+        let along = normal_world_from_object(pose.entity_from_world, normal / largest);
+        *there = (along / along.abs().max_element()).normalize();
+    }
+    let facing = normal_world_from_object(pose.entity_from_world, across);
+    let sides = placed.map(|normal| facing.dot(normal));
+    if !(sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)) {
+        let value = normals.map(triple).join(", ");
+        return Err(Refusal::new(who, "normals", value, "all three must point to one side of the triangle"));
+    }
+    Ok((corners, Some(placed)))
+}
+
+fn checked_uvs(scene: &World, entity: Entity, triangle: &Triangle) -> Result<[DVec2; 3], Refusal> {
+    let uvs = triangle.uvs.unwrap_or(OWN_UVS);
+    match uvs.iter().find(|uv| !uv.is_finite()) {
+        None => Ok(uvs),
+        Some(uv) => {
+            let who = kind_and_name(scene, "triangle", entity);
+            let value = format!("({}, {})", number(uv.x), number(uv.y));
+            Err(Refusal::new(who, "uvs", value, "each coordinate must be a finite number"))
+        }
+    }
+}

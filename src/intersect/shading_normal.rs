@@ -1,0 +1,95 @@
+use super::classify::TriangleRows;
+use super::triangle_surface::Meeting;
+use super::{Hits, Surfaces};
+use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
+use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::rays::WorldRays;
+use crate::scene::Triangle;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+column! {
+    /// The normal by which light falls on what each ray hit; all 0 where nothing is met.
+    ///
+    /// It is the surface's own but on triangles whose corners have normals; exists where there are such.
+    pub struct ShadingNormals("shading normal", "world", "unit vector", Ray) {
+        /// On the side of the surface's own normal or nearly, x.
+        nx: f32,
+        /// y.
+        ny: f32,
+        /// z.
+        nz: f32,
+    }
+}
+
+impl ShadingNormals {
+    /// Each part from −1 to 1 becomes 0 to 1; black where nothing is met.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let normal = [self.nx[row], self.ny[row], self.nz[row]];
+        if normal == [0.0; 3] { normal } else { normal.map(|part| 0.5 + 0.5 * part) }
+    }
+
+    /// Reads a row, in f64.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> DVec3 {
+        DVec3::new(f64::from(self.nx[row]), f64::from(self.ny[row]), f64::from(self.nz[row]))
+    }
+}
+
+// ANCHOR: shading_normal
+/// The normal between the corners' normals, a unit vector on their side.
+///
+/// All three point to one side of the triangle, so that no mean of them is 0.
+#[inline(always)]
+pub fn shading_normal(normals: &[DVec3; 3], meeting: &Meeting) -> DVec3 {
+    meeting.mix(normals).normalize()
+}
+// ANCHOR_END: shading_normal
+
+/// Fills a tile's shading normals.
+pub fn interpolate_normals(
+    triangles: Res<Shared<TriangleTable>>,
+    normals: Res<Shared<VertexNormalTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &TriangleRows, &mut ShadingNormals)>,
+) {
+    for (rays, hits, surfaces, list, mut shading) in &mut tiles {
+        let (nx, ny, nz) = shading.slices_mut(hits.rows());
+        nx.copy_from_slice(&surfaces.nx);
+        ny.copy_from_slice(&surfaces.ny);
+        nz.copy_from_slice(&surfaces.nz);
+        for &row in &list.row {
+            let row = row as usize;
+            let triangle = shapes.row[hits.shape[row] as usize] as usize;
+            let corners = &normals.normals[triangle];
+            if corners[0] == DVec3::ZERO {
+                continue;
+            }
+            let meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), &triangles.facet[triangle]);
+            let leaves_by_normal = meeting.along != triangles.turned[triangle];
+            let normal = shading_normal(corners, &meeting);
+            let normal = if leaves_by_normal { -normal } else { normal };
+            (nx[row], ny[row], nz[row]) = normal.as_vec3().into();
+        }
+    }
+}
+
+/// The stage on offer.
+pub fn shading_normal_stage() -> Stage {
+    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<Surfaces>()
+        .reads::<TriangleRows>()
+        .writes::<ShadingNormals>()
+        .table::<TriangleTable>()
+        .table::<VertexNormalTable>()
+        .table::<ShapeTable>()
+        .when(vertex_normal_evidence)
+}
+
+/// Evidence that the scene holds a triangle whose corners have normals.
+pub fn vertex_normal_evidence(scene: &World) -> Evidence {
+    let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
+    Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)
+}

@@ -1,0 +1,316 @@
+use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
+use super::triangle_exact::exact_triangle_t;
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{Facet, TriangleTable};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Triangle;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+// ANCHOR: shear
+/// What takes a ray's direction to (0, 0, 1): the axis z along which it is longest is kept, x and y are sheared.
+///
+/// Made once a ray, whatever the number of triangles (Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection*,
+/// 2013).
+#[derive(Clone, Copy, Debug)]
+pub struct Shear {
+    /// Rx / Rz, from −1 to 1.
+    pub x: f64,
+    /// Ry / Rz, from −1 to 1.
+    pub y: f64,
+    /// 1 / Rz.
+    pub z: f64,
+}
+
+impl Shear {
+    /// The shear of a direction that is longest along `Z`; the axes that follow it are x and y.
+    #[inline(always)]
+    pub fn along<const Z: usize>(direction: DVec3) -> Self {
+        let [x, y, z] = turned::<Z>(direction);
+        Self { x: x / z, y: y / z, z: 1.0 / z }
+    }
+}
+
+/// A vector's parts as x, y, z where `Z` is z.
+#[inline(always)]
+fn turned<const Z: usize>(v: DVec3) -> [f64; 3] {
+    match Z {
+        0 => [v.y, v.z, v.x],
+        1 => [v.z, v.x, v.y],
+        _ => [v.x, v.y, v.z],
+    }
+}
+
+/// The axis along which a direction is longest.
+#[inline(always)]
+pub fn longest_axis(direction: DVec3) -> usize {
+    let DVec3 { x, y, z } = direction.abs();
+    if z >= x && z >= y { 2 } else { usize::from(y > x) }
+}
+// ANCHOR_END: shear
+
+/// A triangle as a ray sees it that looks along z from the origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Edges {
+    /// Twice the areas, with their signs, that the ray's point cuts off opposite each corner.
+    pub areas: [f64; 3],
+    /// The depth of each corner along the axis z, not yet divided by Rz.
+    pub depths: [f64; 3],
+    /// What rounding can have done to each area.
+    pub error: f64,
+}
+
+// ANCHOR: edges
+/// The three edge functions of a triangle in the sheared space of a ray, in f64.
+///
+/// With ε = 2⁻⁵³ and s the size of the numbers, |O|₁ + |corner|₁: a corner's sheared x is off by 5εs, which is ε for
+/// O taken away, 3ε for the product, ε for the difference and some for the second order.
+/// An area takes two of those times its corners' sheared lengths, and the rounding of two products: 10εs(m + 5εs), where
+/// m is the sum of the six sheared lengths.
+/// Two triangles with two corners in common reckon with the same numbers there, so that no ray slips between.
+#[inline(always)]
+pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_size: f64) -> Edges {
+    const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
+    let seen = |corner: DVec3| {
+        let [x, y, z] = turned::<Z>(corner - origin);
+        (x - shear.x * z, y - shear.y * z, z)
+    };
+    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = facet.corners.map(seen);
+    let areas = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
+    let lengths = ax.abs() + ay.abs() + bx.abs() + by.abs() + cx.abs() + cy.abs();
+    let size = ray_size + facet.size;
+    let error = ROUNDING * size * (lengths + ROUNDING * size);
+    Edges { areas, depths: [az, bz, cz], error }
+}
+// ANCHOR_END: edges
+
+// ANCHOR: triangle_verdict
+/// Where O + tR meets a triangle.
+///
+/// It does where the three areas have one sign, 0 counted with either; their sum is the whole area as the ray sees it, and
+/// t is the mean of the corners' depths by their shares.
+/// In doubt are areas that rounding could have given their sign, and a t that it could have moved by 2⁻²⁵ of itself or
+/// across 0.
+#[inline(always)]
+pub fn verdict<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_size: f64) -> Verdict {
+    let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, facet, ray_size);
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let misses = (least < -error) & (most > error);
+    let inside = (least > error) | (most < -error);
+
+    let (whole, sum) = (u + v + w, u * az + v * bz + w * cz);
+    let t = sum / whole * shear.z;
+    let sum_error = 2.0 * error * (az.abs() + bz.abs() + cz.abs());
+    let unsure = (sum_error >= 0.25 * UNIT_ROUNDOFF * sum.abs()) | (4.0 * error >= 0.25 * UNIT_ROUNDOFF * whole.abs());
+    let behind = (t <= 0.0) & (sum.abs() > sum_error);
+    // A ray that is none has no error that is a number.
+    let doubtful = !misses & !(inside & (behind | !unsure)) & (error < f64::INFINITY);
+    Verdict { t: if inside & (t > 0.0) { t } else { f64::INFINITY }, doubtful }
+}
+// ANCHOR_END: triangle_verdict
+
+/// What f64 says of a ray and a triangle.
+pub fn triangle_verdict(origin: DVec3, direction: DVec3, facet: &Facet) -> Verdict {
+    let size = origin.abs().element_sum();
+    match longest_axis(direction) {
+        0 => verdict::<0>(origin, Shear::along::<0>(direction), facet, size),
+        1 => verdict::<1>(origin, Shear::along::<1>(direction), facet, size),
+        _ => verdict::<2>(origin, Shear::along::<2>(direction), facet, size),
+    }
+}
+
+/// The t > 0 at which O + tR meets a triangle, or infinity; exact arithmetic judges where f64 alone would leave a doubt.
+pub fn triangle_t(origin: DVec3, direction: DVec3, facet: &Facet) -> f64 {
+    let verdict = triangle_verdict(origin, direction, facet);
+    if verdict.doubtful { exact_triangle_t(origin, direction, facet) } else { verdict.t }
+}
+
+/// Narrows hits by all triangles, for any column of rays.
+pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
+    triangles: Res<Shared<TriangleTable>>,
+    mut tiles: Query<(&R, &mut H)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        triangle_rows(rays.ray_lanes(), &triangles, t, shape);
+    }
+}
+
+/// A triangle at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn triangle_rows(rays: RayLanes<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
+        let sheared = Sheared::of(&o, &d, end - start);
+        let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
+        for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
+            let mut nearest = [f64::NEG_INFINITY; LANES];
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = facet.centre - vector(&o, lane);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
+            }
+            if nearest.iter().any(|&nearness| nearness >= 0.0) {
+                narrow::<0>(&o, &d, &sheared, facet, number, t, shape);
+                narrow::<1>(&o, &d, &sheared, facet, number, t, shape);
+                narrow::<2>(&o, &d, &sheared, facet, number, t, shape);
+            }
+        }
+        start = end;
+    }
+}
+
+/// The shears of a block of rays.
+struct Sheared {
+    axis: [usize; LANES],
+    /// Which axes occur.
+    occurs: [bool; 3],
+    x: [f64; LANES],
+    y: [f64; LANES],
+    z: [f64; LANES],
+    /// |O|₁.
+    size: [f64; LANES],
+}
+
+impl Sheared {
+    #[inline(always)]
+    fn of(o: &[[f64; LANES]; 3], d: &[[f64; LANES]; 3], rays: usize) -> Self {
+        let (axis, size) = ([0; LANES], [0.0; LANES]);
+        let mut sheared = Self { axis, occurs: [false; 3], x: size, y: size, z: size, size };
+        for lane in 0..rays {
+            let direction = vector(d, lane);
+            let axis = longest_axis(direction);
+            let shear = match axis {
+                0 => Shear::along::<0>(direction),
+                1 => Shear::along::<1>(direction),
+                _ => Shear::along::<2>(direction),
+            };
+            (sheared.x[lane], sheared.y[lane], sheared.z[lane]) = (shear.x, shear.y, shear.z);
+            (sheared.axis[lane], sheared.occurs[axis]) = (axis, true);
+            sheared.size[lane] = vector(o, lane).abs().element_sum();
+        }
+        sheared
+    }
+}
+
+/// Narrows the hits of those of sixteen rays that are longest along `Z`.
+#[inline(always)]
+fn narrow<const Z: usize>(
+    o: &[[f64; LANES]; 3],
+    d: &[[f64; LANES]; 3],
+    sheared: &Sheared,
+    facet: &Facet,
+    number: u32,
+    t: &mut [f64],
+    shape: &mut [u32],
+) {
+    if !sheared.occurs[Z] {
+        return;
+    }
+    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
+    for lane in 0..LANES {
+        let shear = Shear { x: sheared.x[lane], y: sheared.y[lane], z: sheared.z[lane] };
+        let verdict = verdict::<Z>(vector(o, lane), shear, facet, sheared.size[lane]);
+        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
+    }
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if sheared.axis[lane] != Z {
+            continue;
+        }
+        if doubtful[lane] {
+            found[lane] = exact_triangle_t(vector(o, lane), vector(d, lane), facet);
+        }
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn triangle_stage() -> Stage {
+    Stage::new("Intersect triangles", TileSystems::Intersect, intersect_triangles::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<TriangleTable>()
+        .when(triangle_evidence)
+}
+
+/// Evidence that the scene holds a triangle.
+pub fn triangle_evidence(scene: &World) -> Evidence {
+    Evidence::of::<Triangle>(scene, "triangle")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn facet(corners: [[f64; 3]; 3]) -> Facet {
+        Facet::new(corners.map(DVec3::from))
+    }
+
+    /// Half of a square of side 2, three units ahead.
+    fn half() -> Facet {
+        facet([[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [-1.0, 1.0, -3.0]])
+    }
+
+    #[test]
+    fn both_sides_are_met_and_only_before_the_ray() {
+        let t = |origin, direction| triangle_t(origin, direction, &half());
+        let at = DVec3::new(-0.5, -0.25, 0.0);
+        assert_eq!(t(at, DVec3::NEG_Z), 3.0);
+        assert_eq!(t(at, DVec3::NEG_Z * 2.0), 1.5);
+        assert_eq!(t(at - DVec3::Z * 4.0, DVec3::Z), 1.0);
+        assert_eq!(t(at, DVec3::Z), f64::INFINITY);
+        assert_eq!(t(at, DVec3::X), f64::INFINITY);
+        assert_eq!(t(at - DVec3::Z * 3.0, DVec3::NEG_Z), f64::INFINITY, "a ray on it does not meet it");
+    }
+
+    #[test]
+    fn edges_and_corners_belong_to_it_and_the_next_number_does_not() {
+        let t = |x: f64, y: f64| triangle_t(DVec3::new(x, y, 0.0), DVec3::NEG_Z, &half());
+        let beyond = 1.0 + f64::EPSILON;
+        for (x, y) in [(0.0, 0.0), (0.25, -0.25), (-1.0, 0.0), (0.3, -1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)] {
+            assert_eq!(t(x, y), 3.0, "({x}, {y})");
+        }
+        for (x, y) in [(-beyond, 0.0), (0.3, -beyond), (0.25, -0.25 + f64::EPSILON), (beyond, -1.0), (-1.0, beyond)] {
+            assert_eq!(t(x, y), f64::INFINITY, "({x}, {y})");
+        }
+    }
+
+    #[test]
+    fn a_ray_in_its_plane_meets_nothing() {
+        let edge_on = facet([[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [0.0, 0.0, -5.0]]);
+        for origin in [DVec3::ZERO, DVec3::X * 0.25] {
+            assert_eq!(triangle_t(origin, DVec3::NEG_Z, &edge_on), f64::INFINITY);
+        }
+        assert_eq!(triangle_t(DVec3::Y, DVec3::NEG_Z, &edge_on), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_order_of_corners_changes_no_bit() {
+        let corners = [[0.1, 0.2, -3.3], [1.7, -0.4, -2.9], [-0.6, 1.3, -4.1]];
+        let (origin, direction) = (DVec3::new(0.01, 0.02, 0.03), DVec3::new(0.1, 0.05, -1.0));
+        let t = triangle_t(origin, direction, &facet(corners));
+        assert!(t.is_finite());
+        for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            assert_eq!(triangle_t(origin, direction, &facet(order.map(|corner| corners[corner]))), t);
+        }
+    }
+
+    #[test]
+    fn what_is_no_ray_meets_nothing() {
+        let (at, ahead) = (DVec3::new(-0.5, -0.25, 0.0), DVec3::NEG_Z);
+        for bad in [DVec3::ZERO, DVec3::NAN, DVec3::new(0.0, 0.0, f64::NEG_INFINITY), DVec3::new(0.0, f64::NAN, -1.0)] {
+            assert_eq!(triangle_t(at, bad, &half()), f64::INFINITY, "{bad}");
+        }
+        assert_eq!(triangle_t(DVec3::NAN, ahead, &half()), f64::INFINITY);
+        let smallest = f64::from(f32::from_bits(1));
+        assert_eq!(triangle_t(at, ahead * smallest, &half()), 3.0 / smallest);
+        assert_eq!(triangle_t(at, DVec3::new(-0.0, -smallest, -1.0), &half()), 3.0);
+    }
+}
