@@ -2,7 +2,7 @@
 
 use super::{LightRays, Radiance, ShadowHits};
 use crate::extract::{MaterialKind, MaterialTable};
-use crate::intersect::{NO_SHAPE, Surfaces};
+use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces};
 use crate::plan::Column;
 use crate::rays::WorldRays;
 use glam::DVec3;
@@ -21,6 +21,7 @@ pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
 pub(super) struct Lit<'a> {
     pub eye: &'a WorldRays,
     pub surfaces: &'a Surfaces,
+    pub shading: Option<&'a ShadingNormals>,
     pub light: &'a LightRays,
     pub shadow: Option<&'a ShadowHits>,
 }
@@ -46,7 +47,8 @@ impl Lit<'_> {
                 continue;
             }
             let [to_light, to_eye] = [self.light.direction_of(ray), -self.eye.direction_of(path)];
-            let share = share(materials.row[material] as usize, [surface.normal.as_dvec3(), to_light, to_eye]);
+            let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(path));
+            let share = share(materials.row[material] as usize, [normal, to_light, to_eye]);
             let irradiance = self.light.irradiance(ray);
             let [r, g, b] = [0, 1, 2].map(|part| (share[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
             radiance.r[path] += r;
