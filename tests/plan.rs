@@ -185,8 +185,10 @@ fn stages_declare_what_their_systems_touch() {
         }
         let name = |column: &ColumnKind| format!("column {}", column.name);
         let writes: BTreeSet<String> = stage.writes.iter().map(name).collect();
-        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).map(name).collect();
-        reads.extend(stage.tables.iter().map(|table| format!("table {}", table.name)));
+        let asked = stage.reads_where.iter().map(|(column, _)| column);
+        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).chain(asked).map(name).collect();
+        let asked = stage.tables_where.iter().map(|(table, _)| table);
+        reads.extend(stage.tables.iter().chain(asked).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
             // Its rays have origins only where the orthographic stage, an alternative, has brought its table.

@@ -6,6 +6,7 @@
 //! f64, so that a scene far from the world's origin loses nothing.
 //! After this no stage looks at a component of the scene again.
 
+mod adaptive;
 mod background;
 mod blinn_phong;
 mod camera;
@@ -42,6 +43,7 @@ mod two_colours;
 mod uv_slope;
 mod uv_space;
 
+pub use adaptive::{adaptive_of, check_layers};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use camera::{
@@ -122,5 +124,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     GradientTable::extract(scene)?;
     EnvironmentTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;
+    adaptive_of(scene)?;
+    check_layers(scene)?;
     Ok(())
 }

@@ -3,6 +3,7 @@
 //! Reads: f32 rays and shapes, in world space unless a function says otherwise. Writes: what the
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
+pub mod adaptive;
 pub mod camera;
 pub mod ellipsoid;
 pub mod entity_per_ray;

@@ -64,6 +64,21 @@ pub const CAMERAS: &[Case] = &[
     ("two cameras, one unnamed", &["camera", "\"main\"", "(unnamed, entity "], |w| {
         w.spawn(OrthographicCamera::default());
     }),
+    ("adaptive without sampling", &["\"main\"", "adaptive", "Sampling"], |w| put(w, "main", Adaptive::default())),
+    ("an error of 0", &["\"main\"", "error", "above 0"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { error: 0.0, ..Adaptive::default() }))
+    }),
+    ("an error that is no number", &["\"main\"", "error", "NaN"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { error: f64::NAN, ..Adaptive::default() }))
+    }),
+    ("a pilot of 3", &["\"main\"", "pilot", "3", "from 4"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { pilot: 3, ..Adaptive::default() }))
+    }),
+    ("no layers", &["\"main\"", "kinds", "empty"], |w| put(w, "main", Layers::default())),
+    ("layers twice", &["layers", "\"main\"", "\"ball\""], |w| {
+        put(w, "main", Layers::all());
+        put(w, "ball", Layers::all());
+    }),
     ("both kinds on one", &["camera", "PerspectiveCamera and an OrthographicCamera", "\"main\""], |w| {
         put(w, "main", OrthographicCamera::default())
     }),

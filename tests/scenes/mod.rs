@@ -3,7 +3,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::film_stage;
+use pinhole::film::{film_stage, layers_stage, moments_stage};
 use pinhole::look::view_stage;
 pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
@@ -69,7 +69,7 @@ pub fn offer() -> Vec<Stage> {
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
     offer.push(view_stage(&offer));
-    offer.push(film_stage());
+    offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
 }
 
@@ -246,6 +246,7 @@ pub enum Toggle {
     Background,
     View,
     Statistics,
+    Layers,
     Sun,
     Spot,
     Phong,
@@ -254,7 +255,7 @@ pub enum Toggle {
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 10] = [
+pub const TOGGLES: [Toggle; 11] = [
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
@@ -265,6 +266,7 @@ pub const TOGGLES: [Toggle; 10] = [
     Toggle::Background,
     Toggle::View,
     Toggle::Statistics,
+    Toggle::Layers,
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
@@ -329,6 +331,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Statistics) {
         world.entity_mut(camera).insert(Statistics);
+    }
+    if has(Toggle::Layers) {
+        world.entity_mut(camera).insert(Layers::all());
     }
     world
 }
