@@ -28,6 +28,8 @@ pub enum Attempt {
     OursFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
     /// Chapter 12: stages in order, the column asked for.
     Kept(fn(&[StageWords], &str) -> Vec<String>),
+    /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
+    FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
 }
 
 impl Attempt {
@@ -46,6 +48,7 @@ impl Attempt {
             Self::ReflectedRadiance(_) => "reflected_radiance",
             Self::OursFromTheirs(_) => "ours_from_theirs",
             Self::Kept(_) => "kept",
+            Self::FallingCosine(_) => "falling_cosine",
         }
     }
 }

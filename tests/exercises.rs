@@ -93,7 +93,9 @@ fn every_stub_is_wrong() {
 
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solution), chapter) in solutions::ALL.iter().zip(&chapters::all()[1..]) {
+    let chapters = chapters::all();
+    for (name, solution) in &solutions::ALL {
+        let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("a chapter of this name");
         let attempt = chapter.exercise.expect("an exercise");
         assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
         let signature = format!("pub fn {}(", attempt.function());

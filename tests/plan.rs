@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 
 /// Whether a combination cannot make a picture: its view asks for what nothing in it writes.
 fn pictureless(on: &[Toggle]) -> bool {
-    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane];
+    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane, Toggle::Triangle];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
 
@@ -78,7 +78,10 @@ fn rows_systems_columns_and_tables_are_one_list() {
             match prepare(&scene, &offer).err().expect("refused") {
                 Error::Plan(PlanError::NoSuchView { asked, why }) => {
                     assert_eq!(asked, VIEWED, "{on:?}");
-                    assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes)"), "{on:?}: {why}");
+                    assert!(
+                        why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, 0 triangles)"),
+                        "{on:?}: {why}"
+                    );
                 }
                 other => panic!("{on:?}: {other}"),
             }
@@ -209,11 +212,12 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         }
     }
     type Change = fn(&mut EntityWorldMut<'_>);
-    let changes: [(&str, Change, Change); 8] = [
+    let changes: [(&str, Change, Change); 9] = [
         ("a light", add::<PointLight>, take::<PointLight>),
         ("a sphere", add::<(Sphere, Matte)>, take::<(Sphere, Matte)>),
         ("an ellipsoid", add_ellipsoid, take::<(Sphere, Matte, Placement)>),
         ("a plane", add::<(Plane, Matte)>, take::<(Plane, Matte)>),
+        ("a triangle", add::<(Triangle, Matte)>, take::<(Triangle, Matte)>),
         ("a background", add::<Background>, take::<Background>),
         ("a view", add_view, take::<View>),
         ("statistics", add::<Statistics>, take::<Statistics>),
@@ -257,14 +261,16 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 5] = [
+    let kinds: [(&str, &[&str]); 6] = [
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
+        ("sail", &["Intersect triangles", "Describe triangle surfaces", "Look for triangles in the way"]),
         ("lamp", &["Aim at lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
-    let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
+    let shapes = [Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Triangle];
+    let on = [&[Toggle::Light, Toggle::Shadow, Toggle::Background][..], &shapes].concat();
     for (name, stages) in kinds {
         let mut scene = toggled(&on);
         let entity = named(&mut scene, name);
@@ -297,7 +303,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
-    eprintln!("disabled: 6 entities, 14 stages; unused: 1 matte in 2 scenes");
+    eprintln!("disabled: 7 entities, 17 stages; unused: 1 matte in 2 scenes");
 }
 
 fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {
@@ -313,20 +319,24 @@ fn reasons_name_the_first_three() {
         let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..at };
         scene.spawn((Name::new(format!("egg {number}")), Sphere { radius: 0.125 }, Matte::default(), egg));
         scene.spawn((Name::new(format!("pane {number}")), Plane::default(), Matte::default(), at));
+        scene.spawn((Name::new(format!("sail {number}")), scenes::leaning_triangle(1.0), Matte::default(), at));
         let at = Placement::at(f64::from(number), 3.0, 1.0);
         scene.spawn((Name::new(format!("lamp {number}")), PointLight::default(), at));
     }
-    let (balls, eggs, panes, lamps) = (three("ball"), three("egg"), three("pane"), three("lamp"));
+    let (balls, eggs, panes, sails, lamps) = (three("ball"), three("egg"), three("pane"), three("sail"), three("lamp"));
     let mattes = "\"ball 1\", \"egg 1\", \"pane 1\", …".to_string();
     let spheres = "\"ball 1\", \"egg 1\", \"ball 2\", …".to_string();
-    let expected: [(&str, Vec<&String>); 16] = [
-        ("Start with nothing met", vec![&spheres, &panes]),
+    let expected: [(&str, Vec<&String>); 19] = [
+        ("Start with nothing met", vec![&spheres, &panes, &sails]),
+        ("Intersect triangles", vec![&sails]),
+        ("Describe triangle surfaces", vec![&sails]),
+        ("Look for triangles in the way", vec![&sails, &lamps]),
         ("Intersect ellipsoids", vec![&eggs]),
         ("Describe ellipsoid surfaces", vec![&eggs]),
         ("Look for ellipsoids in the way", vec![&eggs, &lamps]),
         ("Intersect spheres", vec![&balls]),
         ("Intersect planes", vec![&panes]),
-        ("Classify hits", vec![&spheres, &panes]),
+        ("Classify hits", vec![&spheres, &panes, &sails]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
         ("Aim at lights", vec![&lamps, &mattes]),

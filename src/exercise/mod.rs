@@ -24,6 +24,7 @@ mod ray;
 mod report;
 mod screen;
 mod shown;
+mod transforms;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -51,5 +52,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
     }
 }

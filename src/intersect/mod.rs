@@ -25,7 +25,7 @@ pub use ellipsoid::{
 pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
 pub use shading_normal::{
-    ShadingNormals, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
+    ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
 };
 pub use sphere::{
     Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,

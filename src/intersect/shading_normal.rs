@@ -46,6 +46,16 @@ pub fn shading_normal(normals: &[DVec3; 3], meeting: &Meeting) -> DVec3 {
 }
 // ANCHOR_END: shading_normal
 
+// ANCHOR: falling_cosine
+/// The cosine of the angle at which light falls: by the shading normal; not above 0 where it comes from below the surface
+/// itself, whatever the shading normal says.
+#[inline(always)]
+pub fn falling_cosine(geometric: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
+    let above = geometric.dot(to_light) > 0.0;
+    if above { shading.dot(to_light) } else { 0.0 }
+}
+// ANCHOR_END: falling_cosine
+
 /// Fills a tile's shading normals.
 pub fn interpolate_normals(
     triangles: Res<Shared<TriangleTable>>,

@@ -119,6 +119,11 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
     let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
     world.spawn((Name::new("wall"), wall, at(-3.03, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    let sail = (leaning_triangle(setup.scale), at(-0.5, 1.75, 0.5));
+    world.spawn((Name::new("sail"), sail, Matte { colour: Rgb::new(0.4, 0.7, 0.9) }));
+    let flag = Triangle { normals: None, ..leaning_triangle(setup.scale) };
+    let stretched = Placement { scale: DVec3::new(0.5, -0.75, 2.0), ..at(1.03, 2.26, -0.25) };
+    world.spawn((Name::new("flag"), flag, stretched, UsesMaterial(gold)));
     world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
@@ -160,6 +165,13 @@ pub fn stretched(setup: Setup) -> World {
     world
 }
 
+/// A triangle of about this size that faces the viewer, with normals of its own.
+pub fn leaning_triangle(size: f64) -> Triangle {
+    let corners = [[0.0, 0.0, 0.0], [0.875, 0.125, 0.25], [0.25, 0.9375, -0.125]];
+    let normals = [[-0.5, -0.25, 1.0], [0.5, 0.0, 1.0], [0.0, 0.5, 1.0]].map(DVec3::from);
+    Triangle { vertices: corners.map(|corner| DVec3::from(corner) * size), normals: Some(normals), uvs: None }
+}
+
 /// How many pixels of [`ties`] see a ball and the pane at the very same distance.
 pub const TIED_PIXELS: usize = 8;
 
@@ -195,6 +207,7 @@ pub enum Toggle {
     Plane,
     Sphere,
     Ellipsoid,
+    Triangle,
     Shadow,
     Orthographic,
     Background,
@@ -203,12 +216,13 @@ pub enum Toggle {
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 10] = [
+pub const TOGGLES: [Toggle; 11] = [
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
     Toggle::Sphere,
     Toggle::Ellipsoid,
+    Toggle::Triangle,
     Toggle::Shadow,
     Toggle::Orthographic,
     Toggle::Background,
@@ -245,6 +259,10 @@ pub fn toggled(on: &[Toggle]) -> World {
         let scale = DVec3::new(0.5, 1.5, 1.0);
         let egg = (Sphere { radius: 0.5 }, Placement { scale, ..Placement::at(1.2, 0.75, 0.3) });
         world.spawn((Name::new("egg"), egg, Matte { colour: Rgb::new(0.9, 0.8, 0.6) }));
+    }
+    if has(Toggle::Triangle) {
+        let sail = (leaning_triangle(1.0), Placement::at(-1.2, 0.3, 0.4));
+        world.spawn((Name::new("sail"), sail, Matte { colour: Rgb::new(0.4, 0.7, 0.9) }));
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));

@@ -25,6 +25,11 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -47,13 +52,16 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
     /// Films: sums of samples, bytes of pictures.
     Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
+    pub const ALL: [Self; 7] =
+        [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Triangle, Self::Film];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -66,6 +74,7 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
+            Self::Triangle => triangle::trials(),
             Self::Film => film::trials(),
         }
     }
@@ -79,6 +88,7 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Triangle => "triangle",
             Self::Film => "film",
         })
     }

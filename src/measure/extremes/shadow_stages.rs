@@ -1,7 +1,9 @@
 //! From a ray to the shadow ray that leaves its hit, through the kit's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
-use crate::extract::{EllipsoidTable, MaterialKind, MaterialTable, PointLightTable, ShapeKind, ShapeTable};
+use crate::extract::{
+    EllipsoidTable, MaterialKind, MaterialTable, PointLightTable, ShapeKind, ShapeTable, TriangleTable,
+};
 use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
@@ -48,6 +50,12 @@ impl ShadowStages {
         Self::of(&of_hits, shade::ellipsoid_shadow_stage())
     }
 
+    /// The stages for triangles, a light still to be placed.
+    pub fn of_triangles() -> Self {
+        let of_hits = [intersect::triangle_stage(), intersect::classify_stage(), intersect::triangle_surface_stage()];
+        Self::of(&of_hits, shade::triangle_shadow_stage())
+    }
+
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light = [shade::aim_stage(), shade::start_shadow_stage(), shadow_stage];
@@ -76,6 +84,13 @@ impl ShadowStages {
     /// The scene's ellipsoids; an ellipsoid's place is its number.
     pub fn ellipsoids(&mut self, table: EllipsoidTable) {
         self.shapes(ShapeKind::Ellipsoid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's triangles; a triangle's place is its number.
+    pub fn triangles(&mut self, table: TriangleTable) {
+        self.shapes(ShapeKind::Triangle, table.shape.len());
         self.to_surface.share(table.clone());
         self.to_light.share(table);
     }

@@ -7,6 +7,7 @@ mod hits;
 mod light;
 mod rays;
 mod table;
+mod triangles;
 
 pub use table::PLANTED;
 
