@@ -1,6 +1,6 @@
 use crate::attempt::Attempt;
 use crate::extract::camera_entity;
-use crate::film::film_stage;
+use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
@@ -54,7 +54,7 @@ impl Chapter {
             stages.push(place_samples_stage());
         }
         stages.push(view_stage(&self.offer));
-        stages.push(film_stage());
+        stages.extend([layers_stage(), moments_stage(), film_stage()]);
         stages
     }
 

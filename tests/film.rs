@@ -37,7 +37,7 @@ fn samples_that_are_no_light_are_counted_and_kept_out() {
         let sums = [1.0, 1.0 + f64::from(f32::MAX), 1.0 + f64::from(1e-45_f32)];
         assert_eq!([film.r[row], film.g[row], film.b[row]], sums, "only what is light is summed");
     }
-    let film = Film { width: 4, height: 3, tile_side: 4, tiles: vec![film] };
+    let film = Film { width: 4, height: 3, tile_side: 4, tiles: vec![film], ..Film::default() };
     assert_eq!(film.rejected().0, (bad.len() * rows) as u64);
     assert_eq!(film.rejected().1[0].pixel, [32, 64], "by the pixel of the image, not of the tile");
     eprintln!("rejected: {} samples of {} kinds in {rows} pixels", bad.len() * rows, bad.len());

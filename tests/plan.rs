@@ -266,7 +266,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
         ("sail", &["Intersect triangles", "Describe triangle surfaces", "Look for triangles in the way"]),
-        ("lamp", &["Aim at lights", "Start with light seen", "Add the light that arrives"]),
+        ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
     let shapes = [Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Triangle];
@@ -299,7 +299,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Aim at lights", "Start with light seen", "Add the light that arrives"] {
+    for stage in ["Aim at point lights", "Start with light seen", "Add the light that arrives"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
@@ -339,7 +339,7 @@ fn reasons_name_the_first_three() {
         ("Classify hits", vec![&spheres, &panes, &sails]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
-        ("Aim at lights", vec![&lamps, &mattes]),
+        ("Aim at point lights", vec![&lamps, &mattes]),
         ("Start with light seen", vec![&lamps, &mattes]),
         ("Look for spheres in the way", vec![&balls, &lamps]),
         ("Look for planes in the way", vec![&panes, &lamps]),

@@ -21,7 +21,7 @@ pub fn check(yours: fn(f64, f64, Vector, Vector, Vector) -> f64, patience: Durat
 fn question() -> Question<Input, f64> {
     Question {
         function: "reflected_radiance",
-        kit_has: ("src/shade/light.rs", "reflected_radiance"),
+        kit_has: ("src/shade/point_light.rs", "irradiance_from_point"),
         probes: asked(),
         tell: |(colour, intensity, position, normal, light)| {
             let [position, normal, light] = [position, normal, light].map(Shown::shown);
@@ -125,5 +125,6 @@ fn radiance(input: &Input, cosine: f64) -> f64 {
 }
 
 fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) -> f64 {
-    shade::reflected_radiance([colour; 3], [intensity; 3], cosine, distance_squared)[0]
+    let irradiance = shade::irradiance_from_point([intensity; 3], cosine, distance_squared);
+    shade::matte_radiance([colour; 3], irradiance)[0]
 }

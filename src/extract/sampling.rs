@@ -4,6 +4,9 @@ use crate::plan::Table;
 use crate::scene::{Refusal, Sampler, Sampling};
 use bevy_ecs::prelude::*;
 
+/// The most samples a pixel may have: so many places along an axis does a number of 24 bits tell apart.
+pub const MOST_SAMPLES: u32 = 1 << 24;
+
 /// How the camera samples its pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SamplingTable {
@@ -15,6 +18,13 @@ pub struct SamplingTable {
     pub sampler: Sampler,
 }
 
+impl SamplingTable {
+    /// The same with another seed, for samples that are to be independent of these whatever the sampler.
+    pub fn for_pilot(self) -> Self {
+        Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x50_494C_4F54, ..self }
+    }
+}
+
 impl Table for SamplingTable {
     const NAME: &'static str = "sampling";
 
@@ -23,9 +33,10 @@ impl Table for SamplingTable {
         let Some(&Sampling { samples, seed, sampler, .. }) = scene.get::<Sampling>(camera) else {
             return Ok(Self { samples: 1, ..Self::default() });
         };
-        if samples == 0 {
+        if !(1..=MOST_SAMPLES).contains(&samples) {
             let who = kind_and_name(scene, "camera", camera);
-            return Err(Refusal::new(who, "samples", "0", "each pixel must have at least 1 sample"));
+            let accepted = format!("it must be a whole number from 1 to {MOST_SAMPLES}");
+            return Err(Refusal::new(who, "samples", samples.to_string(), accepted));
         }
         Ok(Self { samples, seed, sampler })
     }

@@ -2,7 +2,7 @@ use super::check::kind_and_name;
 use super::material::material_entities;
 use super::unevenly_scaled;
 use crate::plan::{Table, entities};
-use crate::scene::{Disabled, Matte, Plane, Refusal, Sphere, Triangle, UsesMaterial, called};
+use crate::scene::{Cuboid, Disabled, Disk, Matte, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 
 /// The kinds of shape, in the order of their tables.
@@ -14,13 +14,19 @@ pub enum ShapeKind {
     Plane,
     /// A row of the ellipsoid table.
     Ellipsoid,
+    /// A row of the disk table.
+    Disk,
+    /// A row of the rectangle table.
+    Rectangle,
+    /// A row of the cuboid table.
+    Cuboid,
     /// A row of the triangle table.
     Triangle,
 }
 
 impl ShapeKind {
     /// How many kinds there are.
-    const COUNT: usize = 4;
+    const COUNT: usize = 7;
 }
 
 /// All shapes in spawn order; a shape's number here is the one that hits carry.
@@ -64,6 +70,9 @@ const WRITTEN: &[Written] = &[
         if unevenly_scaled(scene, entity) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere }
     }),
     Written::of::<Plane>("Plane", "plane", |_, _| ShapeKind::Plane),
+    Written::of::<Disk>("Disk", "disk", |_, _| ShapeKind::Disk),
+    Written::of::<Rectangle>("Rectangle", "rectangle", |_, _| ShapeKind::Rectangle),
+    Written::of::<Cuboid>("Cuboid", "cuboid", |_, _| ShapeKind::Cuboid),
     Written::of::<Triangle>("Triangle", "triangle", |_, _| ShapeKind::Triangle),
 ];
 

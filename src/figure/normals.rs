@@ -14,7 +14,7 @@ use crate::plan::Table;
 use crate::rays::WorldRays;
 use crate::render::inspect;
 use crate::scene::Resolution;
-use crate::shade::{reflected_radiance, shadow_reach};
+use crate::shade::{irradiance_from_point, matte_radiance, shadow_reach};
 use glam::DVec2;
 
 /// Pixels of each of the two pictures.
@@ -103,7 +103,8 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_reach(distance))) {
             let colour = materials.colour[surface.material as usize];
-            let brings = reflected_radiance(colour, intensity, cosine, distance * distance);
+            let irradiance = irradiance_from_point(intensity, cosine, distance * distance);
+            let brings = matte_radiance(colour, irradiance);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
         }
     }

@@ -1,3 +1,4 @@
+use super::{FilmLayers, FilmMoments};
 use crate::plan::{Column, Lane, LaneValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
@@ -45,10 +46,16 @@ impl FilmTile {
         Self { tile, r: zeros(), g: zeros(), b: zeros(), count: vec![0; rows], ..Self::default() }
     }
 
+    /// Whether a sample is light: no part of it negative or not finite.
+    #[inline(always)]
+    pub fn takes(radiance: [f32; 3]) -> bool {
+        radiance.iter().all(|&part| (0.0..f32::INFINITY).contains(&part))
+    }
+
     /// Adds a sample to a row, or rejects it where a part is negative or not finite.
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
-        if radiance.iter().all(|&part| (0.0..f32::INFINITY).contains(&part)) {
+        if Self::takes(radiance) {
             self.r[row] += f64::from(radiance[0]);
             self.g[row] += f64::from(radiance[1]);
             self.b[row] += f64::from(radiance[2]);
@@ -69,8 +76,24 @@ impl FilmTile {
 
     /// The mean radiance of a row; black where no sample joined.
     pub fn mean(&self, row: usize) -> [f32; 3] {
+        self.mean_f64(row).map(|part| part as f32)
+    }
+
+    /// The same, unrounded.
+    #[inline(always)]
+    pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
-        [self.r[row] / count, self.g[row] / count, self.b[row] / count].map(|part| part as f32)
+        [self.r[row] / count, self.g[row] / count, self.b[row] / count]
+    }
+
+    /// All lanes of sums, for checkpoints.
+    pub fn sums(&self) -> [&Vec<f64>; 3] {
+        [&self.r, &self.g, &self.b]
+    }
+
+    /// The same, to be filled.
+    pub fn sums_mut(&mut self) -> [&mut Vec<f64>; 3] {
+        [&mut self.r, &mut self.g, &mut self.b]
     }
 }
 
@@ -78,7 +101,7 @@ impl Column for FilmTile {
     const NAME: &'static str = "pixel";
     const SPACE: &'static str = "film";
     const UNIT: &'static str = "summed linear Rec. 709";
-    const LIFETIME: Lifetime = Lifetime::Pixel;
+    const LIFETIME: Lifetime = Lifetime::Film;
 
     fn rows(&self) -> usize {
         self.count.len()
@@ -99,7 +122,9 @@ impl Column for FilmTile {
 }
 
 /// The whole film: its tiles in rows of tiles, so that each can be lent to a worker.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// All of it persists: it is what a checkpoint holds.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Film {
     /// Pixels from left to right.
     pub width: u32,
@@ -109,6 +134,16 @@ pub struct Film {
     pub tile_side: u32,
     /// The tiles, left to right, then down.
     pub tiles: Vec<FilmTile>,
+    /// The second moments of each tile; none where nothing asks for them.
+    pub moments: Vec<FilmMoments>,
+    /// The layers of each tile; none where nothing asks for them.
+    pub layers: Vec<FilmLayers>,
+    /// How many steps of the render each tile has behind it.
+    pub done: Vec<u32>,
+    /// Whether its samples are those that only decide how many each pixel gets.
+    pub pilot: bool,
+    /// Samples that each pixel is to get, tile by tile, where that has been decided.
+    pub planned: Vec<Vec<u32>>,
 }
 
 impl Film {
@@ -121,14 +156,29 @@ impl Film {
                 tiles.push(FilmTile::new(Tile { x, y, width, height }));
             }
         }
-        Self { width, height, tile_side, tiles }
+        Self { width, height, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
     }
 
     /// The mean radiance of a pixel, linear Rec. 709.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
+        let (tile, row) = self.place(x, y);
+        self.tiles[tile].mean(row)
+    }
+
+    /// The tile that holds a pixel, and the pixel's row in it.
+    pub fn place(&self, x: u32, y: u32) -> (usize, usize) {
         let across = self.width.div_ceil(self.tile_side);
-        let tile = &self.tiles[(y / self.tile_side * across + x / self.tile_side) as usize];
-        tile.mean(((y - tile.tile.y) * tile.tile.width + (x - tile.tile.x)) as usize)
+        let number = (y / self.tile_side * across + x / self.tile_side) as usize;
+        let tile = &self.tiles[number].tile;
+        (number, ((y - tile.y) * tile.width + (x - tile.x)) as usize)
+    }
+
+    /// How much the mean of a pixel would vary from one render to another with other random numbers: red, green, blue;
+    /// 0 where fewer than two samples tell.
+    pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
+        let count = self.tiles[tile].count[row];
+        let variance = self.moments.get(tile).map_or([0.0; 3], |moments| moments.variance(row, count));
+        variance.map(|part| part / f64::from(count.max(1)))
     }
 
     /// All samples that could not join: how many, and the first few.

@@ -5,15 +5,23 @@
 //! Nothing is written to disk anywhere else in the kit's renderer, and no file is ever left half written.
 
 mod accumulate;
+mod checkpoint;
 mod develop;
 mod exr;
 mod film_tile;
+mod layered_exr;
+mod layers;
+mod moments;
 mod png;
 mod whole_file;
 
 pub use accumulate::{add_to_film, film_stage};
+pub use checkpoint::{read_checkpoint, write_checkpoint};
 pub use develop::{Curve, byte_from_linear, linear_from_srgb, srgb_from_linear};
 pub use exr::write_exr;
 pub use film_tile::{Film, FilmTile, Rejected};
+pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
+pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
 pub use png::{png_bytes, png_bytes_by, png_url, write_png};
 pub use whole_file::{check_place, write_whole};

@@ -29,6 +29,30 @@ column! {
 }
 
 column! {
+    /// The rows that hit a disk, ascending.
+    pub struct DiskRows("disk rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
+    /// The rows that hit a rectangle, ascending.
+    pub struct RectangleRows("rectangle rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
+    /// The rows that hit a cuboid, ascending.
+    pub struct CuboidRows("cuboid rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+    }
+}
+
+column! {
     /// The rows that hit a triangle, ascending.
     pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
         /// A row of the hits.
@@ -54,13 +78,18 @@ pub fn classify_hits(
         Option<&mut SphereRows>,
         Option<&mut EllipsoidRows>,
         Option<&mut PlaneRows>,
+        Option<&mut DiskRows>,
+        Option<&mut RectangleRows>,
+        Option<&mut CuboidRows>,
         Option<&mut TriangleRows>,
         Option<&mut MaterialRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, triangles, materials, surfaces, uvs) in &mut tiles {
+    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, triangles, materials, surfaces, uvs) in
+        &mut tiles
+    {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
         }
@@ -69,6 +98,15 @@ pub fn classify_hits(
         }
         if let Some(mut list) = planes {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Plane);
+        }
+        if let Some(mut list) = disks {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Disk);
+        }
+        if let Some(mut list) = rectangles {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Rectangle);
+        }
+        if let Some(mut list) = cuboids {
+            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Cuboid);
         }
         if let Some(mut list) = triangles {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
@@ -126,6 +164,24 @@ impl PlaneRows {
     }
 }
 
+impl DiskRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl RectangleRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl CuboidRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl TriangleRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -145,6 +201,9 @@ pub fn classify_stage() -> Stage {
         .writes::<SphereRows>()
         .writes::<EllipsoidRows>()
         .writes::<PlaneRows>()
+        .writes::<DiskRows>()
+        .writes::<RectangleRows>()
+        .writes::<CuboidRows>()
         .writes::<TriangleRows>()
         .writes::<MaterialRows>()
         .writes::<Surfaces>()

@@ -1,6 +1,7 @@
 use super::classify::EllipsoidRows;
 use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
-use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::sphere_uv;
 use super::wide::{wide_ellipsoid_point, wide_ellipsoid_t};
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{
@@ -172,9 +173,9 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
 pub fn fill_ellipsoid_surfaces(
     ellipsoids: Res<Shared<EllipsoidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>,
+    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
 ) {
-    for (rays, hits, list, mut surfaces) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -182,6 +183,14 @@ pub fn fill_ellipsoid_surfaces(
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let surface = ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.material[shape]);
             surfaces.set(row, surface);
+        }
+        if let Some(mut uvs) = uvs {
+            for &row in &list.row {
+                let row = row as usize;
+                let ellipsoid = &ellipsoids.ellipsoid[shapes.row[hits.shape[row] as usize] as usize];
+                let from_centre = rays.origin_of(row) - ellipsoid.centre + hits.t[row] * rays.direction_of(row);
+                uvs.set(row, sphere_uv(ellipsoid.unit_from_world * from_centre));
+            }
         }
     }
 }
@@ -204,6 +213,7 @@ pub fn ellipsoid_surface_stage() -> Stage {
         .reads::<EllipsoidRows>()
         .reads::<Surfaces>()
         .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
         .table::<EllipsoidTable>()
         .table::<ShapeTable>()
         .when(ellipsoid_evidence)

@@ -1,7 +1,11 @@
+use super::cuboid::cuboid_evidence;
+use super::disk::disk_evidence;
 use super::plane::plane_evidence;
+use super::rectangle::rectangle_evidence;
+use super::triangle::triangle_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::{Sphere, Triangle};
+use crate::scene::Sphere;
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -83,5 +87,10 @@ pub fn start_stage() -> Stage {
 
 /// Evidence that the scene holds a shape of any kind.
 pub fn shape_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Sphere>(scene, "sphere").or(plane_evidence(scene)).or(Evidence::of::<Triangle>(scene, "triangle"))
+    Evidence::of::<Sphere>(scene, "sphere")
+        .or(plane_evidence(scene))
+        .or(disk_evidence(scene))
+        .or(rectangle_evidence(scene))
+        .or(cuboid_evidence(scene))
+        .or(triangle_evidence(scene))
 }

@@ -1,7 +1,7 @@
 use super::classify::PlaneRows;
-use super::surface::{Surface, Surfaces, offset_bound};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{PlaneTable, ShapeTable};
+use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Plane;
@@ -51,9 +51,10 @@ fn plane_rows(rays: RayLanes<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mu
 pub fn fill_plane_surfaces(
     planes: Res<Shared<PlaneTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &PlaneRows, &mut Surfaces)>,
+    uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
+    mut tiles: Query<(&WorldRays, &Hits, &PlaneRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
 ) {
-    for (rays, hits, list, mut surfaces) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -62,6 +63,13 @@ pub fn fill_plane_surfaces(
             let point = origin + hits.t[row] * direction;
             let bound = offset_bound(point, origin, planes.offset[plane].abs());
             surfaces.set(row, Surface::facing(direction, point, planes.normal[plane], bound, shapes.material[shape]));
+        }
+        if let (Some(mut uvs), Some(spaces)) = (uvs, &uv_spaces) {
+            for &row in &list.row {
+                let row = row as usize;
+                let at = spaces.point(hits.shape[row] as usize, rays.point_at(row, hits.t[row]));
+                uvs.set(row, [at.x, at.y]);
+            }
         }
     }
 }
@@ -84,8 +92,10 @@ pub fn plane_surface_stage() -> Stage {
         .reads::<PlaneRows>()
         .reads::<Surfaces>()
         .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
         .table::<PlaneTable>()
         .table::<ShapeTable>()
+        .table_with::<UvSpaceTable, SurfaceUvs>()
         .when(plane_evidence)
 }
 

@@ -1,8 +1,9 @@
 use super::classify::SphereRows;
-use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::sphere_uv;
 use super::wide::wide_sphere_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{ShapeTable, SphereTable, unevenly_scaled};
+use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, unevenly_scaled};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
@@ -174,9 +175,10 @@ fn narrow(
 pub fn fill_sphere_surfaces(
     spheres: Res<Shared<SphereTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &SphereRows, &mut Surfaces)>,
+    uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
+    mut tiles: Query<(&WorldRays, &Hits, &SphereRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
 ) {
-    for (rays, hits, list, mut surfaces) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -188,6 +190,13 @@ pub fn fill_sphere_surfaces(
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
             let bound = offset_bound(point, origin, sum_of_parts(centre) + radius);
             surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.material[shape]));
+        }
+        if let (Some(mut uvs), Some(spaces)) = (uvs, &uv_spaces) {
+            for &row in &list.row {
+                let row = row as usize;
+                let own = spaces.point(hits.shape[row] as usize, rays.point_at(row, hits.t[row]));
+                uvs.set(row, sphere_uv(own));
+            }
         }
     }
 }
@@ -210,8 +219,10 @@ pub fn sphere_surface_stage() -> Stage {
         .reads::<SphereRows>()
         .reads::<Surfaces>()
         .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
         .table::<SphereTable>()
         .table::<ShapeTable>()
+        .table_with::<UvSpaceTable, SurfaceUvs>()
         .when(sphere_evidence)
 }
 

@@ -35,6 +35,12 @@ column! {
 }
 
 impl SurfaceUvs {
+    /// Writes a row.
+    #[inline(always)]
+    pub fn set(&mut self, row: usize, uv: [f64; 2]) {
+        [self.u[row], self.v[row]] = uv;
+    }
+
     /// Each coordinate's part after the point.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.u[row], self.v[row], 0.0].map(|part| (part - part.floor()) as f32)

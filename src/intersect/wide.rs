@@ -6,7 +6,7 @@ use crate::extract::{Ellipsoid, two_product, two_sum};
 use glam::DVec3;
 
 /// A number as the unevaluated sum of two f64.
-type Wide = (f64, f64);
+pub(super) type Wide = (f64, f64);
 
 // ANCHOR: wide_sphere_t
 /// The smallest t > 0 at which O + tR lies on a sphere, or infinity, to about 100 bits before rounding.
@@ -92,22 +92,22 @@ fn to_unit(ellipsoid: &Ellipsoid, v: [Wide; 3]) -> [Wide; 3] {
     [0, 1, 2].map(|axis| dot(row(axis), v))
 }
 
-fn add(a: Wide, b: Wide) -> Wide {
+pub(super) fn add(a: Wide, b: Wide) -> Wide {
     let (sum, error) = two_sum(a.0, b.0);
     let (low, lower) = two_sum(a.1, b.1);
     let (sum, error) = two_sum(sum, error + low);
     two_sum(sum, error + lower)
 }
 
-fn multiply(a: Wide, b: Wide) -> Wide {
+pub(super) fn multiply(a: Wide, b: Wide) -> Wide {
     let (product, error) = two_product(a.0, b.0);
     two_sum(product, error + (a.0 * b.1 + a.1 * b.0))
 }
 
-fn negated(a: Wide) -> Wide {
+pub(super) fn negated(a: Wide) -> Wide {
     (-a.0, -a.1)
 }
 
-fn dot(a: [Wide; 3], b: [Wide; 3]) -> Wide {
+pub(super) fn dot(a: [Wide; 3], b: [Wide; 3]) -> Wide {
     add(add(multiply(a[0], b[0]), multiply(a[1], b[1])), multiply(a[2], b[2]))
 }

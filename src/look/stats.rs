@@ -68,6 +68,9 @@ impl RenderStats {
             })
             .collect();
         let rays_of = |name: &str| stages.iter().find(|stage| stage.stage == name).map_or(0, |stage| stage.rows);
+        // Each kind of light appends its rays to those before.
+        let aimed = stages.iter().filter(|stage| stage.stage.starts_with("Aim at "));
+        let light_rays = aimed.map(|stage| stage.rows).max().unwrap_or(0);
         let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();
         let left_out = rendered.plan.rows.iter().filter(|row| !row.kept);
         Self {
@@ -77,7 +80,7 @@ impl RenderStats {
             threads: rendered.threads,
             milliseconds: milliseconds(rendered.time),
             megapixels_a_second: pixels / rendered.time.as_secs_f64() / 1e6,
-            rays: rays_of("Turn rays into the world") + rays_of("Aim at lights"),
+            rays: rays_of("Turn rays into the world") + light_rays,
             film_bytes: rendered.film.bytes(),
             film_bytes_a_pixel: rendered.film.bytes() as f64 / pixels,
             table_bytes: rendered.table_bytes,

@@ -1,5 +1,5 @@
 use crate::extract::ImageShape;
-use crate::plan::{ColumnKind, Evidence, LaneValues, Shared, Stage, Table, TileSystems};
+use crate::plan::{Column, ColumnKind, Evidence, LaneValues, Shared, Stage, Table, TileSystems};
 use crate::rays::{RasterPoints, Tile};
 use crate::scene::{Refusal, View};
 use crate::shade::Radiance;
@@ -48,7 +48,7 @@ fn paint_view(columns: Vec<ColumnKind>) -> impl FnMut(&mut World, &mut QueryStat
 }
 
 fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radiance {
-    let rows = tile.get::<Tile>().map_or(0, Tile::rows);
+    let rows = tile.get::<RasterPoints>().map_or(0, Column::rows);
     let mut painted = Radiance::default();
     let (r, g, b) = painted.slices_mut(rows);
     for (row, path) in (0..(column.rows)(tile)).zip(paths(column, tile)).rev() {

@@ -4,6 +4,7 @@
 //! Nothing here runs in a render.
 
 pub mod cost;
+pub mod cuboid_aim;
 pub mod enclosure;
 pub mod exact;
 pub mod exact_angle;
@@ -11,13 +12,17 @@ pub mod exact_vector;
 pub mod extremes;
 pub mod extremes_page;
 pub mod film_bits;
+pub mod flat_aim;
 pub mod image_error;
 pub mod image_file;
 pub mod judge_camera;
 pub mod number;
 pub mod oracle_camera;
+pub mod oracle_cuboid;
+pub mod oracle_disk;
 pub mod oracle_ellipsoid;
 pub mod oracle_plane;
+pub mod oracle_rectangle;
 pub mod oracle_sphere;
 pub mod oracle_triangle;
 pub mod ray_aim;

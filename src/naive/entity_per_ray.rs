@@ -5,8 +5,7 @@
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
 use crate::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind,
-    ShapeTable, SphereTable, TriangleTable,
+    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind, ShapeTable, SphereTable,
 };
 use crate::film::Film;
 use crate::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
@@ -67,13 +66,10 @@ impl EntityPerRay {
     /// Errors: what the kit refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, Refusal> {
         crate::extract::validate(scene)?;
-        if !EllipsoidTable::extract(scene)?.shape.is_empty() {
+        let kinds = ShapeTable::extract(scene)?.kind;
+        if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
-            return Err(Refusal::new("the scene", "shapes", "an unevenly scaled sphere", accepted));
-        }
-        if !TriangleTable::extract(scene)?.shape.is_empty() {
-            let accepted = "one entity a ray knows evenly scaled spheres and planes only";
-            return Err(Refusal::new("the scene", "shapes", "a triangle", accepted));
+            return Err(Refusal::new("the scene", "shapes", "another kind of shape", accepted));
         }
         let mut world = World::new();
         share::<PinholeLens>(&mut world, scene)?;
@@ -201,7 +197,7 @@ fn describe(
                 let outward = (point - centre).try_normalize().unwrap_or(-direction);
                 (outward, sum_of_parts(centre) + spheres.radius[row])
             }
-            // No other kind is here, as `spawn` has made sure.
+            // Nothing but planes is left, as `spawn` has made sure.
             _ => (planes.normal[row], planes.offset[row].abs()),
         };
         surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), material);

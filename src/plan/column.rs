@@ -10,6 +10,10 @@ pub enum Lifetime {
     Path,
     /// One ray: overwritten at each bounce.
     Ray,
+    /// All samples of one pixel: added to until the picture is done.
+    ///
+    /// What has this lifetime is what a render is for, so whoever writes it needs no reader.
+    Film,
 }
 
 /// The numbers of one lane of a column, borrowed.

@@ -1,4 +1,4 @@
-use super::{ColumnKind, Stage, TableKind, entities};
+use super::{ColumnKind, Lifetime, Stage, TableKind, entities};
 use crate::scene::{Statistics, View};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
@@ -113,7 +113,7 @@ pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
     let mut names = Vec::new();
-    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.name != "pixel") {
+    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.lifetime != Lifetime::Film) {
         if !names.contains(&column.name) {
             names.push(column.name);
         }
@@ -123,12 +123,12 @@ pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
 
 fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTreeSet<&'static str>) -> PlanRow {
     let evidence = (stage.when)(scene);
-    let is_film = stage.writes.iter().any(|column| column.name == "pixel");
+    let is_film = stage.writes.iter().any(|column| column.lifetime == Lifetime::Film);
     let read: Vec<&'static str> = stage
         .writes
         .iter()
+        .filter(|column| wanted.contains(column.name) || column.lifetime == Lifetime::Film)
         .map(|column| column.name)
-        .filter(|name| wanted.contains(name) || *name == "pixel")
         .collect();
     let painted_over = view.is_some_and(|column| column.name != "radiance")
         && !stage.reads_view
@@ -144,7 +144,8 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         (false, format!("nothing that runs reads {}", words.join(" or ")))
     };
     let (columns, tables) = if kept {
-        (read, stage.tables_for(scene).iter().map(|table| table.name).collect())
+        let tables = stage.tables_for(scene, &read);
+        (read, tables.iter().map(|table| table.name).collect())
     } else {
         (Vec::new(), Vec::new())
     };
@@ -188,7 +189,10 @@ fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
 fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
     let names = view_names(&stages);
-    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && asked != "pixel");
+    let found = offer
+        .iter()
+        .flat_map(|stage| &stage.writes)
+        .find(|column| column.name == asked && column.lifetime != Lifetime::Film);
     found.copied().ok_or_else(|| PlanError::NoSuchView {
         asked: asked.into(),
         why: format!("the columns on offer are {}", names.join(", ")),
@@ -205,7 +209,7 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
                     columns.push(*column);
                 }
             }
-            for table in stage.tables_for(scene) {
+            for table in stage.tables_for(scene, &row.columns) {
                 if !tables.contains(&table) {
                     tables.push(table);
                 }

@@ -36,10 +36,14 @@ pub struct Stage {
     pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
+    /// Whether it appends rows to what it writes, where others have appended theirs before.
+    pub appends: bool,
     /// Tables it reads.
     pub tables: Vec<TableKind>,
     /// Tables it reads where the scene gives a reason for them.
     pub tables_where: Vec<(TableKind, fn(&World) -> Evidence)>,
+    /// Tables it reads where a column that it writes is read.
+    pub tables_with: Vec<(TableKind, ColumnKind)>,
     /// Whether it reads the column that a `View` asks for.
     pub reads_view: bool,
     /// Whether a scene needs it.
@@ -63,8 +67,10 @@ impl Stage {
             reads_if: Vec::new(),
             reads_where: Vec::new(),
             writes: Vec::new(),
+            appends: false,
             tables: Vec::new(),
             tables_where: Vec::new(),
+            tables_with: Vec::new(),
             reads_view: false,
             when: |_| Evidence::always("every picture needs it"),
             system: Arc::new(move || system.clone().into_configs()),
@@ -95,6 +101,12 @@ impl Stage {
         self
     }
 
+    /// It appends rows to this column, which cannot exist without a stage that empties it first.
+    pub fn appends<C: Column>(mut self) -> Self {
+        self.appends = true;
+        self.reads::<C>().writes::<C>()
+    }
+
     /// It reads this table.
     pub fn table<T: Table>(mut self) -> Self {
         self.tables.push(TableKind::of::<T>());
@@ -107,10 +119,18 @@ impl Stage {
         self
     }
 
-    /// The tables it reads of this scene.
-    pub fn tables_for(&self, scene: &World) -> Vec<TableKind> {
+    /// It reads this table only to write that column, so only where the column is read.
+    pub fn table_with<T: Table, C: Column>(mut self) -> Self {
+        self.tables_with.push((TableKind::of::<T>(), ColumnKind::of::<C>()));
+        self
+    }
+
+    /// The tables it reads of this scene, where of the columns that it writes these are read.
+    pub fn tables_for(&self, scene: &World, columns: &[&'static str]) -> Vec<TableKind> {
         let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
-        self.tables.iter().chain(asked.map(|(table, _)| table)).copied().collect()
+        let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(&column.name));
+        let more = asked.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
+        self.tables.iter().chain(more).copied().collect()
     }
 
     /// It reads whatever column a `View` asks for.

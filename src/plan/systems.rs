@@ -34,6 +34,8 @@ pub enum TileSystems {
     Normal,
     /// What a ray that met nothing brings back.
     Background,
+    /// What else is asked of a pixel is taken down, before the light goes on its way.
+    Layers,
     /// Rays from surfaces towards lights.
     Aim,
     /// Every light counts as seen, before anything is met on the way to it.
@@ -44,13 +46,15 @@ pub enum TileSystems {
     Shade,
     /// Where a reader asked to see a column, it is painted instead.
     View,
+    /// How far radiance lies from the mean of what the film holds, before it joins.
+    Moments,
     /// Radiance joins the film's sums.
     Film,
 }
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -62,11 +66,13 @@ impl TileSystems {
         Self::Surface,
         Self::Normal,
         Self::Background,
+        Self::Layers,
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
         Self::Shade,
         Self::View,
+        Self::Moments,
         Self::Film,
     ];
 

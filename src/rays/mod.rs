@@ -16,7 +16,10 @@ pub use camera::{
     orthographic_stage, perspective_stage,
 };
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
-pub use place_samples::{PixelSamples, SampleNumber, place_samples, place_samples_stage, sampling_evidence};
+pub use place_samples::{
+    ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
+    signed_evidence,
+};
 pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
 pub use world::{WorldRays, fill_world, world_stage};

@@ -57,7 +57,7 @@ pub(super) fn clock_hook() -> Hook {
 /// The columns whose rows say how much a stage did: the list of rows that it visits where it fills in some rows of a
 /// column that was there before, or else what it writes.
 fn counted_columns(stage: &Stage, plan: &Plan) -> Vec<ColumnKind> {
-    let fills_in = stage.writes.iter().all(|column| stage.reads.contains(column));
+    let fills_in = !stage.appends && stage.writes.iter().all(|column| stage.reads.contains(column));
     let list = stage.reads.iter().find(|column| fills_in && column.unit == "rows");
     let of_stage = |column: &&ColumnKind| stage.writes.contains(column);
     match list {

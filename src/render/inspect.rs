@@ -1,10 +1,10 @@
 use super::Execution;
-use super::clock::{Lap, StageClock};
 use super::render_world::{Hook, RenderWorld, prepare};
+use super::steps::Run;
 use crate::Result;
 use crate::extract::ImageShape;
 use crate::film::{Film, FilmTile};
-use crate::plan::{ExtractedTable, Plan, Stage, Table};
+use crate::plan::{Plan, Stage, Table};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 
@@ -38,7 +38,13 @@ pub fn inspect_tile(scene: &World, offer: &[Stage], pixel: [u32; 2], hooks: &[Ho
     let side = Execution::default().tile_side;
     let [x, y] = pixel.map(|along| along / side * side);
     let tile = Tile { x, y, width: side.min(image.width - x), height: side.min(image.height - y) };
-    let film = Film { width: image.width, height: image.height, tile_side: side, tiles: vec![FilmTile::new(tile)] };
+    let film = Film {
+        width: image.width,
+        height: image.height,
+        tile_side: side,
+        tiles: vec![FilmTile::new(tile)],
+        ..Film::default()
+    };
     inspect_film(scene, offer, image, film, hooks)
 }
 
@@ -52,23 +58,11 @@ fn inspect_film(
     let (plan, tables) = prepare(scene, offer)?;
     let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
     swap_all(&mut frame, &mut film);
+    for tile in frame.tiles.clone() {
+        frame.activate(tile, &Run::FIRST, None);
+    }
     frame.run();
     Ok(Inspection { plan, world: frame.world, tiles: frame.tiles, image })
-}
-
-/// Renders all tiles in one world.
-pub(super) fn run_in_one_world(
-    plan: &Plan,
-    tables: &[ExtractedTable],
-    execution: &Execution,
-    film: &mut Film,
-    samples: u32,
-) -> Vec<Lap> {
-    let mut frame = RenderWorld::new(plan, tables, film.tiles.len(), execution, &[]);
-    swap_all(&mut frame, film);
-    frame.run_samples(samples);
-    swap_all(&mut frame, film);
-    frame.world.remove_resource::<StageClock>().map_or_else(Vec::new, |clock| clock.laps)
 }
 
 /// Lends every part of the film to its tile, or takes all back.

@@ -10,7 +10,9 @@ mod execution;
 mod inspect;
 mod memory;
 mod render_world;
-mod workers;
+mod rendered;
+mod steps;
+mod under_way;
 
 pub use bounce::follow_bounces;
 pub use clock::{Lap, StageClock};
@@ -18,4 +20,6 @@ pub use execution::{Execution, Watch, Worlds};
 pub use inspect::{Inspection, inspect, inspect_stages, inspect_tile};
 pub use memory::peak_memory;
 pub use render_world::{Hook, RenderWorld, prepare};
-pub use workers::{Rendered, render};
+pub use rendered::{Rendered, render};
+pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
+pub use under_way::RenderUnderWay;

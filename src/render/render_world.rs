@@ -1,10 +1,11 @@
 use super::clock::{StageClock, clock_hook};
+use super::steps::Run;
 use super::{Execution, follow_bounces};
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
-use crate::plan::{Bounce, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::{SampleNumber, Tile};
+use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
+use crate::rays::{ActivePixels, PixelSamples, SampleNumber, Tile};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
@@ -74,16 +75,28 @@ impl RenderWorld {
         }
     }
 
-    /// Runs every kept stage once for each of the first `samples` samples of every pixel.
-    pub fn run_samples(&mut self, samples: u32) {
-        for number in 0..samples {
-            for &tile in &self.tiles {
-                if let Some(mut sample) = self.world.get_mut::<SampleNumber>(tile) {
-                    *sample = SampleNumber(number);
-                }
-            }
-            self.run();
+    /// Says which pixels of a tile take part in the next run, and by which sample; how many they are.
+    pub fn activate(&mut self, tile: Entity, run: &Run, planned: Option<&[u32]>) -> usize {
+        let mut entity = self.world.entity_mut(tile);
+        let place = entity.get::<Tile>().copied().unwrap_or_default();
+        if let Some(mut number) = entity.get_mut::<SampleNumber>() {
+            *number = SampleNumber(run.sample);
         }
+        match entity.get_mut::<ActivePixels>() {
+            Some(mut active) => {
+                run.rows(place, planned, &mut active.0);
+                active.0.len()
+            }
+            None => place.rows(),
+        }
+    }
+
+    /// Lets a tile take no part in the next run.
+    pub fn rest(&mut self, tile: Entity) -> usize {
+        if let Some(mut active) = self.world.get_mut::<ActivePixels>(tile) {
+            active.0.clear();
+        }
+        0
     }
 
     /// Runs every kept stage once over all tiles of this world.
@@ -96,7 +109,10 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn((Tile::default(), SampleNumber::default()));
+    let mut tile = world.spawn(Tile::default());
+    if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
+        tile.insert((SampleNumber::default(), ActivePixels::default()));
+    }
     for column in &plan.columns {
         (column.insert)(&mut tile);
     }

@@ -179,7 +179,7 @@ mod tests {
             .offer(shade::stages());
         let (world, stages) = (chapter.world(&crate::Asked::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
-        assert!(text.contains("\n\"Aim at lights\" writes light\n"), "{text}");
+        assert!(text.contains("\n\"Aim at point lights\" writes light\n"), "{text}");
         for side in [8, 16, 64] {
             assert!(digests_in_tiles(&world, &stages, side)? == text, "tiles of {side} pixels");
         }

@@ -1,9 +1,86 @@
-/// What a random number is for; each purpose has a dimension of its own, whether or not a scene uses the others.
+/// How many dimensions each leg of a light's way has, some of them kept for purposes to come.
+pub const DIMENSIONS: u32 = 16;
+
+/// What a random number is for.
+///
+/// Each purpose has dimensions of its own, whether or not a scene uses the others: so a stage that is left out shifts
+/// nobody's numbers.
+/// Those that matter most come first, for the first dimensions of a Sobol sequence are the most even together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
 pub enum Purpose {
-    /// Where in the pixel, to the right.
-    PixelX,
-    /// Where in the pixel, downward.
-    PixelY,
+    /// Where in the pixel, to the right and downward.
+    Pixel,
+    /// Where on the lens.
+    Lens,
+    /// Where on a light.
+    LightPoint,
+    /// Which way from a surface.
+    Direction,
+    /// Which light.
+    LightChoice,
+    /// Which part of a surface's matter.
+    MatterChoice,
+    /// Whether the way ends here.
+    Roulette,
+    /// When, while the shutter is open.
+    Time,
+}
+
+impl Purpose {
+    /// All, in the order of their dimensions.
+    pub const ALL: [Self; 8] = [
+        Self::Pixel,
+        Self::Lens,
+        Self::LightPoint,
+        Self::Direction,
+        Self::LightChoice,
+        Self::MatterChoice,
+        Self::Roulette,
+        Self::Time,
+    ];
+
+    /// How many numbers it needs: 1 or 2.
+    pub const fn numbers(self) -> u32 {
+        match self {
+            Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction => 2,
+            Self::LightChoice | Self::MatterChoice | Self::Roulette | Self::Time => 1,
+        }
+    }
+
+    /// Its first dimension on a leg of the light's way; leg 0 is the one to the eye.
+    #[inline(always)]
+    pub const fn dimension(self, leg: u32) -> u32 {
+        let within = match self {
+            Self::Pixel => 0,
+            Self::Lens => 2,
+            Self::LightPoint => 4,
+            Self::Direction => 6,
+            Self::LightChoice => 8,
+            Self::MatterChoice => 9,
+            Self::Roulette => 10,
+            Self::Time => 11,
+        };
+        leg * DIMENSIONS + within
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_purposes_share_a_dimension() {
+        let mut taken = Vec::new();
+        for leg in 0..3 {
+            for purpose in Purpose::ALL {
+                for number in 0..purpose.numbers() {
+                    let dimension = purpose.dimension(leg) + number;
+                    assert!(dimension / DIMENSIONS == leg, "{purpose:?} leaves its leg");
+                    assert!(!taken.contains(&dimension), "{purpose:?} of leg {leg} shares dimension {dimension}");
+                    taken.push(dimension);
+                }
+            }
+        }
+        eprintln!("purposes: {} dimensions of 3 legs, no two alike", taken.len());
+    }
 }

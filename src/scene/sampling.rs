@@ -1,3 +1,4 @@
+use super::Filter;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sampling {
-    /// Samples a pixel, at least 1.
+    /// Samples a pixel, from 1 to 16777216.
     pub samples: u32,
     /// Another seed, other random numbers.
     pub seed: u64,
@@ -27,14 +28,16 @@ impl Default for Sampling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sampler {
     /// Each number by itself.
-    #[default]
     Independent,
+    /// One in each cell of a grid, at random within it.
+    Stratified,
+    /// Points of the Sobol sequence, scrambled: evenly spread at any number of samples.
+    #[default]
+    Sobol,
 }
 
-/// What a sample counts for, by its distance from the pixel's centre.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub enum Filter {
-    /// All samples of the pixel's own square alike.
-    #[default]
-    Box,
+impl Sampler {
+    /// All, with the words of the command line.
+    pub const ALL: [(&str, Self); 3] =
+        [("sobol", Self::Sobol), ("stratified", Self::Stratified), ("independent", Self::Independent)];
 }

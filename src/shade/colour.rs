@@ -18,4 +18,10 @@ impl SurfaceColours {
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
     }
+
+    /// The colour of a row.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> [f64; 3] {
+        [self.r[row], self.g[row], self.b[row]]
+    }
 }

@@ -1,8 +1,8 @@
 use super::Radiance;
+use super::light::light_evidence;
 use crate::extract::{MaterialTable, material_evidence};
 use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
 
 // ANCHOR: shade_flat
@@ -30,7 +30,7 @@ pub fn flat_stage() -> Stage {
         .table::<MaterialTable>()
         .when(|scene| {
             let material = shown_evidence(scene);
-            let lights = Evidence::of::<PointLight>(scene, "point light");
+            let lights = light_evidence(scene);
             if material.needed { Evidence { needed: !lights.needed, ..lights }.and(material) } else { material }
         })
 }

@@ -1,14 +1,14 @@
-use super::{Radiance, ShadowHits};
-use crate::extract::{MaterialTable, PointLightTable, material_evidence};
-use crate::intersect::{MaterialRows, NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
+use super::{Radiance, ShadowHits, SurfaceColours};
+use crate::extract::{MaterialTable, material_evidence};
+use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
-use multiversion::multiversion;
 
 column! {
-    /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if it gets there.
+    /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if nothing is
+    /// in the way.
     pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
         /// The row of the tile whose surface it starts on.
         path: u32,
@@ -26,7 +26,7 @@ column! {
         dz: f32,
         /// The distance before which something in between counts; 0 for a light without shadows.
         reach: f32,
-        /// The radiance it brings to its path, red.
+        /// The irradiance it brings to its surface, red.
         r: f32,
         /// Green.
         g: f32,
@@ -40,6 +40,12 @@ impl LightRays {
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
     }
+
+    /// The irradiance that a ray brings.
+    #[inline(always)]
+    pub fn irradiance(&self, ray: usize) -> [f64; 3] {
+        [f64::from(self.r[ray]), f64::from(self.g[ray]), f64::from(self.b[ray])]
+    }
 }
 
 impl RayColumn for LightRays {
@@ -48,31 +54,30 @@ impl RayColumn for LightRays {
     }
 }
 
-// ANCHOR: reflected_radiance
-/// What a matte surface sends towards the eye of a point light's intensity I: (colour / π) · I cos θ / d².
+// ANCHOR: matte_radiance
+/// What a matte surface sends towards the eye of the irradiance E that it receives: (colour / π) · E.
 ///
-/// The same in all directions (Lambert); the light thins out with the square of the distance and with the slant at
-/// which it falls.
+/// The same in all directions (Lambert): summed over the hemisphere, each direction by its cosine, it is colour · E.
 #[inline(always)]
-pub fn reflected_radiance(colour: [f64; 3], intensity: [f64; 3], cosine: f64, distance_squared: f64) -> [f64; 3] {
-    let share = cosine * std::f64::consts::FRAC_1_PI / distance_squared;
-    [colour[0] * intensity[0] * share, colour[1] * intensity[1] * share, colour[2] * intensity[2] * share]
+pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
+    const SHARE: f64 = std::f64::consts::FRAC_1_PI;
+    [colour[0] * irradiance[0] * SHARE, colour[1] * irradiance[1] * SHARE, colour[2] * irradiance[2] * SHARE]
 }
-// ANCHOR_END: reflected_radiance
+// ANCHOR_END: matte_radiance
 
 // ANCHOR: aim
 /// A ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
-struct Aimed {
-    origin: Vec3,
-    direction: Vec3,
-    distance: f64,
+pub(super) struct Aimed {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    pub distance: f64,
     /// Of the angle between the normal and the direction; not above 0 where the surface faces away.
-    cosine: f64,
+    pub cosine: f64,
 }
 
 #[inline(always)]
-fn aim(surface: &Surface, light: DVec3) -> Aimed {
+pub(super) fn aim(surface: &Surface, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
@@ -89,83 +94,77 @@ pub fn shadow_reach(distance: f64) -> f32 {
 }
 // ANCHOR_END: shadow_reach
 
-/// Fills a tile's light rays.
-pub fn aim_at_lights(
-    lights: Res<Shared<PointLightTable>>,
-    materials: Res<Shared<MaterialTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
-) {
-    for (surfaces, list, mut rays) in &mut tiles {
-        let mut length = 0;
-        rays.slices_mut(list.rows() * lights.position.len());
-        for light in 0..lights.position.len() {
-            length = aim_rows(surfaces, &list.row, &lights, light, &materials, &mut rays, length);
-        }
-        rays.slices_mut(length);
-    }
+/// A ray to a light as a kind of light makes it, and the irradiance that it brings.
+pub(super) struct LightRay {
+    pub aimed: Aimed,
+    pub reach: f32,
+    pub irradiance: [f64; 3],
 }
 
-/// Aims from all surfaces of a tile at one light, keeps those that face it, and says how many rays there are now.
+/// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
 /// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn aim_rows(
+#[inline(always)]
+pub(super) fn append_rays(
     surfaces: &Surfaces,
     rows: &[u32],
-    lights: &PointLightTable,
-    light: usize,
-    materials: &MaterialTable,
     rays: &mut LightRays,
-    length: usize,
-) -> usize {
-    let (position, intensity) = (lights.position[light], lights.intensity[light]);
-    let most = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
+    casts_shadows: bool,
+    ray_of: impl Fn(&Surface) -> LightRay,
+) {
+    let length = rays.rows();
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
     for &row in rows {
-        let surface = surfaces.get(row as usize);
-        let aimed = aim(&surface, position);
-        let distance_squared = aimed.distance * aimed.distance;
-        let colour = materials.colour[surface.material as usize];
-        let brings = reflected_radiance(colour, intensity, aimed.cosine, distance_squared);
+        let ray = ray_of(&surfaces.get(row as usize));
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = aimed.origin.into();
-        (dx[at], dy[at], dz[at]) = aimed.direction.into();
-        reach[at] = shadow_reach(aimed.distance);
-        (r[at], g[at], b[at]) = (brings[0] as f32, brings[1] as f32, brings[2] as f32);
-        at += usize::from(aimed.cosine > 0.0);
+        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
+        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
+        reach[at] = ray.reach;
+        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
+        at += usize::from(ray.aimed.cosine > 0.0 && ray.aimed.distance > 0.0);
     }
-    if !lights.casts_shadows[light] {
+    if !casts_shadows {
         reach[length..at].fill(0.0);
     }
-    at
+    rays.slices_mut(at);
+}
+
+/// The most light that a ray brings: what is more than f32 holds counts as its largest number.
+const MOST: f64 = f32::MAX as f64;
+
+/// Empties every tile's list of light rays.
+pub fn start_light(mut tiles: Query<&mut LightRays>) {
+    tiles.iter_mut().for_each(|mut rays| rays.clear());
 }
 
 // ANCHOR: add_light
-/// Adds what each light ray brings to its path, unless something stands in between.
-pub fn add_light(mut tiles: Query<(&LightRays, Option<&ShadowHits>, &mut Radiance)>) {
-    for (rays, hits, mut radiance) in &mut tiles {
+/// Adds what a matte surface sends on of each light ray's irradiance, unless something stands in between.
+pub fn add_light(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
+) {
+    for (surfaces, colours, rays, hits, mut radiance) in &mut tiles {
         for ray in 0..rays.rows() {
             if hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
                 continue;
             }
             let path = rays.path[ray] as usize;
-            radiance.r[path] += rays.r[ray];
-            radiance.g[path] += rays.g[ray];
-            radiance.b[path] += rays.b[ray];
+            let material = surfaces.material[path] as usize;
+            let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(path));
+            let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
+            radiance.r[path] += r as f32;
+            radiance.g[path] += g as f32;
+            radiance.b[path] += b as f32;
         }
     }
 }
 // ANCHOR_END: add_light
 
-/// The stage that aims.
-pub fn aim_stage() -> Stage {
-    Stage::new("Aim at lights", TileSystems::Aim, aim_at_lights)
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
+/// The stage that starts.
+pub fn start_light_stage() -> Stage {
+    Stage::new("Start with no light on its way", TileSystems::Start, start_light)
         .writes::<LightRays>()
-        .table::<PointLightTable>()
-        .table::<MaterialTable>()
         .when(lit_evidence)
 }
 
@@ -173,14 +172,22 @@ pub fn aim_stage() -> Stage {
 pub fn light_stage() -> Stage {
     Stage::new("Add the light that arrives", TileSystems::Shade, add_light)
         .kind(StageKind::Alternative)
+        .reads::<Surfaces>()
+        .reads_if::<SurfaceColours>()
         .reads::<LightRays>()
         .reads_if::<ShadowHits>()
         .reads::<Radiance>()
         .writes::<Radiance>()
+        .table::<MaterialTable>()
         .when(lit_evidence)
 }
 
 /// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
-    Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene))
+    light_evidence(scene).and(material_evidence(scene))
+}
+
+/// Evidence that there is a light of any kind.
+pub(super) fn light_evidence(scene: &World) -> Evidence {
+    Evidence::of::<PointLight>(scene, "light")
 }

@@ -1,8 +1,11 @@
 use super::LightRays;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, TriangleTable, material_evidence};
+use crate::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
+};
 use crate::intersect::{
-    HitColumn, NO_SHAPE, ellipsoid_evidence, intersect_ellipsoids, intersect_planes, intersect_spheres,
-    intersect_triangles, sphere_evidence, triangle_evidence,
+    HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
+    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, intersect_triangles,
+    rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::scene::{Plane, PointLight};
@@ -86,6 +89,39 @@ pub fn plane_shadow_stage() -> Stage {
         .writes::<ShadowHits>()
         .table::<PlaneTable>()
         .when(|scene| Evidence::of::<Plane>(scene, "plane").and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with disks.
+pub fn disk_shadow_stage() -> Stage {
+    let intersect = intersect_disks::<LightRays, ShadowHits>;
+    Stage::new("Look for disks in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<DiskTable>()
+        .when(|scene| disk_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with rectangles.
+pub fn rectangle_shadow_stage() -> Stage {
+    let intersect = intersect_rectangles::<LightRays, ShadowHits>;
+    Stage::new("Look for rectangles in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<RectangleTable>()
+        .when(|scene| rectangle_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with cuboids.
+pub fn cuboid_shadow_stage() -> Stage {
+    let intersect = intersect_cuboids::<LightRays, ShadowHits>;
+    Stage::new("Look for cuboids in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<CuboidTable>()
+        .when(|scene| cuboid_evidence(scene).and(shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with triangles.

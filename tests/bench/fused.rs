@@ -8,15 +8,15 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, EllipsoidTable, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable,
-    ShapeKind, ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
+    ShapeTable, SphereTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::Refusal;
-use pinhole::shade::{reflected_radiance, shadow_reach};
+use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
 use std::sync::{Mutex, PoisonError};
 
 /// Spheres tested together.
@@ -39,9 +39,11 @@ impl Scene {
     /// Reads the same tables as the kit.
     ///
     /// # Panics
-    /// When the scene holds an ellipsoid, which this loop does not know.
+    /// When the scene holds a shape that this loop does not know.
     pub fn extract(world: &World) -> Result<Self, Refusal> {
-        assert!(EllipsoidTable::extract(world)?.shape.is_empty(), "the scenes that are measured hold no ellipsoid");
+        let kinds = ShapeTable::extract(world)?.kind;
+        let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
+        assert!(known, "the scenes that are measured hold spheres and planes only");
         Ok(Self {
             image: Table::extract(world)?,
             lens: Table::extract(world)?,
@@ -102,8 +104,8 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
             (outward, sum_of_parts(centre) + scene.spheres.radius[row])
         }
-        // There are no ellipsoids here, as `extract` has made sure.
-        ShapeKind::Plane | ShapeKind::Ellipsoid => (scene.planes.normal[row], scene.planes.offset[row].abs()),
+        // Nothing but planes is left, as `extract` has made sure.
+        _ => (scene.planes.normal[row], scene.planes.offset[row].abs()),
     };
     Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), material)
 }
@@ -119,7 +121,9 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
-            let brings = reflected_radiance(colour, scene.lights.intensity[light], cosine, distance * distance);
+            let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
+            // The kit keeps irradiance in a column of f32.
+            let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;
             }

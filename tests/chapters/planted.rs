@@ -50,7 +50,7 @@ fn a_bug_that_cannot_be_planted_is_refused_in_a_sentence() {
     assert!(told.starts_with("there is no bug \"half-pixle\" to be planted; the nearest is half-pixel"), "{told}");
     let planted = Planted::named("no-cosine").expect("a bug");
     let told = planted.snapshots(&chapter("01_image")).expect_err("no lights").to_string();
-    assert_eq!(told, "01_image does not run \"Aim at lights\", where no-cosine is planted; 05_pinhole does");
+    assert_eq!(told, "01_image does not run \"Aim at point lights\", where no-cosine is planted; 05_pinhole does");
 }
 
 /// The page shows a message with lines left out; what it shows must be what is said.

@@ -2,16 +2,19 @@
 
 use crate::Result;
 use crate::extract::{
-    CameraAxes, Ellipsoid, EllipsoidTable, Facet, PlaneTable, ShapeKind, ShapeTable, SphereTable, TriangleTable,
-    camera_entity,
+    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Facet, Flat, PlaneTable, RectangleTable, ShapeKind,
+    ShapeTable, Slabs, SphereTable, TriangleTable, camera_entity,
 };
 use crate::film::film_stage;
 use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::exact_vector::ExactVector;
 use crate::measure::oracle_camera::{ExactCamera, ExactPoint};
+use crate::measure::oracle_cuboid::cuboid_hit;
+use crate::measure::oracle_disk::disk_hit;
 use crate::measure::oracle_ellipsoid::{ellipsoid_hit, excess};
 use crate::measure::oracle_plane::{Plane, plane_hit};
+use crate::measure::oracle_rectangle::rectangle_hit;
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::measure::oracle_triangle::triangle_hit;
 use crate::plan::{Stage, Table};
@@ -75,8 +78,14 @@ enum ExactShape {
     Sphere(Sphere),
     Plane(Plane),
     Ellipsoid(Ellipsoid),
+    Disk(Flat),
+    Rectangle(Flat),
+    Cuboid(Slabs),
     Triangle(Facet, DVec3),
 }
+
+/// How many kinds there are.
+const KINDS: usize = 7;
 
 impl Exact {
     fn of(scene: &World, frame: &Inspection) -> Result<Self> {
@@ -87,7 +96,8 @@ impl Exact {
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
         let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
         let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
-        let triangles = TriangleTable::extract(scene)?;
+        let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
+        let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
         let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
             (ShapeKind::Sphere, row) => {
                 ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
@@ -96,6 +106,9 @@ impl Exact {
                 ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
             }
             (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
+            (ShapeKind::Disk, row) => ExactShape::Disk(disks.flat[row]),
+            (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.flat[row]),
+            (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
             (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
         };
         let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
@@ -108,8 +121,8 @@ impl Exact {
 struct Worst {
     points: [Option<f64>; 4],
     world: Option<[f64; 2]>,
-    hits: [OfKind; 4],
-    surfaces: [Option<f64>; 4],
+    hits: [OfKind; KINDS],
+    surfaces: [Option<f64>; KINDS],
 }
 
 /// The worst error of one kind of shape's hits.
@@ -203,6 +216,9 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Sphere(sphere) => sphere_hit(origin, direction, *sphere),
             ExactShape::Plane(plane) => plane_hit(origin, direction, *plane),
             ExactShape::Ellipsoid(ellipsoid) => ellipsoid_hit(origin, direction, ellipsoid),
+            ExactShape::Disk(flat) => disk_hit(origin, direction, flat),
+            ExactShape::Rectangle(flat) => rectangle_hit(origin, direction, flat),
+            ExactShape::Cuboid(slabs) => cuboid_hit(origin, direction, slabs).map(|(t, _)| t),
             ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
@@ -212,13 +228,16 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
     nearest
 }
 
-/// 0 for a sphere, 1 for a plane, 2 for an ellipsoid, 3 for a triangle.
+/// 0 for a sphere, and so on.
 fn kind(shape: &ExactShape) -> usize {
     match shape {
         ExactShape::Sphere(_) => 0,
         ExactShape::Plane(_) => 1,
         ExactShape::Ellipsoid(_) => 2,
-        ExactShape::Triangle(..) => 3,
+        ExactShape::Disk(_) => 3,
+        ExactShape::Rectangle(_) => 4,
+        ExactShape::Cuboid(_) => 5,
+        ExactShape::Triangle(..) => 6,
     }
 }
 
@@ -258,9 +277,23 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let gradient = 2.0 * (map.transpose() * (map * (place - ellipsoid.centre))).length();
             excess(place, ellipsoid).to_f64().abs() / gradient / (U * place.length())
         }
+        ExactShape::Disk(flat) | ExactShape::Rectangle(flat) => {
+            let above = ExactVector::of(flat.normal).dot(&point.minus(&ExactVector::of(flat.centre)));
+            above.to_f64().abs() / (U * position.as_dvec3().length())
+        }
         ExactShape::Triangle(facet, normal) => {
             let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
             above.to_f64().abs() / (U * position.as_dvec3().length())
+        }
+        ExactShape::Cuboid(slabs) => {
+            let from_centre = point.minus(&ExactVector::of(slabs.centre));
+            let beyond = |axis: usize| {
+                let along = ExactVector::of(slabs.normal[axis]).dot(&from_centre).abs();
+                (&along - &Dyadic::of(slabs.half[axis])).to_f64()
+            };
+            // Within rounding of one face, behind the others.
+            let farthest = beyond(0).max(beyond(1)).max(beyond(2));
+            farthest.abs() / (U * position.as_dvec3().length())
         }
     };
     note(&mut worst.surfaces[kind(shape)], off);
@@ -279,21 +312,32 @@ impl Worst {
         }
         let world = self.world.map(|[pixels, radians]| format!("{pixels:.1e} px, {radians:.1e} rad"));
         words.extend(world.map(|world| (rays::world_stage().name, world)));
-        let hit_stages = [intersect::sphere_stage(), intersect::plane_stage(), intersect::ellipsoid_stage()];
-        let hit_stages = hit_stages.into_iter().chain([intersect::triangle_stage()]).map(|stage| stage.name);
-        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.zip(self.hits) {
+        let hit_stages = [
+            intersect::sphere_stage(),
+            intersect::plane_stage(),
+            intersect::ellipsoid_stage(),
+            intersect::disk_stage(),
+            intersect::rectangle_stage(),
+            intersect::cuboid_stage(),
+            intersect::triangle_stage(),
+        ]
+        .map(|stage| stage.name);
+        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
             let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
-        let [sphere, plane, ellipsoid, triangle] = self.surfaces;
-        let of_sphere = sphere.map(|worst| format!("{worst:.2} u of |c| + r off it"));
-        let of_ellipsoid = ellipsoid.map(|worst| format!("{worst:.2} u of |p| off it"));
-        let of_plane = plane.map(|worst| format!("{worst:.2} u of |p| off it"));
-        words.extend(of_sphere.map(|error| (intersect::sphere_surface_stage().name, error)));
-        words.extend(of_ellipsoid.map(|error| (intersect::ellipsoid_surface_stage().name, error)));
-        let of_triangle = triangle.map(|worst| format!("{worst:.2} u of |p| off it"));
-        words.extend(of_triangle.map(|error| (intersect::triangle_surface_stage().name, error)));
-        words.extend(of_plane.map(|error| (intersect::plane_surface_stage().name, error)));
+        let surface_stages = [
+            (intersect::sphere_surface_stage(), "|c| + r"),
+            (intersect::plane_surface_stage(), "|p|"),
+            (intersect::ellipsoid_surface_stage(), "|p|"),
+            (intersect::disk_surface_stage(), "|p|"),
+            (intersect::rectangle_surface_stage(), "|p|"),
+            (intersect::cuboid_surface_stage(), "|p|"),
+            (intersect::triangle_surface_stage(), "|p|"),
+        ];
+        for ((stage, size), worst) in surface_stages.into_iter().zip(self.surfaces) {
+            words.extend(worst.map(|worst| (stage.name, format!("{worst:.2} u of {size} off it"))));
+        }
         words
     }
 }

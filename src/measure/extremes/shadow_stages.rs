@@ -58,7 +58,8 @@ impl ShadowStages {
 
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
-        let to_light = [shade::aim_stage(), shade::start_shadow_stage(), shadow_stage];
+        let to_light =
+            [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
         stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], colour: vec![[0.5; 3]] });
         let mut first = MaterialRows::default();

@@ -45,7 +45,7 @@ impl Picture {
         for (row, pixel) in self.pixels.iter().enumerate() {
             tile.add(row, pixel.map(|part| if part > 0.0 { part } else { 0.0 }));
         }
-        let film = Film { width, height, tile_side: width.max(height), tiles: vec![tile] };
+        let film = Film { width, height, tile_side: width.max(height), tiles: vec![tile], ..Film::default() };
         Ok(png_url(&png_bytes(&film, self.curve)?))
     }
 }

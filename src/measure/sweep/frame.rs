@@ -1,9 +1,12 @@
 //! A frame of a sweep: every pixel's ray, hit and light, and how two frames differ.
 
 use crate::Result;
-use crate::extract::{EllipsoidTable, PlaneTable, ShapeKind, ShapeTable, SphereTable, TriangleTable};
+use crate::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapeKind, ShapeTable, SphereTable,
+    TriangleTable,
+};
 use crate::film::FilmTile;
-use crate::intersect::{Hits, NO_SHAPE};
+use crate::intersect::{Hits, NO_SHAPE, face_of_point};
 use crate::measure::film_bits::FilmBits;
 use crate::plan::{Stage, Table};
 use crate::rays::{Tile, WorldRays};
@@ -61,6 +64,9 @@ struct Shapes {
     spheres: SphereTable,
     planes: PlaneTable,
     ellipsoids: EllipsoidTable,
+    disks: DiskTable,
+    rectangles: RectangleTable,
+    cuboids: CuboidTable,
     triangles: TriangleTable,
 }
 
@@ -71,6 +77,9 @@ impl Shapes {
             spheres: SphereTable::extract(scene)?,
             planes: PlaneTable::extract(scene)?,
             ellipsoids: EllipsoidTable::extract(scene)?,
+            disks: DiskTable::extract(scene)?,
+            rectangles: RectangleTable::extract(scene)?,
+            cuboids: CuboidTable::extract(scene)?,
             triangles: TriangleTable::extract(scene)?,
         })
     }
@@ -88,6 +97,12 @@ impl Shapes {
                 map.transpose() * (map * (point - ellipsoid.centre))
             }
             ShapeKind::Triangle => self.triangles.normal[row],
+            ShapeKind::Disk => self.disks.flat[row].normal,
+            ShapeKind::Rectangle => self.rectangles.flat[row].normal,
+            ShapeKind::Cuboid => {
+                let slabs = &self.cuboids.slabs[row];
+                slabs.normal[face_of_point(slabs, point - slabs.centre)]
+            }
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Slips between surfaces and the picture.
 
-use crate::extract::{BackgroundTable, PlaneTable};
+use crate::extract::{BackgroundTable, MaterialTable, PlaneTable};
 use crate::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
 use crate::intersect::Surfaces;
 use crate::plan::{Column, Shared};
-use crate::shade::{LightRays, Radiance, ShadowHits};
+use crate::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use std::mem::swap;
@@ -24,6 +24,15 @@ pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles
         radiance.r.iter_mut().for_each(|part| *part += red);
         radiance.g.iter_mut().for_each(|part| *part += green);
         radiance.b.iter_mut().for_each(|part| *part += blue);
+    }
+}
+
+/// A row of light rays is there before any light has been aimed at.
+pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        rays.clear();
+        let (_, _, _, _, _, dy, ..) = rays.slices_mut(1);
+        dy.fill(1.0);
     }
 }
 
@@ -70,13 +79,18 @@ pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRa
 }
 
 /// Light arrives whatever stands in between.
-pub fn shadow_forgotten(mut tiles: Query<(&LightRays, &mut Radiance)>) {
-    for (rays, mut radiance) in &mut tiles {
+pub fn shadow_forgotten(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, &LightRays, &mut Radiance)>,
+) {
+    for (surfaces, rays, mut radiance) in &mut tiles {
         for ray in 0..rays.rows() {
             let path = rays.path[ray] as usize;
-            radiance.r[path] += rays.r[ray];
-            radiance.g[path] += rays.g[ray];
-            radiance.b[path] += rays.b[ray];
+            let colour = materials.colour[surfaces.material[path] as usize];
+            let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
+            radiance.r[path] += r as f32;
+            radiance.g[path] += g as f32;
+            radiance.b[path] += b as f32;
         }
     }
 }

@@ -20,7 +20,7 @@ const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 33] = [
+pub static PLANTED: [Planted; 34] = [
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
@@ -31,6 +31,7 @@ pub static PLANTED: [Planted; 33] = [
     bug("transpose", "Turn rays into the world", "matrix transposed", MOST, Bug::After(|| rays::transposed.into_configs())),
     bug("near-end", "Start with nothing met", "nothing met beyond t = 8", MOST, Bug::After(|| hits::near_end.into_configs())),
     bug("not-dark", "Start in the dark", "light starts at 0.05", MOST, Bug::After(|| light::not_dark.into_configs())),
+    bug("light-left-over", "Start with no light on its way", "not emptied", MOST, Bug::Instead(|| light::light_left_over.into_configs())),
     bug("far-root", "Intersect spheres", "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", "Intersect ellipsoids", "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("two-edges", "Intersect triangles", "third edge not asked for", FACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
@@ -43,7 +44,7 @@ pub static PLANTED: [Planted; 33] = [
     bug("shorter-normal", "Interpolate shading normals", "not brought to length 1", FACETS, Bug::After(|| triangles::shorter.into_configs())),
     bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
-    bug("no-cosine", "Aim at lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
+    bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),

@@ -1,6 +1,6 @@
 use crate::scene::{
-    Background, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Resolution,
-    Sampling, Sphere, Statistics, Triangle, View,
+    Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
+    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -18,15 +18,20 @@ const WORDS: &[Word] = &[
     Word::of::<OrthographicCamera>("orthographic_camera"),
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
+    Word::of::<Disk>("disk"),
+    Word::of::<Rectangle>("rectangle"),
+    Word::of::<Cuboid>("cuboid"),
     Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
+    Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
     Word::of::<Background>("background"),
     Word::of::<View>("view"),
+    Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),
 ];
 // ANCHOR_END: words

@@ -1,0 +1,95 @@
+use super::check::{finite_point, kind_and_name, positive_length, triple};
+use super::flat::unit_in_f32;
+use super::pose::normal_world_from_object;
+use super::{Pose, eye, pose, shape_entities};
+use crate::plan::Table;
+use crate::scene::{Cuboid, Refusal};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+
+/// How many times as long one way as another a cuboid may be.
+///
+/// Normals with parts that are exact in f32 turn a face by up to 2⁻²⁵, which moves its far end by that share of the
+/// cuboid's length: with this ratio, by less than a third of the thickness.
+const LARGEST_RATIO: f64 = 1e7;
+/// By how much the sphere about it is taken larger, so that no rounding reaches beyond it.
+const REACH_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
+
+/// The points x of render space with |nᵢ · (x − C)| ≤ hᵢ for three normals: a box, or three slabs at any angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slabs {
+    /// C, from the eye.
+    pub centre: DVec3,
+    /// n of the faces that the entity has across its x, y and z axes, outward at its +x, +y and +z, each of length 1 to
+    /// within f32, its parts exact in f32, so that a surface's normal and its face's are the same numbers.
+    pub normal: [DVec3; 3],
+    /// h, from the centre to the faces, in lengths of n.
+    pub half: [f64; 3],
+    /// No point is farther from the centre than this.
+    pub reach: f64,
+}
+
+impl Slabs {
+    /// The slabs whose faces have these normals and lie half an edge from the centre.
+    pub fn new(centre: DVec3, normals: [DVec3; 3], half_edges: [DVec3; 3]) -> Self {
+        let normal = normals.map(unit_in_f32);
+        let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
+        let reach = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * REACH_MARGIN;
+        Self { centre, normal, half, reach }
+    }
+}
+
+/// Cuboids in render space, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CuboidTable {
+    /// Their slabs.
+    pub slabs: Vec<Slabs>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for CuboidTable {
+    const NAME: &'static str = "cuboids";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(cuboid) = scene.get::<Cuboid>(entity) else { continue };
+            table.slabs.push(slabs(scene, entity, cuboid.size)?);
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.slabs.len() * (size_of::<Slabs>() + size_of::<u32>())
+    }
+}
+
+fn slabs(scene: &World, entity: Entity, size: DVec3) -> Result<Slabs, Refusal> {
+    let who = kind_and_name(scene, "cuboid", entity);
+    for part in size.to_array() {
+        positive_length(&who, "size", part).map_err(|refusal| Refusal {
+            value: triple(size),
+            accepted: format!("each part must be{}", refusal.accepted.trim_start_matches("it must be")),
+            ..refusal
+        })?;
+    }
+    let Pose { world_from_entity, entity_from_world } = pose(scene, &who, entity)?;
+    let centre = finite_point(&who, "position", world_from_entity.translation - eye(scene)?)?;
+    let half_edges = world_from_entity.matrix3 * DMat3::from_diagonal(size / 2.0);
+    let edges = [0, 1, 2].map(|axis| half_edges.col(axis));
+    let normals = DVec3::AXES.map(|axis| normal_world_from_object(entity_from_world, axis));
+    let slabs = Slabs::new(centre, normals, edges);
+    let longest = edges.map(DVec3::length).iter().copied().fold(0.0, f64::max);
+    let thinnest = slabs.half.iter().copied().fold(f64::INFINITY, f64::min);
+    positive_length(&who, "longest placed edge", longest)?;
+    positive_length(&who, "placed thickness", thinnest)?;
+    let ratio = longest / thinnest;
+    if ratio > LARGEST_RATIO {
+        let value = format!("{}, placed {ratio:.1e} times as long one way as another", triple(size));
+        let accepted = format!("a cuboid may be at most {LARGEST_RATIO:e} times as long one way as another");
+        return Err(Refusal::new(who, "size", value, accepted));
+    }
+    Ok(slabs)
+}

@@ -1,0 +1,35 @@
+use super::check::{kind_and_name, positive_length};
+use super::flat::{Flat, flat};
+use super::shape_entities;
+use crate::plan::Table;
+use crate::scene::{Disk, Refusal};
+use bevy_ecs::prelude::*;
+
+/// Disks in render space, in spawn order: the points of a plane whose two coordinates have squares that sum to 1 at most.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DiskTable {
+    /// The plane and the coordinates.
+    pub flat: Vec<Flat>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for DiskTable {
+    const NAME: &'static str = "disks";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+            let Some(disk) = scene.get::<Disk>(entity) else { continue };
+            let who = kind_and_name(scene, "disk", entity);
+            let radius = positive_length(&who, "radius", disk.radius)?;
+            table.flat.push(flat(scene, &who, entity, [radius; 2])?);
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.flat.len() * (size_of::<Flat>() + size_of::<u32>())
+    }
+}

@@ -1,0 +1,239 @@
+use super::camera::camera_entity;
+use super::check::{kind_and_name, number};
+use crate::plan::Table;
+use crate::scene::{Filter, Refusal, Sampling};
+use bevy_ecs::prelude::*;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// Cells on each lobe of a filter's table.
+///
+/// With so many the area under |f| up to a sampled place is right to 1e-6 of the whole; a test measures it.
+const CELLS: usize = 192;
+
+/// How samples are spread about a pixel's centre.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilterTable {
+    /// The filter as the author gave it.
+    pub filter: Filter,
+    /// Its table, where the place of a sample has no closed form; else empty.
+    pub cells: FilterCells,
+}
+
+/// The area under |f| from the pixel's centre to one side, cut into cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilterCells {
+    /// For equal steps of the area, the first cell that reaches beyond.
+    pub first: Vec<u16>,
+    /// The cells, outward.
+    pub cells: Vec<Span>,
+}
+
+/// A cell of a filter's table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The area before it, as a part of the whole.
+    pub start: f64,
+    /// The area at its end; the last cell's lies beyond the whole.
+    pub end: f64,
+    /// 1 / its own area.
+    pub share: f64,
+    /// Where it begins, in pixels from the centre.
+    pub x: f64,
+    /// How wide it is, in pixels.
+    pub width: f64,
+    /// |f| where it begins, as a part of the sum of |f| at both its ends: 1/2 where |f| is level.
+    pub slope: f64,
+    /// Whether f is negative in it.
+    pub negative: bool,
+}
+
+impl Table for FilterTable {
+    const NAME: &'static str = "filter";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let camera = camera_entity(scene)?;
+        let Some(&Sampling { filter, .. }) = scene.get::<Sampling>(camera) else { return Ok(Self::default()) };
+        check(&kind_and_name(scene, "camera", camera), filter)?;
+        Ok(Self { filter, cells: FilterCells::of(filter) })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&self.cells.first[..]) + size_of_val(&self.cells.cells[..])
+    }
+}
+
+fn check(who: &str, filter: Filter) -> Result<(), Refusal> {
+    let within = |field: &'static str, value: f64, least: f64, most: f64, what: &str| {
+        let accepted = format!("it must be {what} from {} to {}", number(least), number(most));
+        let refused = || Refusal::new(who, field, number(value), accepted);
+        if (least..=most).contains(&value) { Ok(()) } else { Err(refused()) }
+    };
+    within("filter radius", radius_of(filter), 1.0 / 64.0, 64.0, "a number of pixels")?;
+    match filter {
+        Filter::Gaussian { radius, sigma } => {
+            within("filter sigma", sigma, radius / 8.0, radius * 8.0, "a number of pixels that fits the radius,")
+        }
+        Filter::Mitchell { b, c, .. } => {
+            within("filter b", b, 0.0, 1.0, "a number")?;
+            within("filter c", c, 0.0, 1.0, "a number")
+        }
+        Filter::Box { .. } | Filter::Tent { .. } | Filter::BlackmanHarris { .. } => Ok(()),
+    }
+}
+
+/// Where a filter ends, in pixels.
+pub fn radius_of(filter: Filter) -> f64 {
+    match filter {
+        Filter::Box { radius }
+        | Filter::Tent { radius }
+        | Filter::Gaussian { radius, .. }
+        | Filter::Mitchell { radius, .. }
+        | Filter::BlackmanHarris { radius } => radius,
+    }
+}
+
+// ANCHOR: filter_value
+/// What a filter is at a distance of x ≥ 0 pixels from the centre along one axis; its scale is of no account.
+pub fn filter_value(filter: Filter, x: f64) -> f64 {
+    if x >= radius_of(filter) {
+        return 0.0;
+    }
+    match filter {
+        Filter::Box { .. } => 1.0,
+        Filter::Tent { radius } => 1.0 - x / radius,
+        Filter::Gaussian { radius, sigma } => {
+            let bell = |x: f64| -x * x / (2.0 * sigma * sigma);
+            libm::exp(bell(radius)) * libm::expm1(bell(x) - bell(radius))
+        }
+        Filter::Mitchell { radius, b, c } => {
+            let [near, far] = mitchell(b, c);
+            let t = 2.0 * x / radius;
+            let [a0, a1, a2, a3] = if t < 1.0 { near } else { far };
+            a0 + t * (a1 + t * (a2 + t * a3))
+        }
+        Filter::BlackmanHarris { radius } => {
+            let wave = |k: f64| libm::cos(k * PI * x / radius);
+            HARRIS[0] + HARRIS[1] * wave(1.0) + HARRIS[2] * wave(2.0) + HARRIS[3] * wave(3.0)
+        }
+    }
+}
+// ANCHOR_END: filter_value
+
+/// The four weights of the window (Harris 1978, minimum 4-term).
+const HARRIS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
+
+/// The coefficients of Mitchell and Netravali's two cubics, constant first: up to 1 and from 1 to 2.
+fn mitchell(b: f64, c: f64) -> [[f64; 4]; 2] {
+    let near = [6.0 - 2.0 * b, 0.0, -18.0 + 12.0 * b + 6.0 * c, 12.0 - 9.0 * b - 6.0 * c];
+    let far = [8.0 * b + 24.0 * c, -12.0 * b - 48.0 * c, 6.0 * b + 30.0 * c, -b - 6.0 * c];
+    [near, far].map(|cubic| cubic.map(|part| part / 6.0))
+}
+
+/// The area under a filter from the centre to x ≥ 0, signed.
+pub fn filter_area(filter: Filter, x: f64) -> f64 {
+    let x = x.min(radius_of(filter));
+    match filter {
+        Filter::Box { .. } => x,
+        Filter::Tent { radius } => x * (1.0 - x / (2.0 * radius)),
+        Filter::Gaussian { radius, sigma } => {
+            let edge = libm::exp(-radius * radius / (2.0 * sigma * sigma));
+            sigma * (PI / 2.0).sqrt() * libm::erf(x / sigma * FRAC_1_SQRT_2) - x * edge
+        }
+        Filter::Mitchell { radius, b, c } => {
+            let [near, far] = mitchell(b, c);
+            let up_to = |[a0, a1, a2, a3]: [f64; 4], t: f64| t * (a0 + t * (a1 / 2.0 + t * (a2 / 3.0 + t * a3 / 4.0)));
+            let t = 2.0 * x / radius;
+            let area = if t < 1.0 { up_to(near, t) } else { up_to(near, 1.0) + up_to(far, t) - up_to(far, 1.0) };
+            area * radius / 2.0
+        }
+        Filter::BlackmanHarris { radius } => {
+            let wave = |k: f64| radius / (k * PI) * libm::sin(k * PI * x / radius);
+            HARRIS[0] * x + HARRIS[1] * wave(1.0) + HARRIS[2] * wave(2.0) + HARRIS[3] * wave(3.0)
+        }
+    }
+}
+
+/// Where a filter turns from positive to negative, or its end.
+///
+/// The outer cubic is (2 − t)² (b(2 − t) − 6c(t − 1)) / 6.
+pub fn turning_place(filter: Filter) -> f64 {
+    match filter {
+        Filter::Mitchell { radius, b, c } if c > 0.0 => radius / 2.0 * (2.0 * b + 6.0 * c) / (b + 6.0 * c),
+        _ => radius_of(filter),
+    }
+}
+
+impl FilterCells {
+    /// The table of a filter, empty where none is needed.
+    pub fn of(filter: Filter) -> Self {
+        if matches!(filter, Filter::Box { .. } | Filter::Tent { .. }) {
+            return Self::default();
+        }
+        let (turn, radius) = (turning_place(filter), radius_of(filter));
+        let positive = filter_area(filter, turn);
+        let whole = positive + (filter_area(filter, radius) - positive).abs();
+        let mut cells = Vec::new();
+        for (from, to, negative) in [(0.0, turn, false), (turn, radius, true)] {
+            let width = (to - from) / CELLS as f64;
+            let before = if negative { positive } else { 0.0 };
+            let area = |x: f64| (before + (filter_area(filter, x) - before).abs()) / whole;
+            for cell in (0..CELLS).filter(|_| width > 0.0) {
+                let x = from + cell as f64 * width;
+                let ends = [x, from + (cell + 1) as f64 * width];
+                let [start, end] = ends.map(area);
+                let [first, last] = ends.map(|x| filter_value(filter, x).abs());
+                let slope = first / (first + last);
+                cells.push(Span { start, end, share: 1.0 / (end - start), x, width, slope, negative });
+            }
+        }
+        if let Some(last) = cells.last_mut() {
+            last.end = 2.0;
+        }
+        let steps = cells.len();
+        let first = |step: usize| cells.partition_point(|cell| cell.end <= step as f64 / steps as f64) as u16;
+        Self { first: (0..=steps).map(first).collect(), cells }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every area against a sum of a hundred thousand thin strips.
+    #[test]
+    fn areas_are_those_under_the_filters() {
+        let odd = [
+            Filter::Gaussian { radius: 3.0, sigma: 0.4 },
+            Filter::Mitchell { radius: 2.0, b: 0.0, c: 0.5 },
+            Filter::Mitchell { radius: 1.0, b: 1.0, c: 0.0 },
+        ];
+        for filter in Filter::ALL.map(|(_, filter)| filter).into_iter().chain(odd) {
+            const STRIPS: usize = 100_000;
+            let radius = radius_of(filter);
+            let width = radius / STRIPS as f64;
+            let (mut sum, mut worst) = (0.0, 0.0_f64);
+            for strip in 0..STRIPS {
+                sum += filter_value(filter, (strip as f64 + 0.5) * width) * width;
+                worst = worst.max((filter_area(filter, (strip + 1) as f64 * width) - sum).abs());
+            }
+            assert!(worst < 1e-9 * radius, "{filter:?}: area off by {worst:e}");
+        }
+        assert!((2.0 * filter_area(Filter::MITCHELL, 2.0) - 1.0).abs() < 1e-15, "Mitchell's own scale is 1");
+    }
+
+    /// The sign is the filter's own on both sides of where it turns, and only there.
+    #[test]
+    fn filters_turn_where_it_is_said() {
+        for (b, c) in [(1.0 / 3.0, 1.0 / 3.0), (0.0, 0.5), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (0.5, 0.1)] {
+            let filter = Filter::Mitchell { radius: 2.0, b, c };
+            let turn = turning_place(filter);
+            for step in 1..2000 {
+                let x = f64::from(step) / 1000.0;
+                let value = filter_value(filter, x);
+                let right = if x < turn { value >= -1e-12 } else { value <= 1e-12 };
+                assert!(right, "B = {b}, C = {c}: f({x}) = {value:e}, but it turns at {turn}");
+            }
+            assert_eq!(filter.is_signed(), c > 0.0);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+use super::camera::{CameraAxes, eye};
+use crate::plan::{Evidence, Table, entities};
+use crate::scene::{LayerKind, Layers, Refusal};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+
+/// Which layers are asked for, and what brings render space back to the world and to the camera.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LayerTable {
+    /// The kinds, each once, in the order of a file.
+    pub kinds: Vec<LayerKind>,
+    /// Where the origin of render space is in the world.
+    pub eye: DVec3,
+    /// Columns: the camera's x, y and z (backward) as unit vectors of the world.
+    pub world_from_camera: DMat3,
+}
+
+impl LayerTable {
+    /// The kinds that a scene asks for, each once, in the order of a file.
+    pub fn kinds_of(scene: &World) -> Vec<LayerKind> {
+        let found = entities::<With<Layers>>(scene);
+        let asked = found.first().and_then(|&entity| scene.get::<Layers>(entity));
+        let mut kinds = asked.map(|layers| layers.kinds.clone()).unwrap_or_default();
+        kinds.sort();
+        kinds.dedup();
+        kinds
+    }
+}
+
+impl Table for LayerTable {
+    const NAME: &'static str = "layers";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let world_from_camera = CameraAxes::extract(scene)?.world_from_camera;
+        Ok(Self { kinds: Self::kinds_of(scene), eye: eye(scene)?, world_from_camera })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + self.kinds.len() * size_of::<LayerKind>()
+    }
+}
+
+/// Evidence that a layer of a kind is asked for.
+pub fn layer_evidence(scene: &World, noun: &str, of_kind: impl Fn(LayerKind) -> bool) -> Evidence {
+    Evidence::among::<With<Layers>>(scene, noun, |entity| {
+        entity.get::<Layers>().is_some_and(|layers| layers.kinds.iter().any(|&kind| of_kind(kind)))
+    })
+}

@@ -1,0 +1,76 @@
+use super::{Film, write_whole};
+use crate::Result;
+use crate::scene::LayerKind;
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
+};
+use std::io;
+use std::path::Path;
+
+/// What the attribute is called that says which number of the layer `entity` is which shape.
+pub const ENTITY_NAMES: &str = "entityNames";
+
+/// Writes the film's mean radiance and its layers as one OpenEXR file of one part, a channel a number.
+///
+/// Channels of a layer have its name, a dot and a letter, which is how readers know layers (the OpenEXR project's
+/// "Technical Introduction", channels and layers); 32-bit floats, but for the two that count, which are 32-bit integers.
+/// `names` are the shapes' names in the order of their numbers.
+///
+/// Errors: the path and what the system said; no part of a file is left behind.
+pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
+    write_whole(path, |file| {
+        let size = (film.width as usize, film.height as usize);
+        let mut attributes = LayerAttributes::default();
+        attributes.software_name = Some(Text::from("pinhole"));
+        let kinds = film.layers.first().map_or(&[][..], |layers| &layers.kinds);
+        if kinds.contains(&LayerKind::Entity) {
+            let told: Vec<String> = names.iter().enumerate().map(|(number, name)| format!("{number} {name}")).collect();
+            let told = Text::new_or_none(told.join("; ")).unwrap_or_else(|| Text::from("names are no plain text"));
+            attributes.other.insert(Text::from(ENTITY_NAMES), AttributeValue::Text(told));
+        }
+        let channels = AnyChannels::sort(channels(film, kinds).into());
+        let image = Image::from_layer(Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels));
+        image.write().non_parallel().to_buffered(file).map_err(io::Error::other)
+    })
+}
+
+fn channels(film: &Film, kinds: &[LayerKind]) -> Vec<AnyChannel<FlatSamples>> {
+    let mut channels = Vec::new();
+    for (channel, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let values = pixels(film, |x, y| film.mean(x, y)[channel]);
+        channels.push(AnyChannel::new(name, FlatSamples::F32(values)));
+    }
+    for &kind in kinds {
+        for (channel, &name) in kind.channels().iter().enumerate() {
+            channels.push(AnyChannel::new(name, samples(film, kind, channel)));
+        }
+    }
+    channels
+}
+
+fn samples(film: &Film, kind: LayerKind, channel: usize) -> FlatSamples {
+    match kind {
+        LayerKind::Entity => FlatSamples::U32(pixels(film, |x, y| {
+            let (tile, row) = film.place(x, y);
+            film.layers[tile].entity[row]
+        })),
+        LayerKind::Samples => FlatSamples::U32(pixels(film, |x, y| {
+            let (tile, row) = film.place(x, y);
+            film.tiles[tile].count[row]
+        })),
+        LayerKind::Variance => FlatSamples::F32(pixels(film, |x, y| {
+            let (tile, row) = film.place(x, y);
+            film.variance_of_mean(tile, row)[channel] as f32
+        })),
+        _ => FlatSamples::F32(pixels(film, |x, y| {
+            let (tile, row) = film.place(x, y);
+            film.layers[tile].mean(kind, channel, row) as f32
+        })),
+    }
+}
+
+/// A number of every pixel, line by line from the top.
+fn pixels<T>(film: &Film, value: impl Fn(u32, u32) -> T) -> Vec<T> {
+    let lines = (0..film.height).flat_map(|y| (0..film.width).map(move |x| (x, y)));
+    lines.map(|(x, y)| value(x, y)).collect()
+}

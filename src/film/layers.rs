@@ -1,0 +1,235 @@
+use crate::extract::{LayerTable, MaterialTable, layer_evidence};
+use crate::intersect::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
+use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime, Shared, Stage, TileSystems};
+use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
+use crate::scene::LayerKind;
+use crate::shade::SurfaceColours;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// What else is kept of each pixel of a tile, a row a pixel; exists only where layers are asked for.
+///
+/// A sample that meets nothing adds nothing, so that a pixel at an edge tells of the surface alone; how much of the pixel
+/// that is stands in the layer of coverage.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct FilmLayers {
+    /// The kinds, each once, in the order of a file.
+    pub kinds: Vec<LayerKind>,
+    /// Samples taken.
+    pub taken: Vec<u32>,
+    /// Those of them that met a surface.
+    pub met: Vec<u32>,
+    /// The number of the shape that the first sample met; none where it met nothing.
+    pub entity: Vec<u32>,
+    /// Sums over the samples that met a surface: a lane for every channel of every kind that is a mean, in order.
+    pub sums: Vec<Vec<f64>>,
+}
+
+impl FilmLayers {
+    /// Those of no samples.
+    pub fn new(rows: usize, kinds: &[LayerKind]) -> Self {
+        let lanes: usize = kinds.iter().filter(|kind| kind.is_mean()).map(|kind| kind.channels().len()).sum();
+        Self {
+            kinds: kinds.to_vec(),
+            taken: vec![0; rows],
+            met: vec![0; rows],
+            entity: vec![NO_SHAPE; rows],
+            sums: vec![vec![0.0; rows]; lanes],
+        }
+    }
+
+    /// The kinds as bits, for checkpoints.
+    pub fn kind_bits(&self) -> u32 {
+        self.kinds.iter().fold(0, |bits, &kind| bits | 1 << kind as u32)
+    }
+
+    /// All lanes that are not sums, for checkpoints.
+    pub fn counts(&self) -> [&Vec<u32>; 3] {
+        [&self.taken, &self.met, &self.entity]
+    }
+
+    /// The same, to be filled.
+    pub fn counts_mut(&mut self) -> [&mut Vec<u32>; 3] {
+        [&mut self.taken, &mut self.met, &mut self.entity]
+    }
+
+    /// The lanes of sums of a kind, and which of all they are.
+    fn lanes_of(&self, asked: LayerKind) -> std::ops::Range<usize> {
+        let before = self.kinds.iter().filter(|kind| kind.is_mean() && **kind < asked);
+        let first: usize = before.map(|kind| kind.channels().len()).sum();
+        first..first + asked.channels().len()
+    }
+
+    /// A channel of a kind that is a mean, or of coverage: 0 where no sample met anything.
+    pub fn mean(&self, kind: LayerKind, channel: usize, row: usize) -> f64 {
+        match kind {
+            LayerKind::Coverage => f64::from(self.met[row]) / f64::from(self.taken[row].max(1)),
+            _ => self.sums[self.lanes_of(kind).start + channel][row] / f64::from(self.met[row].max(1)),
+        }
+    }
+
+    /// Bytes that its lanes take.
+    pub fn bytes(&self) -> usize {
+        self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + size_of::<Self>()
+    }
+}
+
+impl Column for FilmLayers {
+    const NAME: &'static str = "layers";
+    const SPACE: &'static str = "film";
+    const UNIT: &'static str = "sums of each layer's own";
+    const LIFETIME: Lifetime = Lifetime::Film;
+
+    fn rows(&self) -> usize {
+        self.taken.len()
+    }
+
+    fn lanes(&self) -> Vec<Lane<'_>> {
+        let names = self.kinds.iter().filter(|kind| kind.is_mean()).flat_map(|kind| kind.channels());
+        let counts = [("taken", &self.taken), ("met", &self.met), ("entity", &self.entity)];
+        let counts = counts.map(|(name, lane)| Lane { name, values: LaneValues::U32(lane) });
+        let sums = names.zip(&self.sums).map(|(&name, lane)| Lane { name, values: LaneValues::F64(lane) });
+        counts.into_iter().chain(sums).collect()
+    }
+
+    fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.met[row] as f32 / self.taken[row].max(1) as f32; 3]
+    }
+}
+
+/// What is known of the row of a tile, as far as it is asked for.
+#[derive(Clone, Copy)]
+struct Known<'t> {
+    table: &'t LayerTable,
+    materials: Option<&'t MaterialTable>,
+    rays: Option<&'t WorldRays>,
+    hits: &'t Hits,
+    surfaces: Option<&'t Surfaces>,
+    uvs: Option<&'t SurfaceUvs>,
+    colours: Option<&'t SurfaceColours>,
+}
+
+impl Known<'_> {
+    /// The channels of a kind at a row that met a surface; those that the kind does not have are 0.
+    #[inline(always)]
+    fn value(&self, kind: LayerKind, row: usize) -> DVec3 {
+        let normal = || self.surfaces.map_or(DVec3::ZERO, |surfaces| surfaces.get(row).normal.as_dvec3());
+        let shading_normal = normal;
+        let to_camera = |normal: DVec3| self.table.world_from_camera.transpose() * normal;
+        let alone = |number: f64| DVec3::new(number, 0.0, 0.0);
+        match kind {
+            LayerKind::Position => {
+                self.surfaces.map_or(DVec3::ZERO, |own| self.table.eye + own.get(row).position.as_dvec3())
+            }
+            LayerKind::Normal => normal(),
+            LayerKind::NormalCamera => to_camera(normal()),
+            LayerKind::ShadingNormal => shading_normal(),
+            LayerKind::ShadingNormalCamera => to_camera(shading_normal()),
+            LayerKind::Uv => self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
+            LayerKind::Albedo => self.albedo(row),
+            LayerKind::DepthAlongRay => {
+                alone(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length()))
+            }
+            LayerKind::DepthAlongAxis => {
+                let backward = self.table.world_from_camera.z_axis;
+                alone(self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row]))))
+            }
+            LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance => DVec3::ZERO,
+        }
+    }
+
+    fn albedo(&self, row: usize) -> DVec3 {
+        match (self.colours, self.materials, self.surfaces) {
+            (Some(colours), _, _) => DVec3::new(colours.r[row], colours.g[row], colours.b[row]),
+            (None, Some(materials), Some(surfaces)) => DVec3::from(materials.colour[surfaces.material[row] as usize]),
+            _ => DVec3::ZERO,
+        }
+    }
+}
+
+/// Adds what is known of each row to its pixel's layers.
+pub fn add_to_layers(
+    table: Res<Shared<LayerTable>>,
+    materials: Option<Res<Shared<MaterialTable>>>,
+    mut tiles: Query<(
+        &RasterPoints,
+        Option<&PixelSamples>,
+        Option<&WorldRays>,
+        Option<&Hits>,
+        Option<&Surfaces>,
+        Option<&SurfaceUvs>,
+        Option<&SurfaceColours>,
+        &mut FilmLayers,
+    )>,
+) {
+    for (raster, samples, rays, hits, surfaces, uvs, colours, mut layers) in &mut tiles {
+        let layers = &mut *layers;
+        let pixel_of = |row: usize| samples.map_or(row, |samples| samples.pixel[row] as usize);
+        (0..raster.rows()).for_each(|row| layers.taken[pixel_of(row)] += 1);
+        let Some(hits) = hits else { continue };
+        for (row, &shape) in hits.shape.iter().enumerate() {
+            let pixel = pixel_of(row);
+            layers.met[pixel] += u32::from(shape != NO_SHAPE);
+            if layers.taken[pixel] == 1 {
+                layers.entity[pixel] = shape;
+            }
+        }
+        let materials = materials.as_deref().map(|materials| &**materials);
+        let known = Known { table: &table, materials, rays, hits, surfaces, uvs, colours };
+        let mut lanes = layers.sums.iter_mut();
+        for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
+            let channels: Vec<&mut Vec<f64>> = lanes.by_ref().take(kind.channels().len()).collect();
+            for (channel, sums) in channels.into_iter().enumerate() {
+                for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
+                    sums[pixel_of(row)] += known.value(kind, row)[channel];
+                }
+            }
+        }
+    }
+}
+
+/// The stage on offer.
+pub fn layers_stage() -> Stage {
+    Stage::new("Add to the layers", TileSystems::Layers, add_to_layers)
+        .reads::<RasterPoints>()
+        .reads_where::<PixelSamples>(sampling_evidence)
+        .reads_where::<Hits>(|scene| layer_evidence(scene, "layer of what is met", needs_hits))
+        .reads_where::<WorldRays>(|scene| layer_evidence(scene, "layer of depth", needs_rays))
+        .reads_where::<Surfaces>(|scene| layer_evidence(scene, "layer of surfaces", needs_surfaces))
+        .reads_where::<SurfaceUvs>(|scene| layer_evidence(scene, "layer of uv", |kind| kind == LayerKind::Uv))
+        .reads_where::<SurfaceColours>(albedo_evidence)
+        .writes::<FilmLayers>()
+        .table::<LayerTable>()
+        .table_where::<MaterialTable>(albedo_evidence)
+        .when(|scene| layer_evidence(scene, "camera that asks for layers", |_| true))
+}
+
+fn albedo_evidence(scene: &World) -> Evidence {
+    layer_evidence(scene, "layer of albedo", |kind| kind == LayerKind::Albedo)
+}
+
+fn needs_hits(kind: LayerKind) -> bool {
+    !matches!(kind, LayerKind::Samples | LayerKind::Variance)
+}
+
+fn needs_rays(kind: LayerKind) -> bool {
+    matches!(kind, LayerKind::DepthAlongRay | LayerKind::DepthAlongAxis)
+}
+
+fn needs_surfaces(kind: LayerKind) -> bool {
+    let normal = matches!(
+        kind,
+        LayerKind::Normal | LayerKind::NormalCamera | LayerKind::ShadingNormal | LayerKind::ShadingNormalCamera
+    );
+    normal || matches!(kind, LayerKind::Position | LayerKind::Albedo)
+}
+
+/// The column without which a layer is 0 everywhere.
+pub fn column_of_layer(kind: LayerKind) -> Option<&'static str> {
+    match kind {
+        LayerKind::Samples | LayerKind::Variance => None,
+        LayerKind::Uv => Some(SurfaceUvs::NAME),
+        _ if needs_surfaces(kind) => Some(Surfaces::NAME),
+        _ => Some(Hits::NAME),
+    }
+}

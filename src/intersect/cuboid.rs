@@ -1,0 +1,245 @@
+use super::classify::CuboidRows;
+use super::narrow::narrow;
+use super::sphere::{LANES, RayBlock, Verdict, nearness, vector};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::cuboid_uv;
+use super::wide_flat::wide_cuboid_t;
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{CuboidTable, ShapeTable, Slabs};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Cuboid;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+/// 2⁻⁵³, the rounding unit of f64.
+const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
+/// Half of u: no t is given that may be off by more than this, relative to itself.
+const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
+
+/// A t and how far rounding can have moved it, as the least and the most that it can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Between {
+    t: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Between {
+    #[inline(always)]
+    fn new(t: f64, error: f64) -> Self {
+        Self { t, least: t - error, most: t + error }
+    }
+
+    /// Each number the larger one; ordered compares, so that what is not a number never wins.
+    #[inline(always)]
+    fn later(self, other: Self) -> Self {
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        Self { t: larger(self.t, other.t), least: larger(self.least, other.least), most: larger(self.most, other.most) }
+    }
+
+    #[inline(always)]
+    fn earlier(self, other: Self) -> Self {
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        Self {
+            t: smaller(self.t, other.t),
+            least: smaller(self.least, other.least),
+            most: smaller(self.most, other.most),
+        }
+    }
+}
+
+// ANCHOR: slab
+/// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R above 0.
+///
+/// A ray along the slab's faces divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, as it should.
+/// What rounding leaves open, n·R of either sign or a ray in the plane of a face, gets the widest bounds there are.
+#[inline(always)]
+fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
+    let (of_f, of_direction) = (normal * f, normal * direction);
+    let (middle, approach) = (of_f.x + of_f.y + of_f.z, of_direction.x + of_direction.y + of_direction.z);
+    let (sum, sum_of_approach) = (sum_of_parts(of_f), sum_of_parts(of_direction));
+    // The magnitude, not the negative: −0 and 0 must both give speed 0.
+    let (towards, speed) = (if approach < 0.0 { -middle } else { middle }, approach.abs());
+    let (over_near, over_far) = (towards - half, towards + half);
+    let (near, far) = (over_near / speed, over_far / speed);
+
+    let lost = 8.0 * EPSILON * (sum + half);
+    let relative = EPSILON * (4.0 * sum_of_approach / speed + 4.0);
+    let (along, in_a_face) = (sum_of_approach == 0.0, (over_near.abs() <= lost) | (over_far.abs() <= lost));
+    let unsure = if along { in_a_face } else { !(relative < 0.25) };
+    let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
+    let bounds = |t: f64| {
+        if unsure { Between { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Between::new(t, error(t)) }
+    };
+    [bounds(near), bounds(far)]
+}
+// ANCHOR_END: slab
+
+// ANCHOR: cuboid_verdict
+/// Where O + tR meets a cuboid, in f64: it is inside from where it has entered the last slab to where it leaves the first.
+#[inline(always)]
+pub fn cuboid_verdict(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Verdict {
+    let f = slabs.centre - origin;
+    let [near_x, far_x] = slab(f, direction, slabs.normal[0], slabs.half[0]);
+    let [near_y, far_y] = slab(f, direction, slabs.normal[1], slabs.half[1]);
+    let [near_z, far_z] = slab(f, direction, slabs.normal[2], slabs.half[2]);
+    let enters = near_x.later(near_y).later(near_z);
+    let leaves = far_x.earlier(far_y).earlier(far_z);
+
+    let surely_not = (enters.least > leaves.most) | (leaves.most < 0.0);
+    let surely_inside = enters.most <= leaves.least;
+    let from_outside = enters.least > 0.0;
+    let from_inside = (enters.most < 0.0) & (leaves.least > 0.0);
+    let (t, open) =
+        if from_outside { (enters.t, enters.most - enters.least) } else { (leaves.t, leaves.most - leaves.least) };
+    let sure = surely_inside & (from_outside | from_inside) & (open <= SMALL * t);
+    Verdict { t: if surely_not { f64::INFINITY } else { t }, doubtful: !surely_not & !sure }
+}
+
+/// The smallest t > 0 at which O + tR lies on a face of a cuboid, or infinity; right also where f64 alone would leave a
+/// doubt.
+#[inline(always)]
+pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
+    let verdict = cuboid_verdict(origin, direction, slabs);
+    if verdict.doubtful { wide_cuboid_t(origin, direction, slabs).0 } else { verdict.t }
+}
+// ANCHOR_END: cuboid_verdict
+
+/// The axis of the face that O + tR meets first; of several met at once, the first.
+pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
+    let f = slabs.centre - origin;
+    let all = [0, 1, 2].map(|axis| slab(f, direction, slabs.normal[axis], slabs.half[axis]));
+    let from_outside = all.iter().any(|[near, _]| near.least > 0.0);
+    let from_inside = all.iter().all(|[near, _]| near.most < 0.0);
+    let is_first = |axis: usize| {
+        let before = |other: usize| match (from_outside, from_inside) {
+            (true, _) => all[axis][0].least > all[other][0].most,
+            (_, true) => all[axis][1].most < all[other][1].least,
+            _ => false,
+        };
+        before((axis + 1) % 3) && before((axis + 2) % 3)
+    };
+    (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| wide_cuboid_t(origin, direction, slabs).1)
+}
+
+/// The axis of the face that a point lies on or is nearest to, in halves of the cuboid.
+pub fn face_of_point(slabs: &Slabs, from_centre: DVec3) -> usize {
+    let share = |axis: usize| (slabs.normal[axis].dot(from_centre) / slabs.half[axis]).abs();
+    let first = usize::from(share(1) > share(0));
+    if share(2) > share(first) { 2 } else { first }
+}
+
+// ANCHOR: cuboid_surface
+/// The surface where O + tR meets a cuboid on the face across an axis.
+///
+/// A face is met from outside or inside, and its normal turned to the ray.
+/// From inside, a hit within rounding of another face is moved back between the two, as far as its own bound and the other
+/// face's: else its shadow rays might start behind that face.
+#[inline(always)]
+pub fn cuboid_surface(origin: DVec3, direction: DVec3, t: f64, axis: usize, slabs: &Slabs, material: u32) -> Surface {
+    let mut point = origin + t * direction;
+    let normal = slabs.normal[axis];
+    let bound = offset_bound(point, origin, sum_of_parts(slabs.centre) + slabs.half[axis]);
+    if normal.dot(direction) * normal.dot(point - slabs.centre) > 0.0 {
+        let room = 2.0 * f64::from(bound);
+        for other in [(axis + 1) % 3, (axis + 2) % 3] {
+            let (across, half) = (slabs.normal[other], slabs.half[other]);
+            let along = across.dot(point - slabs.centre);
+            let lacking = room - (half - along.abs());
+            if lacking > 0.0 && room < half {
+                // Along both other faces, so that only this distance changes.
+                let way = slabs.normal[3 - axis - other].cross(normal);
+                point -= way * (lacking * along.signum() / across.dot(way));
+            }
+        }
+    }
+    Surface::facing(direction, point, normal, bound, material)
+}
+// ANCHOR_END: cuboid_surface
+
+/// Narrows hits by all cuboids, for any column of rays.
+pub fn intersect_cuboids<R: RayColumn, H: HitColumn>(
+    cuboids: Res<Shared<CuboidTable>>,
+    mut tiles: Query<(&R, &mut H)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        cuboid_rows(rays.ray_lanes(), &cuboids, t, shape);
+    }
+}
+
+/// A cuboid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn cuboid_rows(rays: RayLanes<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let block = RayBlock::of(rays, start, end);
+        for (slabs, &number) in cuboids.slabs.iter().zip(&cuboids.shape) {
+            let mut nearest = [f64::NEG_INFINITY; LANES];
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = slabs.centre - vector(&block.o, lane);
+                *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], slabs.reach);
+            }
+            if nearest.iter().any(|&nearness| nearness >= 0.0) {
+                let verdict = |origin, direction| cuboid_verdict(origin, direction, slabs);
+                let wide = |origin, direction| wide_cuboid_t(origin, direction, slabs).0;
+                narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+            }
+        }
+        start = end;
+    }
+}
+
+/// Fills the surface of every row that hit a cuboid.
+pub fn fill_cuboid_surfaces(
+    cuboids: Res<Shared<CuboidTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &CuboidRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+) {
+    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let shape = hits.shape[row] as usize;
+            let slabs = &cuboids.slabs[shapes.row[shape] as usize];
+            let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+            let axis = cuboid_face(origin, direction, slabs);
+            surfaces.set(row, cuboid_surface(origin, direction, t, axis, slabs, shapes.material[shape]));
+            if let Some(uvs) = &mut uvs {
+                uvs.set(row, cuboid_uv(slabs, axis, t * direction - (slabs.centre - origin)));
+            }
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn cuboid_stage() -> Stage {
+    Stage::new("Intersect cuboids", TileSystems::Intersect, intersect_cuboids::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<CuboidTable>()
+        .when(cuboid_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn cuboid_surface_stage() -> Stage {
+    Stage::new("Describe cuboid surfaces", TileSystems::Surface, fill_cuboid_surfaces)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<CuboidRows>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
+        .table::<CuboidTable>()
+        .table::<ShapeTable>()
+        .when(cuboid_evidence)
+}
+
+/// Evidence that the scene holds a cuboid.
+pub fn cuboid_evidence(scene: &World) -> Evidence {
+    Evidence::of::<Cuboid>(scene, "cuboid")
+}

@@ -1,0 +1,122 @@
+use super::classify::DiskRows;
+use super::flat::{coordinates, crossing};
+use super::narrow::narrow;
+use super::sphere::{LANES, RayBlock, Verdict};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::flat_uv;
+use super::wide_flat::wide_disk_t;
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{DiskTable, Flat, ShapeTable};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Disk;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+// ANCHOR: disk_verdict
+/// Where O + tR meets a disk, in f64: where it crosses the plane, if the squares of the coordinates there sum to 1 at most.
+///
+/// A point that rounding moved by e each way has |p|² off by 2√2|p|e + 2e² at most, and 2|p| ≤ 1 + |p|².
+#[inline(always)]
+pub fn disk_verdict(origin: DVec3, direction: DVec3, flat: &Flat) -> Verdict {
+    let crossing = crossing(origin, direction, flat);
+    let [x, z] = crossing.at;
+    let square = x * x + z * z;
+    let slack = 3.0 * crossing.error * (1.0 + square + crossing.error);
+    let at_the_edge = (square - 1.0).abs() <= slack;
+    let hits = (square <= 1.0) & (crossing.t > 0.0) & !crossing.surely_not;
+    Verdict {
+        t: if hits { crossing.t } else { f64::INFINITY },
+        doubtful: !crossing.surely_not & (!crossing.sure | at_the_edge),
+    }
+}
+
+/// The t > 0 at which O + tR meets a disk, or infinity; right also where f64 alone would leave a doubt.
+#[inline(always)]
+pub fn disk_t(origin: DVec3, direction: DVec3, flat: &Flat) -> f64 {
+    let verdict = disk_verdict(origin, direction, flat);
+    if verdict.doubtful { wide_disk_t(origin, direction, flat) } else { verdict.t }
+}
+// ANCHOR_END: disk_verdict
+
+/// Narrows hits by all disks, for any column of rays.
+pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>, mut tiles: Query<(&R, &mut H)>) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        disk_rows(rays.ray_lanes(), &disks, t, shape);
+    }
+}
+
+/// A disk at a time over all rays, so that the arithmetic of many rays is done at once.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn disk_rows(rays: RayLanes<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let block = RayBlock::of(rays, start, end);
+        for (flat, &number) in disks.flat.iter().zip(&disks.shape) {
+            let verdict = |origin, direction| disk_verdict(origin, direction, flat);
+            let wide = |origin, direction| wide_disk_t(origin, direction, flat);
+            narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+        }
+        start = end;
+    }
+}
+
+/// Fills the surface of every row that hit a disk.
+pub fn fill_disk_surfaces(
+    disks: Res<Shared<DiskTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+) {
+    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
+        let of = |row: usize| &disks.flat[shapes.row[hits.shape[row] as usize] as usize];
+        for &row in &list.row {
+            let row = row as usize;
+            let flat = of(row);
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let point = origin + hits.t[row] * direction;
+            let bound = offset_bound(point, origin, sum_of_parts(flat.centre));
+            let material = shapes.material[hits.shape[row] as usize];
+            surfaces.set(row, Surface::facing(direction, point, flat.normal, bound, material));
+        }
+        if let Some(mut uvs) = uvs {
+            for &row in &list.row {
+                let row = row as usize;
+                let at = coordinates(rays.origin_of(row), rays.direction_of(row), hits.t[row], of(row));
+                uvs.set(row, flat_uv(at));
+            }
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn disk_stage() -> Stage {
+    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<DiskTable>()
+        .when(disk_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn disk_surface_stage() -> Stage {
+    Stage::new("Describe disk surfaces", TileSystems::Surface, fill_disk_surfaces)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<DiskRows>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
+        .table::<DiskTable>()
+        .table::<ShapeTable>()
+        .when(disk_evidence)
+}
+
+/// Evidence that the scene holds a disk.
+pub fn disk_evidence(scene: &World) -> Evidence {
+    Evidence::of::<Disk>(scene, "disk")
+}

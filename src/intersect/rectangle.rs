@@ -1,0 +1,122 @@
+use super::classify::RectangleRows;
+use super::flat::{coordinates, crossing};
+use super::narrow::narrow;
+use super::sphere::{LANES, RayBlock, Verdict};
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::flat_uv;
+use super::wide_flat::wide_rectangle_t;
+use super::{HitColumn, Hits, RayColumn, RayLanes};
+use crate::extract::{Flat, RectangleTable, ShapeTable};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::scene::Rectangle;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+// ANCHOR: rectangle_verdict
+/// Where O + tR meets a rectangle, in f64: where it crosses the plane, if both coordinates there lie from −1 to 1.
+#[inline(always)]
+pub fn rectangle_verdict(origin: DVec3, direction: DVec3, flat: &Flat) -> Verdict {
+    let crossing = crossing(origin, direction, flat);
+    let [x, z] = crossing.at.map(f64::abs);
+    let farther = if x > z { x } else { z };
+    let at_the_edge = (farther - 1.0).abs() <= crossing.error;
+    let hits = (x <= 1.0) & (z <= 1.0) & (crossing.t > 0.0) & !crossing.surely_not;
+    Verdict {
+        t: if hits { crossing.t } else { f64::INFINITY },
+        doubtful: !crossing.surely_not & (!crossing.sure | at_the_edge),
+    }
+}
+
+/// The t > 0 at which O + tR meets a rectangle, or infinity; right also where f64 alone would leave a doubt.
+#[inline(always)]
+pub fn rectangle_t(origin: DVec3, direction: DVec3, flat: &Flat) -> f64 {
+    let verdict = rectangle_verdict(origin, direction, flat);
+    if verdict.doubtful { wide_rectangle_t(origin, direction, flat) } else { verdict.t }
+}
+// ANCHOR_END: rectangle_verdict
+
+/// Narrows hits by all rectangles, for any column of rays.
+pub fn intersect_rectangles<R: RayColumn, H: HitColumn>(
+    rectangles: Res<Shared<RectangleTable>>,
+    mut tiles: Query<(&R, &mut H)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        rectangle_rows(rays.ray_lanes(), &rectangles, t, shape);
+    }
+}
+
+/// A rectangle at a time over all rays, so that the arithmetic of many rays is done at once.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn rectangle_rows(rays: RayLanes<'_>, rectangles: &RectangleTable, t: &mut [f64], shape: &mut [u32]) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let block = RayBlock::of(rays, start, end);
+        for (flat, &number) in rectangles.flat.iter().zip(&rectangles.shape) {
+            let verdict = |origin, direction| rectangle_verdict(origin, direction, flat);
+            let wide = |origin, direction| wide_rectangle_t(origin, direction, flat);
+            narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+        }
+        start = end;
+    }
+}
+
+/// Fills the surface of every row that hit a rectangle.
+pub fn fill_rectangle_surfaces(
+    rectangles: Res<Shared<RectangleTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &Hits, &RectangleRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+) {
+    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
+        let of = |row: usize| &rectangles.flat[shapes.row[hits.shape[row] as usize] as usize];
+        for &row in &list.row {
+            let row = row as usize;
+            let flat = of(row);
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let point = origin + hits.t[row] * direction;
+            let bound = offset_bound(point, origin, sum_of_parts(flat.centre));
+            let material = shapes.material[hits.shape[row] as usize];
+            surfaces.set(row, Surface::facing(direction, point, flat.normal, bound, material));
+        }
+        if let Some(mut uvs) = uvs {
+            for &row in &list.row {
+                let row = row as usize;
+                let at = coordinates(rays.origin_of(row), rays.direction_of(row), hits.t[row], of(row));
+                uvs.set(row, flat_uv(at));
+            }
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn rectangle_stage() -> Stage {
+    Stage::new("Intersect rectangles", TileSystems::Intersect, intersect_rectangles::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<RectangleTable>()
+        .when(rectangle_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn rectangle_surface_stage() -> Stage {
+    Stage::new("Describe rectangle surfaces", TileSystems::Surface, fill_rectangle_surfaces)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<RectangleRows>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .writes::<SurfaceUvs>()
+        .table::<RectangleTable>()
+        .table::<ShapeTable>()
+        .when(rectangle_evidence)
+}
+
+/// Evidence that the scene holds a rectangle.
+pub fn rectangle_evidence(scene: &World) -> Evidence {
+    Evidence::of::<Rectangle>(scene, "rectangle")
+}

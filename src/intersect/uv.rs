@@ -1,0 +1,120 @@
+//! Where on its shape a point lies, in two coordinates: u to the right and v down, as seen from outside with +y up.
+
+use crate::extract::{Slabs, face_axes};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+// ANCHOR: sphere_uv
+/// Of a point of a sphere, in the sphere's own space, at any distance from its centre.
+///
+/// u is the longitude over 2π, 0 and 1 at −z and ½ at +z, through −x and back through +x; v the angle from the top over π.
+/// At the poles every longitude would do, and u is 0.
+#[inline(always)]
+pub fn sphere_uv(own: DVec3) -> [f64; 2] {
+    // 0 − x is never −0, so that no seam depends on the sign of a zero.
+    let longitude = libm::atan2(0.0 - own.x, 0.0 - own.z) / TAU;
+    let across = libm::sqrt(own.x * own.x + own.z * own.z);
+    let from_top = libm::atan2(across, own.y) * FRAC_1_PI;
+    [if longitude < 0.0 { longitude + 1.0 } else { longitude }, if from_top < 1.0 { from_top } else { 1.0 }]
+}
+// ANCHOR_END: sphere_uv
+
+/// Of a point of a disk or a rectangle by its two coordinates: 0 to 1 from edge to edge, each way.
+///
+/// A disk keeps the square about it, for a radius and an angle would have a seam and a point without an angle, and squares
+/// of a checkerboard would not stay square.
+#[inline(always)]
+pub fn flat_uv(at: [f64; 2]) -> [f64; 2] {
+    at.map(|part| within_unit(0.5 + 0.5 * part))
+}
+
+/// Of a point on a face of a cuboid: 0 to 1 from edge to edge, each way.
+#[inline(always)]
+pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
+    let at = |axis: usize| slabs.normal[axis].dot(from_centre) / slabs.half[axis];
+    let own = DVec3::new(at(0), at(1), at(2));
+    face_axes(axis, own[axis] < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(own)))
+}
+
+/// What rounding took past an edge comes back to it; not a number becomes 0.
+#[inline(always)]
+fn within_unit(part: f64) -> f64 {
+    if part > 1.0 {
+        1.0
+    } else if part > 0.0 {
+        part
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn close(told: [f64; 2], expected: [f64; 2]) -> bool {
+        (told[0] - expected[0]).abs() < 1e-14 && (told[1] - expected[1]).abs() < 1e-14
+    }
+
+    #[test]
+    fn a_sphere_has_its_middle_at_plus_z_and_its_seam_at_minus_z() {
+        for (own, uv) in [
+            (DVec3::NEG_Z, [0.0, 0.5]),
+            (DVec3::NEG_X, [0.25, 0.5]),
+            (DVec3::Z, [0.5, 0.5]),
+            (DVec3::X, [0.75, 0.5]),
+            (DVec3::Y, [0.0, 0.0]),
+            (DVec3::NEG_Y, [0.0, 1.0]),
+            (DVec3::new(-0.0, 1.0, -0.0), [0.0, 0.0]),
+            (DVec3::new(-0.0, 0.0, 3.0), [0.5, 0.5]),
+            (DVec3::new(0.0, 2.0, 2.0), [0.5, 0.25]),
+        ] {
+            assert!(close(sphere_uv(own), uv), "{own}: {:?}", sphere_uv(own));
+        }
+    }
+
+    #[test]
+    fn longitude_and_latitude_come_back_up_to_poles_and_seam() {
+        let mut tried = 0;
+        for step in 0..200 {
+            for row in 0..=100 {
+                let (u, v) = (f64::from(step) / 200.0, f64::from(row) / 100.0);
+                let (longitude, from_top) = (u * TAU, v * PI);
+                let across = libm::sin(from_top);
+                let own =
+                    DVec3::new(-libm::sin(longitude) * across, libm::cos(from_top), -libm::cos(longitude) * across)
+                        * 1e-8;
+                let [told_u, told_v] = sphere_uv(own);
+                let off = (told_u - u).abs();
+                assert!((told_v - v).abs() < 1e-14, "{u} {v}: {told_v}");
+                assert!(row == 0 || row == 100 || off.min(1.0 - off) < 1e-13, "{u} {v}: {told_u}");
+                assert!((0.0..=1.0).contains(&told_u) && (0.0..=1.0).contains(&told_v));
+                tried += 1;
+            }
+        }
+        for tiny in [f64::MIN_POSITIVE, 1e-300, 1e-17] {
+            for own in [DVec3::new(tiny, 1.0, -1.0), DVec3::new(-tiny, -1.0, tiny), DVec3::new(tiny, 0.0, -tiny)] {
+                assert!(sphere_uv(own).iter().all(|part| (0.0..=1.0).contains(part)), "{own}");
+            }
+        }
+        eprintln!("sphere uv: {tried} points come back");
+    }
+
+    #[test]
+    fn faces_of_a_cuboid_read_from_left_to_right_and_down() {
+        let slabs = Slabs::new(DVec3::ZERO, DVec3::AXES, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 4.0]);
+        let at = |axis, x, y, z| cuboid_uv(&slabs, axis, DVec3::new(x, y, z));
+        assert_eq!(at(2, -1.0, 2.0, 4.0), [0.0, 0.0]);
+        assert_eq!(at(2, 1.0, -2.0, 4.0), [1.0, 1.0]);
+        assert_eq!(at(2, 0.5, 1.0, -4.0), [0.25, 0.25]);
+        assert_eq!(at(0, 1.0, 2.0, 4.0), [0.0, 0.0]);
+        assert_eq!(at(0, 1.0, -2.0, -4.0), [1.0, 1.0]);
+        assert_eq!(at(0, -1.0, 2.0, -4.0), [0.0, 0.0]);
+        assert_eq!(at(1, -1.0, 2.0, -4.0), [0.0, 0.0]);
+        assert_eq!(at(1, 1.0, -2.0, -4.0), [1.0, 1.0]);
+        assert_eq!(at(1, 0.0, 2.0, 0.0), [0.5, 0.5]);
+        assert_eq!(flat_uv([1.0 + 1e-16, -1.0 - 1e-16]), [1.0, 0.0]);
+        assert_eq!(flat_uv([f64::NAN, -0.5]), [0.0, 0.25]);
+    }
+}

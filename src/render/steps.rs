@@ -1,0 +1,113 @@
+use crate::rays::Tile;
+
+/// The lattices of a picture's first sample, by the distance of their pixels: low resolution first.
+pub const LATTICES: [u32; 4] = [8, 4, 2, 1];
+
+/// The step after which every pixel has its first sample.
+pub const WHOLE: u32 = LATTICES.len() as u32;
+
+/// How many steps bring every pixel to this many samples: the first sample takes four, each further one.
+pub fn steps_of(samples: u32) -> u32 {
+    samples.saturating_add(WHOLE - 1)
+}
+
+/// How many samples every pixel has after so many steps; 0 before each has its first.
+pub fn samples_after(steps: u32) -> u32 {
+    (steps + 1).saturating_sub(WHOLE)
+}
+
+/// One run of the schedule over a tile: a sample's number, for pixels on some lattices or for all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// The sample.
+    pub sample: u32,
+    /// Of the first sample: the lattices, by their places in [`LATTICES`], that are traced in this run.
+    lattices: [usize; 2],
+}
+
+/// The runs that bring a tile from `done` steps to `to`.
+///
+/// Lattices that follow each other are run at once, since a pixel's sums do not depend on its neighbours'.
+pub fn runs(done: u32, to: u32) -> Vec<Run> {
+    let lattices = [done.min(WHOLE) as usize, to.min(WHOLE) as usize];
+    let first = (lattices[0] < lattices[1]).then_some(Run { sample: 0, lattices });
+    let later = done.max(WHOLE)..to.max(WHOLE);
+    let later = later.map(|step| Run { sample: step - (WHOLE - 1), lattices: [0, LATTICES.len()] });
+    first.into_iter().chain(later).collect()
+}
+
+impl Run {
+    /// The first sample of all pixels.
+    pub const FIRST: Self = Self { sample: 0, lattices: [0, LATTICES.len()] };
+
+    /// Whether a pixel is on the lattices of this run and on none before them.
+    fn holds(&self, x: u32, y: u32) -> bool {
+        let on = |lattice: u32| x.is_multiple_of(lattice) && y.is_multiple_of(lattice);
+        let coarser = self.lattices[0].checked_sub(1).is_some_and(|before| on(LATTICES[before]));
+        on(LATTICES[self.lattices[1] - 1]) && !coarser
+    }
+
+    /// The rows of a tile's film that take part, ascending; `planned` are the samples that each is to get, where that
+    /// has been decided.
+    pub fn rows(&self, tile: Tile, planned: Option<&[u32]>, into: &mut Vec<u32>) {
+        into.clear();
+        let wanted = |row: usize| planned.is_none_or(|planned| self.sample < planned[row]);
+        let held = |row: usize| {
+            let [x, y] = tile.pixel_of(row);
+            self.holds(x, y)
+        };
+        let all = self.lattices == [0, LATTICES.len()];
+        into.extend((0..tile.rows()).filter(|&row| wanted(row) && (all || held(row))).map(|row| row as u32));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sample_of_every_pixel_is_run_once_and_in_order_however_the_steps_are_cut() {
+        let (mut tried, mut cuts) = (0, 0);
+        for tile in [Tile { x: 0, y: 0, width: 16, height: 9 }, Tile { x: 31, y: 62, width: 31, height: 5 }] {
+            for cut in 0_u32..1 << 7 {
+                let (mut done, mut next) = (0, vec![0; tile.rows()]);
+                let ends = (1..=7).filter(|end| cut >> (end - 1) & 1 == 1).chain([steps_of(5)]);
+                for to in ends {
+                    for run in runs(done, to) {
+                        let mut rows = Vec::new();
+                        run.rows(tile, None, &mut rows);
+                        for row in rows {
+                            assert_eq!(next[row as usize], run.sample, "row {row}");
+                            next[row as usize] += 1;
+                            tried += 1;
+                        }
+                    }
+                    done = to;
+                }
+                assert!(next.iter().all(|&samples| samples == 5), "{next:?}");
+                cuts += 1;
+            }
+        }
+        eprintln!("steps: {tried} samples in {cuts} ways to cut a render into passes");
+    }
+
+    #[test]
+    fn steps_and_samples_lead_to_each_other() {
+        assert_eq!([0, 3, 4, 5, 19].map(samples_after), [0, 0, 1, 2, 16]);
+        assert_eq!([1, 2, 16].map(steps_of), [4, 5, 19]);
+    }
+
+    #[test]
+    fn pixels_that_are_planned_less_stop_sooner() {
+        let tile = Tile { x: 0, y: 0, width: 2, height: 1 };
+        let mut rows = Vec::new();
+        let counts: Vec<Vec<u32>> = runs(0, steps_of(4))
+            .iter()
+            .map(|run| {
+                run.rows(tile, Some(&[1, 3]), &mut rows);
+                rows.clone()
+            })
+            .collect();
+        assert_eq!(counts, [vec![0, 1], vec![1], vec![1], vec![]]);
+    }
+}

@@ -1,0 +1,51 @@
+use super::LightRays;
+use super::light::{LightRay, aim, append_rays, shadow_reach};
+use crate::extract::{PointLightTable, material_evidence};
+use crate::intersect::{MaterialRows, Surfaces};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::scene::PointLight;
+use bevy_ecs::prelude::*;
+use multiversion::multiversion;
+
+// ANCHOR: irradiance_from_point
+/// What a surface receives of a point light's intensity I: I cos θ / d².
+///
+/// The light thins out with the square of the distance and with the slant at which it falls.
+#[inline(always)]
+pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared: f64) -> [f64; 3] {
+    let share = cosine / distance_squared;
+    [intensity[0] * share, intensity[1] * share, intensity[2] * share]
+}
+// ANCHOR_END: irradiance_from_point
+
+/// Appends a tile's rays to point lights, light after light.
+pub fn aim_at_point_lights(
+    lights: Res<Shared<PointLightTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
+) {
+    for (surfaces, list, mut rays) in &mut tiles {
+        for light in 0..lights.position.len() {
+            aim_rows(surfaces, &list.row, &lights, light, &mut rays);
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn aim_rows(surfaces: &Surfaces, rows: &[u32], lights: &PointLightTable, light: usize, rays: &mut LightRays) {
+    let (position, intensity) = (lights.position[light], lights.intensity[light]);
+    append_rays(surfaces, rows, rays, lights.casts_shadows[light], |surface| {
+        let aimed = aim(surface, position);
+        let irradiance = irradiance_from_point(intensity, aimed.cosine, aimed.distance * aimed.distance);
+        LightRay { aimed, reach: shadow_reach(aimed.distance), irradiance }
+    });
+}
+
+/// The stage on offer.
+pub fn point_light_stage() -> Stage {
+    Stage::new("Aim at point lights", TileSystems::Aim, aim_at_point_lights)
+        .reads::<Surfaces>()
+        .reads::<MaterialRows>()
+        .appends::<LightRays>()
+        .table::<PointLightTable>()
+        .when(|scene| Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+}

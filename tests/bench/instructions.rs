@@ -1,0 +1,194 @@
+//! What a feature costs a scene that does not use it, in instructions a ray and in bytes, counted by valgrind.
+//!
+//! `cargo bench --bench instructions` renders each scene with the full kit (the program `pinhole`, every stage on offer)
+//! and with a program that offers only what the scene needs (this one: nothing else of the kit's stages is linked into
+//! it), at two sizes each; the slopes between the sizes leave out all that a program does once.
+//! Instructions are counted by callgrind, bytes allocated by dhat, on one thread; images are compared byte by byte.
+//! valgrind shows its guests no AVX-512, so both programs run the kernels for AVX2.
+#![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
+
+use pinhole::film::{film_stage, write_exr};
+use pinhole::plan::{Stage, plan};
+use pinhole::render::{Execution, render};
+use pinhole::scene::{Resolution, SceneFile};
+use pinhole::{intersect, rays, shade};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// The most that the full kit may take, as a multiple of the program with only what is needed.
+const MOST: f64 = 1.005;
+
+/// A scene, and the stages that it needs.
+struct Case {
+    name: &'static str,
+    scene: &'static str,
+    stages: fn() -> Vec<Stage>,
+    samples: u32,
+}
+
+const CASES: [Case; 3] = [
+    Case { name: "spheres seen unlit", scene: UNLIT, stages: unlit, samples: 1 },
+    Case { name: "spheres and a plane in light and shadow", scene: LIT, stages: lit, samples: 1 },
+    Case { name: "the same with 4 samples a pixel", scene: SAMPLED, stages: sampled, samples: 4 },
+];
+
+/// Sizes whose pixels are as 1 to 4, in whole tiles.
+const SIZES: [(u32, u32); 2] = [(96, 64), (192, 128)];
+
+const UNLIT: &str = r#"[
+    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64)),
+    (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
+    (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), matte: (colour: (0.2, 0.7, 0.3))),
+]"#;
+
+const LIT: &str = r#"[
+    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64)),
+    (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
+    (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), matte: (colour: (0.2, 0.7, 0.3))),
+    (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
+    (point_light: (intensity: (90, 80, 70)), placement: (position: (3, 5, 4))),
+    (background: (colour: (0.1, 0.2, 0.3))),
+]"#;
+
+const SAMPLED: &str = r#"[
+    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
+        sampling: (samples: 4)),
+    (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
+    (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), matte: (colour: (0.2, 0.7, 0.3))),
+    (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
+    (point_light: (intensity: (90, 80, 70)), placement: (position: (3, 5, 4))),
+    (background: (colour: (0.1, 0.2, 0.3))),
+]"#;
+
+/// From the screen to the world, for a perspective camera.
+fn perspective() -> Vec<Stage> {
+    vec![rays::ndc_stage(), rays::screen_stage(), rays::perspective_stage(), rays::world_stage()]
+}
+
+fn unlit() -> Vec<Stage> {
+    let mut stages = perspective();
+    stages.extend([rays::raster_stage(), intersect::start_stage(), intersect::sphere_stage()]);
+    stages.extend([intersect::classify_stage(), intersect::sphere_surface_stage()]);
+    stages.extend([shade::start_stage(), shade::flat_stage(), film_stage()]);
+    stages
+}
+
+fn lit_with(raster: Stage) -> Vec<Stage> {
+    let mut stages = perspective();
+    stages.extend([raster, intersect::start_stage(), intersect::sphere_stage(), intersect::plane_stage()]);
+    stages.extend([intersect::classify_stage(), intersect::sphere_surface_stage(), intersect::plane_surface_stage()]);
+    stages.extend([
+        shade::start_stage(),
+        shade::background_stage(),
+        shade::start_light_stage(),
+        shade::point_light_stage(),
+        shade::start_shadow_stage(),
+    ]);
+    stages.extend([shade::sphere_shadow_stage(), shade::plane_shadow_stage(), shade::light_stage(), film_stage()]);
+    stages
+}
+
+fn lit() -> Vec<Stage> {
+    lit_with(rays::raster_stage())
+}
+
+fn sampled() -> Vec<Stage> {
+    lit_with(rays::place_samples_stage())
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().collect();
+    if let Some(at) = words.iter().position(|word| word == "--only") {
+        return render_only(&words[at + 1..]);
+    }
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        println!("instructions: valgrind is not installed here; nothing was counted");
+        return;
+    }
+    let most = CASES.iter().map(compare).fold(0.0_f64, f64::max);
+    assert!(most <= MOST, "a scene pays for what it does not use: {most:.4} times the instructions, at most {MOST}");
+}
+
+/// The other program: renders a case at a size by the stages that it needs, and none besides is on offer.
+fn render_only(words: &[String]) {
+    let [case, width, height, output] = words else { panic!("--only takes a case, a width, a height and a file") };
+    let case = &CASES[case.parse::<usize>().expect("a case's number")];
+    let (width, height) = (width.parse().expect("pixels"), height.parse().expect("pixels"));
+    let mut world = SceneFile::parse(Path::new("case.ron"), case.scene.into()).expect("a scene").world();
+    let camera = pinhole::extract::camera_entity(&world).expect("a camera");
+    world.entity_mut(camera).insert(Resolution { width, height });
+    let offer = (case.stages)();
+    let kept = plan(&world, &offer).expect("a plan");
+    assert!(kept.rows.iter().all(|row| row.kept), "a stage is offered that the scene does not need:\n{kept}");
+    let rendered = render(&world, &offer, &Execution { threads: Some(1), ..Execution::default() }, &());
+    write_exr(&rendered.expect("renders").film, Path::new(output)).expect("a file");
+}
+
+/// Prints a case's slopes, and gives the ratio of instructions.
+fn compare(case: &Case) -> f64 {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("scene.ron");
+    fs::write(&file, case.scene).expect("a scene file");
+    let number = CASES.iter().position(|other| other.name == case.name).expect("a case").to_string();
+    let mut counted = Vec::new();
+    for (width, height) in SIZES {
+        let (full_exr, only_exr) = (folder.path().join("full.exr"), folder.path().join("only.exr"));
+        let full = |mut tool: Command| {
+            let size = format!("{width}x{height}");
+            tool.arg(env!("CARGO_BIN_EXE_pinhole")).arg("render").arg(&file).args(["--threads", "1", "--quiet"]);
+            tool.args(["--size", &size, "-o"]).arg(&full_exr);
+            tool
+        };
+        let only = |mut tool: Command| {
+            let (width, height) = (width.to_string(), height.to_string());
+            tool.arg(std::env::current_exe().expect("this program")).args(["--only", &number, &width, &height]);
+            tool.arg(&only_exr);
+            tool
+        };
+        let instructions = [full(callgrind()), only(callgrind())].map(|tool| count(tool, "Collected :"));
+        let bytes = [full(dhat()), only(dhat())].map(|tool| count(tool, "Total:"));
+        let images = [&full_exr, &only_exr].map(|file| fs::read(file).expect("an image"));
+        assert!(images[0] == images[1], "{}: the images differ", case.name);
+        counted.push((f64::from(width * height * case.samples), instructions, bytes));
+    }
+    let rays = counted[1].0 - counted[0].0;
+    let slope = |program: usize| (counted[1].1[program] - counted[0].1[program]) / rays;
+    let grown = |program: usize| (counted[1].2[program] - counted[0].2[program]) / rays;
+    let once = |program: usize| counted[0].1[program] - slope(program) * counted[0].0;
+    let ratio = slope(0) / slope(1);
+    println!(
+        "{}: {:.1} instructions a camera ray with every stage on offer, {:.1} with what it needs: {ratio:.4} times; \
+         {:.2} and {:.2} bytes allocated a camera ray; images equal to the bit; once a run {:.1} million instructions \
+         more",
+        case.name,
+        slope(0),
+        slope(1),
+        grown(0),
+        grown(1),
+        (once(0) - once(1)) / 1e6,
+    );
+    ratio
+}
+
+fn callgrind() -> Command {
+    let mut tool = Command::new("valgrind");
+    tool.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).env_clear();
+    tool
+}
+
+fn dhat() -> Command {
+    let mut tool = Command::new("valgrind");
+    tool.args(["--tool=dhat", "--dhat-out-file=/dev/null"]).env_clear();
+    tool
+}
+
+/// Runs a program under valgrind and reads the number after a word of what it says.
+fn count(mut tool: Command, word: &str) -> f64 {
+    let output = tool.output().expect("valgrind runs");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    let line = said.lines().find_map(|line| line.split_once(word)).expect("a count").1;
+    let digits: String = line.trim().chars().take_while(|c| c.is_ascii_digit() || *c == ',').collect();
+    digits.replace(',', "").parse().expect("a number")
+}
