@@ -1,7 +1,7 @@
 //! Flat pieces and slabs in pairs of f64: for the few rays whose verdict f64 alone leaves in doubt.
 
-use super::wide::{Wide, add, dot, multiply, negated, two_sum};
-use crate::extract::{Flat, Slabs};
+use super::wide::{Wide, add, dot, multiply, negated};
+use crate::extract::{Flat, Slabs, two_sum};
 use glam::DVec3;
 
 /// Where a ray crosses the plane of a flat piece: t is `distance` / `approach`, and so are the coordinates times `approach`.

@@ -1,6 +1,8 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{MaterialTable, material_evidence};
-use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
+use crate::intersect::{
+    NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -76,13 +78,19 @@ pub(super) struct Aimed {
     pub cosine: f64,
 }
 
+/// The ray from a surface to a light; `shading` is the normal by which light falls, where it is not the surface's own.
 #[inline(always)]
-pub(super) fn aim(surface: &Surface, light: DVec3) -> Aimed {
+pub(super) fn aim(surface: &Surface, shading: Option<DVec3>, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
-    Aimed { origin, direction, distance, cosine: surface.normal.as_dvec3().dot(direction.as_dvec3()) }
+    let (geometric, to_light) = (surface.normal.as_dvec3(), direction.as_dvec3());
+    let cosine = match shading {
+        None => geometric.dot(to_light),
+        Some(shading) => falling_cosine(geometric, shading, to_light),
+    };
+    Aimed { origin, direction, distance, cosine }
 }
 // ANCHOR_END: aim
 
@@ -103,20 +111,32 @@ pub(super) struct LightRay {
 
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
-/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+/// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
     surfaces: &Surfaces,
+    shading: Option<&ShadingNormals>,
     rows: &[u32],
     rays: &mut LightRays,
     casts_shadows: bool,
-    ray_of: impl Fn(&Surface) -> LightRay,
+    ray_of: impl Fn(&Surface, Option<DVec3>) -> LightRay,
 ) {
+    match shading {
+        None => append(rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), None)),
+        Some(normals) => {
+            append(rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), Some(normals.get(row))));
+        }
+    }
+}
+
+/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+#[inline(always)]
+fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
     let length = rays.rows();
     let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
     for &row in rows {
-        let ray = ray_of(&surfaces.get(row as usize));
+        let ray = ray_of(row as usize);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
