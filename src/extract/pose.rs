@@ -27,6 +27,7 @@ pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAf
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
+// ANCHOR: pose
 /// The same map with its inverse.
 pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
@@ -50,6 +51,7 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     }
     Ok(Pose { world_from_entity, entity_from_world })
 }
+// ANCHOR_END: pose
 
 /// The same up to the entity's parent only.
 fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {

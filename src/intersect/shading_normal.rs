@@ -12,7 +12,7 @@ column! {
     /// The normal by which light falls on what each ray hit; all 0 where nothing is met.
     ///
     /// It is the surface's own but on triangles whose corners have normals; exists where there are such.
-    pub struct ShadingNormals("shading normal", "world", "unit vector", Ray) {
+    pub struct ShadingNormals("shading", "world", "unit vector", Ray) {
         /// On the side of the surface's own normal or nearly, x.
         nx: f32,
         /// y.
