@@ -4,7 +4,7 @@ use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
-use crate::scene::{Resolution, Sampling, Statistics, View};
+use crate::scene::{Filter, Resolution, Sampler, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -69,7 +69,7 @@ impl Chapter {
 }
 
 /// What a reader may change about a chapter's scene from the command line.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Asked {
     /// Another number of pixels.
     pub resolution: Option<Resolution>,
@@ -77,8 +77,35 @@ pub struct Asked {
     pub view: Option<String>,
     /// Whether stages are timed and counted.
     pub statistics: bool,
+    /// How pixels are sampled.
+    pub sampling: AskedSampling,
+}
+
+/// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
+/// default and then what is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AskedSampling {
     /// Samples a pixel.
     pub samples: Option<u32>,
+    /// Another seed.
+    pub seed: Option<u64>,
+    /// Where the random numbers come from.
+    pub sampler: Option<Sampler>,
+    /// What a sample counts for.
+    pub filter: Option<Filter>,
+}
+
+impl AskedSampling {
+    /// What it makes of a camera's sampling; nothing where nothing is asked.
+    pub fn of(&self, own: Option<&Sampling>) -> Option<Sampling> {
+        let Sampling { samples, seed, sampler, filter } = own.copied().unwrap_or_default();
+        (*self != Self::default()).then(|| Sampling {
+            samples: self.samples.unwrap_or(samples),
+            seed: self.seed.unwrap_or(seed),
+            sampler: self.sampler.unwrap_or(sampler),
+            filter: self.filter.unwrap_or(filter),
+        })
+    }
 }
 
 impl Asked {
@@ -92,9 +119,8 @@ impl Asked {
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
         }
-        if let Some(samples) = self.samples {
-            let sampling = camera.get::<Sampling>().copied().unwrap_or_default();
-            camera.insert(Sampling { samples, ..sampling });
+        if let Some(sampling) = self.sampling.of(camera.get::<Sampling>()) {
+            camera.insert(sampling);
         }
         if self.statistics {
             camera.insert(Statistics);

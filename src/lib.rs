@@ -49,6 +49,8 @@ pub mod review;
 
 pub mod measure;
 
+pub mod report;
+
 pub mod exercise;
 
 pub mod command;
@@ -58,7 +60,7 @@ mod chapter;
 mod error;
 
 pub use attempt::{Attempt, StageWords};
-pub use chapter::{Asked, Chapter};
+pub use chapter::{Asked, AskedSampling, Chapter};
 pub use error::{Error, Result};
 
 /// What a chapter's `main` calls: reads the command line, renders the chapter or looks inside it.

@@ -1,7 +1,8 @@
-use crate::chapter::Asked;
+use crate::chapter::{Asked, AskedSampling};
+use crate::extract::MOST_SAMPLES;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::scene::{Resolution, TracePixel};
+use crate::scene::{Filter, Resolution, Sampler, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -52,6 +53,8 @@ pub enum Command {
     Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+    /// Draw an image that a chapter reads from a file; without a name, list them
+    Draw(DrawImage),
     /// Print what to type in other programs to get a chapter's camera there, and how to come back
     Conventions(CompareConventions),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
@@ -188,12 +191,23 @@ pub struct DrawFigure {
 }
 
 #[derive(Args)]
+pub struct DrawImage {
+    /// The image's file name, such as card.png
+    pub name: Option<String>,
+    /// Where to write it (default: out/<name>)
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
 pub struct ExportScene {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: String,
     /// Where to write, ending in .ron; what is there stays (default: printed)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub sampling: SamplingOptions,
 }
 
 #[derive(Args)]
@@ -222,6 +236,9 @@ pub struct TraceChapter {
     /// The pixel, counted from 0 at the top left corner
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub pixel: TracePixel,
+    /// Which of its samples, counted from 0
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub sample: u32,
     #[command(flatten)]
     pub options: SceneOptions,
 }
@@ -234,9 +251,26 @@ pub struct SceneOptions {
     /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
     #[arg(long, value_name = "COLUMN")]
     pub view: Option<String>,
-    /// Rays through each pixel (default: what the scene says, or one through its centre)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[command(flatten)]
+    pub sampling: SamplingOptions,
+}
+
+#[derive(Args, Clone, Default)]
+pub struct SamplingOptions {
+    /// Rays through each pixel (default: what the scene says, or one through its centre; 16 where another of the
+    /// options of sampling is given)
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = samples)]
     pub samples: Option<u32>,
+    /// Another seed, other random numbers (default: what the scene says, or 0)
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
+    pub seed: Option<u64>,
+    /// Where the random numbers come from: sobol, stratified or independent (default: what the scene says, or sobol)
+    #[arg(long, value_name = "WORD", value_parser = |word: &str| one_of(word, "sampler", &Sampler::ALL))]
+    pub sampler: Option<Sampler>,
+    /// What a sample counts for: box, tent, gaussian, mitchell or blackman-harris (default: what the scene says, or
+    /// gaussian)
+    #[arg(long, value_name = "WORD", value_parser = |word: &str| one_of(word, "filter", &Filter::ALL))]
+    pub filter: Option<Filter>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -266,11 +300,20 @@ pub struct ExampleArguments {
     /// Follow one pixel from raster to light instead, and print what every stage wrote for it
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub trace: Option<TracePixel>,
+    /// Which of its samples to follow, counted from 0
+    #[arg(long, value_name = "K", default_value_t = 0, requires = "trace")]
+    pub sample: u32,
 }
 
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { resolution: self.size, view: self.view.clone(), statistics, samples: self.samples }
+        Asked { resolution: self.size, view: self.view.clone(), statistics, sampling: self.sampling.asked() }
+    }
+}
+
+impl SamplingOptions {
+    pub fn asked(&self) -> AskedSampling {
+        AskedSampling { samples: self.samples, seed: self.seed, sampler: self.sampler, filter: self.filter }
     }
 }
 
@@ -288,6 +331,23 @@ fn pixel(text: &str) -> Result<TracePixel, String> {
 fn workers(text: &str) -> Result<u16, String> {
     let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
     number.ok_or("a number of workers is a whole number from 1 to 1024".into())
+}
+
+fn samples(text: &str) -> Result<u32, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
+    number.ok_or(format!("a number of samples is a whole number from 1 to {MOST_SAMPLES}"))
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
+}
+
+fn one_of<T: Copy>(word: &str, kind: &str, all: &[(&str, T)]) -> Result<T, String> {
+    let found = all.iter().find(|(own, _)| *own == word).map(|(_, value)| *value);
+    found.ok_or_else(|| {
+        let words: Vec<&str> = all.iter().map(|(own, _)| *own).collect();
+        format!("a {kind} is one of {}", words.join(", "))
+    })
 }
 
 fn pair(text: &str, between: char) -> Option<(u32, u32)> {

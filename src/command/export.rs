@@ -16,7 +16,7 @@ use std::path::Path;
 /// Errors: a file of that name is there already, for it may have been edited.
 pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
-    let mut world = subject.world(&Asked::default());
+    let mut world = subject.world(&Asked { sampling: asked.sampling.asked(), ..Asked::default() });
     let note = subject.own_view(&mut world).map_or(String::new(), |column| {
         format!(
             "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",

@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod conventions;
 mod cost;
+mod draw;
 mod export;
 mod extremes;
 mod figure;
@@ -45,6 +46,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
     match arguments.command {
         None => render::render_cover(chapters, out),
         Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
+        Some(Command::Draw(asked)) => draw::draw_image(&asked, out),
         Some(Command::List) => list::list(chapters, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
         Some(Command::Render(asked)) => {
@@ -55,7 +57,8 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
         }
         Some(Command::Trace(asked)) => {
-            trace::print_trace(&Subject::find(chapters, &asked.chapter)?, asked.pixel, &asked.options, out)
+            let subject = Subject::find(chapters, &asked.chapter)?;
+            trace::print_trace(&subject, asked.pixel, asked.sample, &asked.options, out)
         }
         Some(Command::Export(asked)) => export::export(chapters, &asked, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
@@ -73,7 +76,10 @@ pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write)
     let words = std::iter::once(chapter.name).chain(arguments.iter().map(String::as_str));
     let Some(arguments) = parsed::<ExampleArguments>(words, out)? else { return Ok(()) };
     match arguments.trace {
-        Some(pixel) => trace::print_trace(&Subject::Chapter(chapter), pixel, &arguments.options.scene, out),
+        Some(pixel) => {
+            let (subject, options) = (Subject::Chapter(chapter), &arguments.options.scene);
+            trace::print_trace(&subject, pixel, arguments.sample, options, out)
+        }
         None => render::render_subject(&Subject::Chapter(chapter), &arguments.options, out),
     }
 }

@@ -43,6 +43,7 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     }
     writeln!(out, "wrote {}", names.join(" and "))?;
     warn_of_rejected(&rendered.film, out)?;
+    tell_of_negative_weights(&rendered.film, out)?;
     warn_of_narrow_pixels(subject, options, out)?;
     if !options.quiet {
         write!(out, "{}", try_next(subject, rendered.film.width, rendered.film.height))?;
@@ -100,6 +101,22 @@ fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
              the first is sample {} of pixel {x},{y} with radiance ({r}, {g}, {b})",
             sample.sample
         )?;
+    }
+    Ok(())
+}
+
+/// Says how many pixels a filter that is negative in places has left without weight or below 0.
+fn tell_of_negative_weights(film: &Film, out: &mut dyn Write) -> Result {
+    let (without, below) = film.weighed_out();
+    if without > 0 {
+        writeln!(
+            out,
+            "note: the weights of {without} pixels do not sum to more than 0 yet, so they show the plain mean of their \
+             samples; more samples or another filter help"
+        )?;
+    }
+    if below > 0 {
+        writeln!(out, "note: {below} pixels came out below 0, for the filter is negative in places; they show 0")?;
     }
     Ok(())
 }

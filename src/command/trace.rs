@@ -5,10 +5,16 @@ use crate::look;
 use crate::scene::TracePixel;
 use std::io::Write;
 
-/// A pixel's way to light.
-pub fn print_trace(subject: &Subject<'_>, pixel: TracePixel, options: &SceneOptions, out: &mut dyn Write) -> Result {
+/// The way of one of a pixel's samples to light.
+pub fn print_trace(
+    subject: &Subject<'_>,
+    pixel: TracePixel,
+    sample: u32,
+    options: &SceneOptions,
+    out: &mut dyn Write,
+) -> Result {
     let asked = options.asked(false);
-    let traced = look::trace(&subject.world(&asked), &subject.stages(), pixel);
+    let traced = look::trace_sample(&subject.world(&asked), &subject.stages(), pixel, sample);
     let trace = traced.map_err(|error| subject.placed(error, &asked))?;
     write!(out, "{} {trace}", subject.name())?;
     Ok(())

@@ -1,13 +1,29 @@
+use super::blinn_phong::blinn_phong_colour;
 use super::check::{kind_and_name, reflectance};
-use crate::plan::{Table, entities};
-use crate::scene::{Matte, Refusal};
+use super::phong::phong_colour;
+use super::shape_entities;
+use crate::plan::{Evidence, Table, entities};
+use crate::scene::{BlinnPhong, Matte, Phong, Refusal, UsesMaterial};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeSet;
+
+/// In the place of a row of a table: none.
+pub const NO_ROW: u32 = u32::MAX;
 
 /// The kinds of material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialKind {
     /// It sends the light it gets equally in all directions.
     Matte,
+    /// A row of the table of Phong highlights.
+    Phong,
+    /// A row of the table of Blinn–Phong highlights.
+    BlinnPhong,
+}
+
+impl MaterialKind {
+    /// How many kinds there are.
+    const COUNT: usize = 3;
 }
 
 /// What shapes are made of, in spawn order, whatever the kind; kinds with more numbers have a table of their own.
@@ -15,13 +31,75 @@ pub enum MaterialKind {
 pub struct MaterialTable {
     /// The kind of each.
     pub kind: Vec<MaterialKind>,
+    /// Its row among those of its kind, which is its row in the kind's own table.
+    pub row: Vec<u32>,
     /// The share of light that each sends on equally in all directions: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
 }
 
-/// The entities that carry a material, in spawn order; a row of the table is an entity here.
+type Colour = fn(&World, Entity, &str) -> Result<[f64; 3], Refusal>;
+
+/// A kind of material as an author writes it.
+struct Written {
+    /// The component's name.
+    component: &'static str,
+    /// What messages call it.
+    word: &'static str,
+    kind: MaterialKind,
+    entities: fn(&World) -> Vec<Entity>,
+    carries: fn(&World, Entity) -> bool,
+    colour: Colour,
+}
+
+impl Written {
+    const fn of<C: Component>(component: &'static str, word: &'static str, kind: MaterialKind, colour: Colour) -> Self {
+        let carries = |scene: &World, entity: Entity| scene.get::<C>(entity).is_some();
+        Self { component, word, kind, entities: entities::<With<C>>, carries, colour }
+    }
+}
+
+/// Every component that is a material; a new one joins with a line.
+const WRITTEN: &[Written] = &[
+    Written::of::<Matte>("Matte", "matte", MaterialKind::Matte, |scene, entity, who| {
+        let matte = scene.get::<Matte>(entity).copied().unwrap_or_default();
+        Ok(reflectance(who, "colour", matte.colour)?.to_array())
+    }),
+    Written::of::<Phong>("Phong", "phong", MaterialKind::Phong, phong_colour),
+    Written::of::<BlinnPhong>("BlinnPhong", "blinn_phong", MaterialKind::BlinnPhong, blinn_phong_colour),
+];
+
+/// The enabled entities that carry a material, in spawn order; a row of the table is an entity here.
 pub fn material_entities(scene: &World) -> Vec<Entity> {
-    entities::<With<Matte>>(scene)
+    let mut materials: Vec<Entity> = WRITTEN.iter().flat_map(|written| (written.entities)(scene)).collect();
+    materials.sort_by_key(|material| material.index());
+    materials.dedup();
+    materials
+}
+
+/// Whether an entity, enabled or not, carries a material.
+pub(super) fn is_material(scene: &World, entity: Entity) -> bool {
+    WRITTEN.iter().any(|written| (written.carries)(scene, entity))
+}
+
+/// The components that are a material, in words: `Matte, Phong or BlinnPhong`.
+pub(super) fn materials_in_words() -> String {
+    let names: Vec<&str> = WRITTEN.iter().map(|written| written.component).collect();
+    let (last, others) = names.split_last().unwrap_or((&"", &[]));
+    format!("{} or {last}", others.join(", "))
+}
+
+/// The one material that an entity is.
+fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, Refusal> {
+    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match carried[..] {
+        [one] => Ok(one),
+        _ => {
+            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let value = format!("{} at once", names.join(" and "));
+            let who = kind_and_name(scene, "material", entity);
+            Err(Refusal::new(who, "material", value, "an entity may be one material only"))
+        }
+    }
 }
 
 impl Table for MaterialTable {
@@ -29,16 +107,40 @@ impl Table for MaterialTable {
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let mut table = Self::default();
+        let mut rows_of_kind = [0; MaterialKind::COUNT];
         for entity in material_entities(scene) {
-            let matte = scene.get::<Matte>(entity).copied().unwrap_or_default();
-            let who = kind_and_name(scene, "matte", entity);
-            table.kind.push(MaterialKind::Matte);
-            table.colour.push(reflectance(&who, "colour", matte.colour)?.to_array());
+            let written = one_material(scene, entity)?;
+            let rows = &mut rows_of_kind[written.kind as usize];
+            table.row.push(*rows);
+            *rows += 1;
+            table.kind.push(written.kind);
+            table.colour.push((written.colour)(scene, entity, &kind_and_name(scene, written.word, entity))?);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<MaterialKind>() + size_of::<[f64; 3]>())
+        self.kind.len() * (size_of::<MaterialKind>() + size_of::<u32>() + size_of::<[f64; 3]>())
     }
+}
+
+/// The entities that shapes are, or use for their material.
+fn reached(scene: &World) -> BTreeSet<Entity> {
+    let shapes = shape_entities(scene);
+    let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
+    used.chain(shapes.iter().copied()).collect()
+}
+
+/// Evidence that a shape made of something is there.
+pub fn material_evidence(scene: &World) -> Evidence {
+    let reached = reached(scene);
+    Evidence::among::<Or<(With<Matte>, With<Phong>, With<BlinnPhong>)>>(scene, "material", |entity| {
+        reached.contains(&entity.id())
+    })
+}
+
+/// Evidence that a shape carries this component, or uses a material that does.
+pub fn matter_evidence<C: Component>(scene: &World, noun: &str) -> Evidence {
+    let reached = reached(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| reached.contains(&entity.id()))
 }

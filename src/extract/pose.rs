@@ -27,6 +27,14 @@ pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAf
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
+/// The way an entity looks: its own −z in the world, a unit vector.
+pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, Refusal> {
+    let along = world_from_entity(scene, who, entity)?.matrix3 * DVec3::NEG_Z;
+    let accepted = "its −z must keep a direction";
+    direction(along)
+        .ok_or_else(|| Refusal::new(who, "placement", format!("a map of −z to {}", triple(along)), accepted))
+}
+
 // ANCHOR: pose
 /// The same map with its inverse.
 pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {

@@ -1,8 +1,11 @@
 use super::check::kind_and_name;
-use super::material::material_entities;
+use super::emissive::emissive_entities;
+use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
 use super::unevenly_scaled;
 use crate::plan::{Table, entities};
-use crate::scene::{Cuboid, Disabled, Disk, Matte, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called};
+use crate::scene::{
+    Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called,
+};
 use bevy_ecs::prelude::*;
 
 /// The kinds of shape, in the order of their tables.
@@ -36,8 +39,10 @@ pub struct ShapeTable {
     pub kind: Vec<ShapeKind>,
     /// Its row in that table.
     pub row: Vec<u32>,
-    /// Its row in the material table.
+    /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
+    /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
+    pub emissive: Vec<u32>,
     /// How a person calls it.
     pub name: Vec<String>,
 }
@@ -88,7 +93,7 @@ impl Table for ShapeTable {
     const NAME: &'static str = "shapes";
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
-        let materials = material_entities(scene);
+        let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let mut table = Self::default();
         let mut rows_of_kind = [0; ShapeKind::COUNT];
         for entity in shape_entities(scene) {
@@ -99,16 +104,15 @@ impl Table for ShapeTable {
             *rows += 1;
             table.kind.push(kind);
             let name = kind_and_name(scene, written.word, entity);
-            let material = material_of(scene, &name, entity)?;
-            let row = materials.binary_search_by_key(&material.index(), |other| other.index()).unwrap_or(0);
-            table.material.push(row as u32);
+            table.material.push(row_in(&materials, material_of(scene, &name, entity)?));
+            table.emissive.push(row_in(&emissive, emissive_of(scene, entity)));
             table.name.push(name);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<ShapeKind>() + 8) + self.name.iter().map(String::len).sum::<usize>()
+        self.kind.len() * (size_of::<ShapeKind>() + 12) + self.name.iter().map(String::len).sum::<usize>()
     }
 }
 
@@ -125,21 +129,42 @@ fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, Refusal>
     }
 }
 
-/// The entity that holds a shape's one material.
-fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Entity, Refusal> {
-    let own = scene.get::<Matte>(shape).map(|_| shape);
+/// The entity that holds a shape's one material; none for a shape that emits light and reflects none.
+fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>, Refusal> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
-    match (own, used) {
-        (Some(own), None) => Ok(own),
-        (None, Some(used)) if scene.get::<Matte>(used).is_some() && scene.get::<Disabled>(used).is_none() => Ok(used),
-        (None, Some(used)) => {
-            let value = format!("used from {}", called(scene, used));
-            Err(Refusal::new(who, "material", value, "that entity must carry a Matte and not be disabled"))
+    match (is_material(scene, shape), used) {
+        (true, None) => Ok(Some(shape)),
+        (false, Some(used)) if scene.get::<Disabled>(used).is_none() && is_material(scene, used) => Ok(Some(used)),
+        (false, Some(used)) if scene.get::<Disabled>(used).is_none() && scene.get::<Emissive>(used).is_some() => {
+            Ok(None)
         }
-        (None, None) => Err(Refusal::new(who, "material", "missing", "a shape must carry a Matte or a UsesMaterial")),
-        (Some(_), Some(used)) => {
-            let value = format!("given twice, its own Matte and that of {}", called(scene, used));
+        (false, Some(used)) => {
+            let value = format!("used from {}", called(scene, used));
+            let accepted =
+                format!("that entity must carry a {} or an Emissive and not be disabled", materials_in_words());
+            Err(Refusal::new(who, "material", value, accepted))
+        }
+        (false, None) if scene.get::<Emissive>(shape).is_some() => Ok(None),
+        (false, None) => {
+            let accepted = format!("a shape must carry a {}, a UsesMaterial or an Emissive", materials_in_words());
+            Err(Refusal::new(who, "material", "missing", accepted))
+        }
+        (true, Some(used)) => {
+            let value = format!("given twice, its own and that of {}", called(scene, used));
             Err(Refusal::new(who, "material", value, "a shape may have one only"))
         }
     }
+}
+
+/// The entity that says what a shape emits: itself, or else the one whose material it uses.
+fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
+    let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
+    let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();
+    [Some(shape), used].into_iter().flatten().find(emits)
+}
+
+/// The row of an entity in a list in spawn order.
+fn row_in(list: &[Entity], entity: Option<Entity>) -> u32 {
+    let row = entity.and_then(|entity| list.binary_search_by_key(&entity.index(), |other| other.index()).ok());
+    row.map_or(NO_ROW, |row| row as u32)
 }

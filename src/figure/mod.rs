@@ -5,8 +5,10 @@
 //! Space: render space, up to [`Sketch`] and [`Section`], which make points of the drawing of it (x to the right, y
 //! down, [`WIDTH`](pen::WIDTH) wide).
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
+//! Beside them, the [images](DRAWN_IMAGES) that chapters read from files are drawn here.
 
 mod acne;
+mod drawn_image;
 mod field_of_view;
 mod gallery;
 mod grid;
@@ -36,6 +38,7 @@ mod svg;
 mod trial;
 mod two_ways;
 
+pub use drawn_image::{DRAWN_IMAGES, DrawnImage};
 pub use grid::{Grid, drawn_distance};
 pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
 pub use patch::Patch;

@@ -102,7 +102,7 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
         let direction = to_light / distance;
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_reach(distance))) {
-            let colour = materials.colour[surface.material as usize];
+            let colour = materials.colour.get(surface.material as usize).copied().unwrap_or_default();
             let irradiance = irradiance_from_point(intensity, cosine, distance * distance);
             let brings = matte_radiance(colour, irradiance);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);

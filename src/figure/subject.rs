@@ -144,7 +144,9 @@ fn lens(scene: &World) -> Result<Lens> {
 fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
     let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
     let of_kind = (0..shapes.kind.len()).filter(|&shape| shapes.kind[shape] == kind);
-    Ok(of_kind.map(|shape| materials.colour[shapes.material[shape] as usize]).collect())
+    // A shape that only emits light is drawn black.
+    let colour = |shape: usize| materials.colour.get(shapes.material[shape] as usize).copied().unwrap_or_default();
+    Ok(of_kind.map(colour).collect())
 }
 
 fn balls(scene: &World) -> Result<Vec<Ball>> {

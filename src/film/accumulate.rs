@@ -1,19 +1,29 @@
 use super::FilmTile;
 use crate::plan::{Column, Evidence, Stage, TileSystems};
-use crate::rays::{PixelSamples, sampling_evidence};
+use crate::rays::{PixelSamples, SampleSigns, sampling_evidence, signed_evidence};
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 
 /// Adds each row's radiance to its pixel's sum; where no column says which pixel, a row is the pixel of its number.
-pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &mut FilmTile)>) {
-    for (radiance, samples, mut film) in &mut tiles {
+pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&SampleSigns>, &mut FilmTile)>) {
+    for (radiance, samples, signs, mut film) in &mut tiles {
         let film = &mut *film;
         let (r, g, b) = radiance.slices();
-        match samples {
-            None => (0..film.rows().min(r.len())).for_each(|row| film.add(row, [r[row], g[row], b[row]])),
-            Some(samples) => {
+        let light = |row: usize| [r[row], g[row], b[row]];
+        match (samples, signs) {
+            (None, _) => (0..film.rows().min(r.len())).for_each(|row| film.add(row, light(row))),
+            (Some(samples), None) => {
                 for (row, &pixel) in samples.pixel.iter().enumerate() {
-                    film.add(pixel as usize, [r[row], g[row], b[row]]);
+                    film.add(pixel as usize, light(row));
+                }
+            }
+            (Some(samples), Some(signs)) => {
+                for (row, (&pixel, &sign)) in samples.pixel.iter().zip(&signs.sign).enumerate() {
+                    if sign < 0.0 {
+                        film.add_negative(pixel as usize, light(row));
+                    } else {
+                        film.add(pixel as usize, light(row));
+                    }
                 }
             }
         }
@@ -25,6 +35,7 @@ pub fn film_stage() -> Stage {
     Stage::new("Add to the film", TileSystems::Film, add_to_film)
         .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
+        .reads_where::<SampleSigns>(signed_evidence)
         .writes::<FilmTile>()
         .when(|_| Evidence::always("the film is what is asked for"))
 }

@@ -83,6 +83,11 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
             out.write_f64s(lane)?;
         }
         out.write_u32s(&tile.count)?;
+        out.write_u32(u32::from(!tile.negative_count.is_empty()))?;
+        for lane in &tile.negative {
+            out.write_f64s(lane)?;
+        }
+        out.write_u32s(&tile.negative_count)?;
         out.write_u64(tile.rejected)?;
         out.write_u32(tile.first_rejected.len() as u32)?;
         for rejected in &tile.first_rejected {
@@ -155,6 +160,14 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
         numbers.read_f64s(lane)?;
     }
     numbers.read_u32s(&mut tile.count)?;
+    if numbers.read_u32()? != 0 {
+        for lane in &mut tile.negative {
+            lane.resize(tile.count.len(), 0.0);
+            numbers.read_f64s(lane)?;
+        }
+        tile.negative_count.resize(tile.count.len(), 0);
+        numbers.read_u32s(&mut tile.negative_count)?;
+    }
     tile.rejected = numbers.read_u64()?;
     let remembered = numbers.read_u32()?;
     if remembered > 64 {

@@ -19,6 +19,8 @@ pub struct Rejected {
 
 /// The film of one tile: sums in f64 and the count of samples, a row a pixel.
 ///
+/// All samples are summed alike; those that count negatively are summed once more by themselves, so that both their
+/// weighted mean and the plain one can be told, and a tile without any keeps nothing for them.
 /// Sums are added to in the order of the samples, so neither threads nor tile size can change a bit of them.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
@@ -32,6 +34,11 @@ pub struct FilmTile {
     pub b: Vec<f64>,
     /// Samples summed.
     pub count: Vec<u32>,
+    /// Of the samples that count negatively, where the filter is negative in places: the sums of their red, green and
+    /// blue radiance; empty before the first of them.
+    pub negative: [Vec<f64>; 3],
+    /// How many of the samples count negatively; empty before the first.
+    pub negative_count: Vec<u32>,
     /// How many samples could not join.
     pub rejected: u64,
     /// The first of them.
@@ -74,12 +81,53 @@ impl FilmTile {
         }
     }
 
-    /// The mean radiance of a row; black where no sample joined.
-    pub fn mean(&self, row: usize) -> [f32; 3] {
-        self.mean_f64(row).map(|part| part as f32)
+    /// Adds a sample that counts negatively, or rejects it.
+    #[inline(never)]
+    pub fn add_negative(&mut self, row: usize, radiance: [f32; 3]) {
+        self.add(row, radiance);
+        if Self::takes(radiance) {
+            let rows = self.rows();
+            self.negative_count.resize(rows, 0);
+            self.negative_count[row] += 1;
+            for (sums, part) in self.negative.iter_mut().zip(radiance) {
+                sums.resize(rows, 0.0);
+                sums[row] += f64::from(part);
+            }
+        }
     }
 
-    /// The same, unrounded.
+    /// The radiance of a row as it is developed: the mean of its samples, each counted as the filter weighs it; black where
+    /// no sample joined.
+    ///
+    /// Where the weights' sum is not above 0, as it can be after a few samples of a filter that is negative in places, it is
+    /// the plain mean.
+    /// Where such a filter rings below 0, it is 0.
+    pub fn mean(&self, row: usize) -> [f32; 3] {
+        self.weighted(row).unwrap_or_else(|| self.mean_f64(row)).map(|part| part.max(0.0) as f32)
+    }
+
+    /// The sum of a row's weights: its samples, less those that count negatively once, and once more.
+    pub fn weight(&self, row: usize) -> i64 {
+        let negative = self.negative_count.get(row).copied().unwrap_or(0);
+        i64::from(self.count[row]) - 2 * i64::from(negative)
+    }
+
+    /// The weighted mean of a row, which can be below 0; none where the weights' sum is not above 0.
+    pub fn weighted(&self, row: usize) -> Option<[f64; 3]> {
+        let weight = self.weight(row);
+        if weight <= 0 {
+            return None;
+        }
+        Some(self.weighted_sums(row).map(|sum| sum / weight as f64))
+    }
+
+    /// The sums of a row, each sample with its sign.
+    pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
+        let negative = |part: usize| self.negative[part].get(row).copied().unwrap_or(0.0);
+        [self.r[row] - 2.0 * negative(0), self.g[row] - 2.0 * negative(1), self.b[row] - 2.0 * negative(2)]
+    }
+
+    /// The plain mean of a row's samples, unrounded, whatever they count for.
     #[inline(always)]
     pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
@@ -108,12 +156,19 @@ impl Column for FilmTile {
     }
 
     fn lanes(&self) -> Vec<Lane<'_>> {
-        vec![
+        let mut lanes = vec![
             Lane { name: "r", values: LaneValues::F64(&self.r) },
             Lane { name: "g", values: LaneValues::F64(&self.g) },
             Lane { name: "b", values: LaneValues::F64(&self.b) },
             Lane { name: "count", values: LaneValues::U32(&self.count) },
-        ]
+        ];
+        if !self.negative_count.is_empty() {
+            let names = ["negative_r", "negative_g", "negative_b"];
+            let sums = names.into_iter().zip(&self.negative);
+            lanes.extend(sums.map(|(name, sums)| Lane { name, values: LaneValues::F64(sums) }));
+            lanes.push(Lane { name: "negative_count", values: LaneValues::U32(&self.negative_count) });
+        }
+        lanes
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
@@ -175,10 +230,38 @@ impl Film {
 
     /// How much the mean of a pixel would vary from one render to another with other random numbers: red, green, blue;
     /// 0 where fewer than two samples tell.
+    ///
+    /// Where some of n samples count negatively, so that the weights' sum is W, it is that of a ratio to first order:
+    /// (n V + n (M − R)²) / W² with the variance V of a sample, the plain mean M and the weighted mean R.
     pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
-        let count = self.tiles[tile].count[row];
+        let film = &self.tiles[tile];
+        let (count, weight) = (film.count[row], film.weight(row));
         let variance = self.moments.get(tile).map_or([0.0; 3], |moments| moments.variance(row, count));
-        variance.map(|part| part / f64::from(count.max(1)))
+        let n = f64::from(count.max(1));
+        match film.weighted(row) {
+            Some(weighted) if weight < i64::from(count) => {
+                let plain = film.mean_f64(row);
+                let apart = [0, 1, 2].map(|part| plain[part] - weighted[part]);
+                let share = n / (weight as f64 * weight as f64);
+                [0, 1, 2].map(|part| (variance[part] + apart[part] * apart[part]) * share)
+            }
+            _ => variance.map(|part| part / n),
+        }
+    }
+
+    /// Where a filter that is negative in places leaves traces: pixels whose weights' sum is not above 0, though samples
+    /// joined, and pixels a part of which came out below 0.
+    pub fn weighed_out(&self) -> (usize, usize) {
+        let signed = self.tiles.iter().filter(|tile| !tile.negative_count.is_empty());
+        let (mut without, mut below) = (0, 0);
+        for tile in signed {
+            for row in 0..tile.rows() {
+                let weighted = tile.weighted(row);
+                without += usize::from(weighted.is_none() && tile.count[row] > 0);
+                below += usize::from(weighted.is_some_and(|parts| parts.iter().any(|&part| part < 0.0)));
+            }
+        }
+        (without, below)
     }
 
     /// All samples that could not join: how many, and the first few.
@@ -190,6 +273,7 @@ impl Film {
     /// Bytes that its sums and counts take, and what holds them together.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
-        self.tiles.iter().map(|tile| tile.rows() * a_row + size_of::<FilmTile>()).sum()
+        let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
+        self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum()
     }
 }

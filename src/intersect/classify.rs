@@ -1,6 +1,6 @@
 use super::hits::shape_evidence;
 use super::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
-use crate::extract::{ShapeKind, ShapeTable};
+use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 
@@ -68,6 +68,16 @@ column! {
     }
 }
 
+column! {
+    /// The rows whose surface emits light, ascending.
+    pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
+        /// A row of the hits.
+        row: u32,
+        /// The row of the table of emissive surfaces.
+        emissive: u32,
+    }
+}
+
 /// Lists the rows of each kind of shape and matter, and blanks the surfaces of rows that met nothing.
 ///
 /// After this each kind visits its own rows only.
@@ -83,12 +93,25 @@ pub fn classify_hits(
         Option<&mut CuboidRows>,
         Option<&mut TriangleRows>,
         Option<&mut MaterialRows>,
+        Option<&mut EmissiveRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
     )>,
 ) {
-    for (hits, spheres, ellipsoids, planes, disks, rectangles, cuboids, triangles, materials, surfaces, uvs) in
-        &mut tiles
+    for (
+        hits,
+        spheres,
+        ellipsoids,
+        planes,
+        disks,
+        rectangles,
+        cuboids,
+        triangles,
+        materials,
+        emissive,
+        surfaces,
+        uvs,
+    ) in &mut tiles
     {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
@@ -112,7 +135,13 @@ pub fn classify_hits(
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |_| true);
+            list_rows(hits, &mut list.row, |shape| shapes.material[shape] != NO_ROW);
+        }
+        if let Some(mut list) = emissive {
+            let list = &mut *list;
+            list_rows(hits, &mut list.row, |shape| shapes.emissive[shape] != NO_ROW);
+            list.emissive.clear();
+            list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
         if let Some(mut surfaces) = surfaces {
             blank_misses(hits, &mut surfaces);
@@ -164,6 +193,12 @@ impl PlaneRows {
     }
 }
 
+impl EmissiveRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
 impl DiskRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -206,6 +241,7 @@ pub fn classify_stage() -> Stage {
         .writes::<CuboidRows>()
         .writes::<TriangleRows>()
         .writes::<MaterialRows>()
+        .writes::<EmissiveRows>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
         .table::<ShapeTable>()

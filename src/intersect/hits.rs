@@ -2,10 +2,9 @@ use super::cuboid::cuboid_evidence;
 use super::disk::disk_evidence;
 use super::plane::plane_evidence;
 use super::rectangle::rectangle_evidence;
-use super::triangle::triangle_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::Sphere;
+use crate::scene::{Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -92,5 +91,5 @@ pub fn shape_evidence(scene: &World) -> Evidence {
         .or(disk_evidence(scene))
         .or(rectangle_evidence(scene))
         .or(cuboid_evidence(scene))
-        .or(triangle_evidence(scene))
+        .or(Evidence::of::<Triangle>(scene, "triangle"))
 }

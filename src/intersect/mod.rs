@@ -25,8 +25,8 @@ mod wide;
 mod wide_flat;
 
 pub use classify::{
-    CuboidRows, DiskRows, EllipsoidRows, MaterialRows, PlaneRows, RectangleRows, SphereRows, TriangleRows,
-    classify_hits, classify_stage,
+    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows,
+    TriangleRows, classify_hits, classify_stage,
 };
 pub use cuboid::{
     cuboid_evidence, cuboid_face, cuboid_stage, cuboid_surface, cuboid_surface_stage, cuboid_t, cuboid_verdict,

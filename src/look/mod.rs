@@ -10,5 +10,5 @@ mod trace;
 mod view;
 
 pub use stats::{RenderStats, StageStats};
-pub use trace::{Recorded, Trace, trace};
+pub use trace::{Recorded, Trace, trace, trace_sample};
 pub use view::{ViewTable, paths, view_stage};

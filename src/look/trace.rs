@@ -31,31 +31,49 @@ struct Recording(Vec<Recorded>);
 pub struct Trace {
     /// The pixel.
     pub pixel: TracePixel,
+    /// The sample's number within the pixel.
+    pub sample: u32,
     /// What each stage wrote.
     pub stages: Vec<Recorded>,
     /// The names of shapes, by number.
     pub shapes: Vec<String>,
 }
 
-/// Follows one pixel by running the stages on its tile.
+/// Follows a pixel's first sample by running the stages on its tile.
 ///
 /// Errors: what a render would be refused for, or a pixel outside the image.
 pub fn trace(scene: &World, offer: &[Stage], pixel: TracePixel) -> Result<Trace> {
+    trace_sample(scene, offer, pixel, 0)
+}
+
+/// The same for any of its samples, each by itself.
+///
+/// Errors: also a sample that the camera does not take.
+pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u32) -> Result<Trace> {
     let image = <crate::extract::ImageShape as crate::plan::Table>::extract(scene)?;
     if pixel.x >= image.width || pixel.y >= image.height {
         let value = format!("{},{}", pixel.x, pixel.y);
         let accepted = format!("the image has pixels 0,0 to {},{}", image.width - 1, image.height - 1);
         return Err(Error::from(Refusal::new("the trace", "pixel", value, accepted)));
     }
-    let mut inspection = inspect_tile(scene, offer, [pixel.x, pixel.y], &[record_hook(pixel)])?;
+    let samples = <crate::extract::SamplingTable as crate::plan::Table>::extract(scene)?.samples;
+    if sample >= samples {
+        let accepted = match samples {
+            1 => "the camera takes one sample of each pixel, number 0".into(),
+            _ => format!("the camera takes samples 0 to {} of each pixel", samples - 1),
+        };
+        return Err(Error::from(Refusal::new("the trace", "sample", sample.to_string(), accepted)));
+    }
+    let hook = record_hook(pixel, sample);
+    let mut inspection = inspect_tile(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
     let stages = inspection.world.remove_resource::<Recording>().unwrap_or_default().0;
     let shapes = crate::extract::shape_entities(scene);
     let shapes = shapes.into_iter().map(|shape| crate::scene::called(scene, shape)).collect();
-    Ok(Trace { pixel, stages, shapes })
+    Ok(Trace { pixel, sample, stages, shapes })
 }
 
 /// A system after each stage that copies what it wrote for the pixel, before a later leg can overwrite it.
-fn record_hook(pixel: TracePixel) -> Hook {
+fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
     Arc::new(move |_, stage: &Stage, plan: &Plan| {
         let name = stage.name;
         let columns: Vec<ColumnKind> = stage.writes.iter().copied().filter(|c| plan.columns.contains(c)).collect();
@@ -68,7 +86,7 @@ fn record_hook(pixel: TracePixel) -> Hook {
                     let lanes = (column.lanes)(&tile);
                     let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();
                     let rows = column.rows_of_path(&tile, path as u32).into_iter().map(show).collect();
-                    recorded.push(Recorded { stage: name, sample: 0, bounce: 0, column, rows });
+                    recorded.push(Recorded { stage: name, sample, bounce: 0, column, rows });
                 }
             }
             world.get_resource_or_init::<Recording>().0.extend(recorded);
@@ -79,7 +97,7 @@ fn record_hook(pixel: TracePixel) -> Hook {
 
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "pixel {},{}   sample 0, bounce 0", self.pixel.x, self.pixel.y)?;
+        writeln!(f, "pixel {},{}   sample {}, bounce 0", self.pixel.x, self.pixel.y, self.sample)?;
         let last_of = |column: ColumnKind| self.stages.iter().rposition(|recorded| recorded.column == column);
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";

@@ -2,7 +2,7 @@
 
 use crate::film::{Film, FilmTile};
 
-/// A film pixel by pixel: the bits of three sums and the count.
+/// A film pixel by pixel: the bits of three weighted sums, and the counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilmBits {
     /// Pixels from left to right.
@@ -30,10 +30,11 @@ impl FilmBits {
             rejected += tile.rejected;
             for row in 0..tile.count.len() {
                 let [x, y] = tile.tile.pixel_of(row);
-                let sums = [tile.r[row], tile.g[row], tile.b[row]].map(f64::to_bits);
+                let sums = tile.weighted_sums(row).map(f64::to_bits);
+                let negative = tile.negative_count.get(row).copied().unwrap_or(0);
                 let pixel = &mut pixels[(y * width + x) as usize];
                 assert_eq!(*pixel, [u64::MAX; 4], "two tiles hold the pixel {x},{y}");
-                *pixel = [sums[0], sums[1], sums[2], u64::from(tile.count[row])];
+                *pixel = [sums[0], sums[1], sums[2], u64::from(tile.count[row]) | (u64::from(negative) << 32)];
             }
         }
         Self { width, pixels, rejected }

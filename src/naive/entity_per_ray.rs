@@ -5,7 +5,8 @@
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
 use crate::extract::{
-    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, ShapeKind, ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, ImageShape, MaterialTable, NO_ROW, PinholeLens, PlaneTable, ShapeKind, ShapeTable,
+    SphereTable,
 };
 use crate::film::Film;
 use crate::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
@@ -70,6 +71,10 @@ impl EntityPerRay {
         if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(Refusal::new("the scene", "shapes", "another kind of shape", accepted));
+        }
+        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+            let accepted = "one entity a ray knows shapes that reflect light only";
+            return Err(Refusal::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
         share::<PinholeLens>(&mut world, scene)?;

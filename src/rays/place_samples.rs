@@ -1,5 +1,5 @@
 use super::{RasterPoints, Tile};
-use crate::extract::{FilterTable, SamplingTable};
+use crate::extract::{FilterCells, FilterTable, SamplingTable};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::sample::{
     Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
@@ -63,70 +63,56 @@ pub fn place_samples(
     )>,
 ) {
     for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples, mut signs) in &mut tiles {
-        let rows = active.len();
-        let (of_pixel, sample) = samples.slices_mut(rows);
+        let (xs, ys) = raster.slices_mut(active.len());
+        let (of_pixel, sample) = samples.slices_mut(active.len());
         of_pixel.copy_from_slice(active);
         sample.fill(number);
 
-        let (xs, ys) = raster.slices_mut(rows);
+        let to = (active.as_slice(), tile, sampling.seed);
         match sampling.sampler {
-            Sampler::Independent => {
-                draw_points(Independent::new(number, 0, Purpose::Pixel), sampling.seed, tile, active, xs, ys);
-            }
+            Sampler::Independent => draw_points(Independent::new(number, 0, Purpose::Pixel), to, xs, ys),
             Sampler::Stratified => {
-                let draw = Stratified::new(number, sampling.samples, 0, Purpose::Pixel);
-                draw_points(draw, sampling.seed, tile, active, xs, ys);
+                draw_points(Stratified::new(number, sampling.samples, 0, Purpose::Pixel), to, xs, ys);
             }
-            Sampler::Sobol => {
-                draw_points(Sobol::new(number, 0, Purpose::Pixel), sampling.seed, tile, active, xs, ys);
-            }
+            Sampler::Sobol => draw_points(Sobol::new(number, 0, Purpose::Pixel), to, xs, ys),
         }
-        let signs = signs.as_mut().map(|signs| signs.slices_mut(rows));
-        spread(&filter, tile, active, xs, ys, signs);
+        if let Some(signs) = &mut signs {
+            fill_signs(&filter.cells, xs, ys, signs.slices_mut(active.len()));
+        }
+        match filter.filter {
+            Filter::Box { radius } => spread(|u| box_offset(u, radius), active, tile, xs, ys),
+            Filter::Tent { radius } => spread(|u| tent_offset(u, radius), active, tile, xs, ys),
+            _ => spread(|u| table_offset(u, &filter.cells).0, active, tile, xs, ys),
+        }
     }
 }
 // ANCHOR_END: place_samples
 
 /// Draws a point of the unit square for each active pixel of a tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn draw_points<D: Draw>(draw: D, seed: u64, tile: &Tile, active: &[u32], xs: &mut [f64], ys: &mut [f64]) {
-    for (&film_row, (across, down)) in active.iter().zip(xs.iter_mut().zip(ys)) {
-        let [right, below] = draw.two(PixelKey::new(seed, tile.pixel_of(film_row as usize)));
-        (*across, *down) = (unit(right), unit(below));
+fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs: &mut [f64], ys: &mut [f64]) {
+    for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
+        let [right, down] = draw.two(PixelKey::new(seed, tile.pixel_of(row as usize)));
+        (*x, *y) = (unit(right), unit(down));
     }
 }
 
-/// Turns points of the unit square into raster points about their pixels' centres, spread as the filter weighs.
-fn spread(
-    filter: &FilterTable,
-    tile: &Tile,
-    active: &[u32],
-    xs: &mut [f64],
-    ys: &mut [f64],
-    signs: Option<&mut [f32]>,
-) {
-    match filter.filter {
-        Filter::Box { radius } => place(tile, active, xs, ys, |u| box_offset(u, radius)),
-        Filter::Tent { radius } => place(tile, active, xs, ys, |u| tent_offset(u, radius)),
-        Filter::Gaussian { .. } | Filter::Mitchell { .. } | Filter::BlackmanHarris { .. } => {
-            if let Some(signs) = signs {
-                for (sign, (x, y)) in signs.iter_mut().zip(xs.iter().zip(ys.iter())) {
-                    let turned = table_offset(*x, &filter.cells).1 != table_offset(*y, &filter.cells).1;
-                    *sign = if turned { -1.0 } else { 1.0 };
-                }
-            }
-            place(tile, active, xs, ys, |u| table_offset(u, &filter.cells).0);
-        }
+/// What samples at these points of the unit square count for: the product of the filter's signs across and down.
+fn fill_signs(cells: &FilterCells, xs: &[f64], ys: &[f64], signs: &mut [f32]) {
+    for (sign, (&x, &y)) in signs.iter_mut().zip(xs.iter().zip(ys)) {
+        *sign = if table_offset(x, cells).1 == table_offset(y, cells).1 { 1.0 } else { -1.0 };
     }
 }
 
-/// A raster point is its pixel's centre and an offset, added in f64: no bit of a 24-bit number is lost up to pixel 2²⁸.
+/// Turns points of the unit square into raster points about the centres of their pixels.
+///
+/// The sum is taken in f64, where beside a pixel's number up to 2²⁸ no bit of a 24-bit number is lost.
 #[inline(always)]
-fn place(tile: &Tile, active: &[u32], xs: &mut [f64], ys: &mut [f64], offset: impl Fn(f64) -> f64) {
-    for (&film_row, (across, down)) in active.iter().zip(xs.iter_mut().zip(ys)) {
-        let [x, y] = tile.pixel_of(film_row as usize);
-        *across = f64::from(x) + 0.5 + offset(*across);
-        *down = f64::from(y) + 0.5 + offset(*down);
+fn spread(offset: impl Fn(f64) -> f64, active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
+    for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
+        let [column, line] = tile.pixel_of(row as usize);
+        *x = f64::from(column) + 0.5 + offset(*x);
+        *y = f64::from(line) + 0.5 + offset(*y);
     }
 }
 

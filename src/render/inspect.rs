@@ -29,11 +29,17 @@ pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspect
 pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[Hook]) -> Result<Inspection> {
     let image = ImageShape::extract(scene)?;
     let film = Film::new(image.width, image.height, tile_side);
-    inspect_film(scene, offer, image, film, hooks)
+    inspect_film(scene, offer, image, film, Run::FIRST, hooks)
 }
 
-/// Runs the kept stages over the one tile that holds a pixel; hooks follow each stage.
-pub fn inspect_tile(scene: &World, offer: &[Stage], pixel: [u32; 2], hooks: &[Hook]) -> Result<Inspection> {
+/// Runs the kept stages over the one tile that holds a pixel, for one of its samples; hooks follow each stage.
+pub fn inspect_tile(
+    scene: &World,
+    offer: &[Stage],
+    pixel: [u32; 2],
+    sample: u32,
+    hooks: &[Hook],
+) -> Result<Inspection> {
     let image = ImageShape::extract(scene)?;
     let side = Execution::default().tile_side;
     let [x, y] = pixel.map(|along| along / side * side);
@@ -45,7 +51,7 @@ pub fn inspect_tile(scene: &World, offer: &[Stage], pixel: [u32; 2], hooks: &[Ho
         tiles: vec![FilmTile::new(tile)],
         ..Film::default()
     };
-    inspect_film(scene, offer, image, film, hooks)
+    inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
 }
 
 fn inspect_film(
@@ -53,13 +59,14 @@ fn inspect_film(
     offer: &[Stage],
     image: ImageShape,
     mut film: Film,
+    run: Run,
     hooks: &[Hook],
 ) -> Result<Inspection> {
     let (plan, tables) = prepare(scene, offer)?;
     let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
     swap_all(&mut frame, &mut film);
     for tile in frame.tiles.clone() {
-        frame.activate(tile, &Run::FIRST, None);
+        frame.activate(tile, &run, None);
     }
     frame.run();
     Ok(Inspection { plan, world: frame.world, tiles: frame.tiles, image })

@@ -135,7 +135,8 @@ fn schedule_of(plan: &Plan, hooks: &[Hook]) -> Schedule {
             let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
             schedule.add_systems(hook.after(Slot(slot)).before(Slot(slot + 1)).before(HookTurn(slot, turn + 1)));
         }
-        if !hooks.is_empty() {
+        let ordered = plan.stages.get(slot + 1).is_some_and(|next| next.set == stage.set && !stage.set.order_free());
+        if ordered || !hooks.is_empty() {
             schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
         }
     }

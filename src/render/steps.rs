@@ -38,7 +38,12 @@ pub fn runs(done: u32, to: u32) -> Vec<Run> {
 
 impl Run {
     /// The first sample of all pixels.
-    pub const FIRST: Self = Self { sample: 0, lattices: [0, LATTICES.len()] };
+    pub const FIRST: Self = Self::of_all(0);
+
+    /// A sample of all pixels.
+    pub const fn of_all(sample: u32) -> Self {
+        Self { sample, lattices: [0, LATTICES.len()] }
+    }
 
     /// Whether a pixel is on the lattices of this run and on none before them.
     fn holds(&self, x: u32, y: u32) -> bool {

@@ -4,7 +4,7 @@ use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::scene::PointLight;
+use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
@@ -41,6 +41,12 @@ impl LightRays {
     /// The direction: each part from −1 to 1 becomes 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+
+    /// The direction of a ray, exact in f64.
+    #[inline(always)]
+    pub fn direction_of(&self, ray: usize) -> DVec3 {
+        DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
     /// The irradiance that a ray brings.
@@ -85,12 +91,17 @@ pub(super) fn aim(surface: &Surface, shading: Option<DVec3>, light: DVec3) -> Ai
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
+    Aimed { origin, direction, distance, cosine: cosine_of(surface, shading, direction) }
+}
+
+/// The cosine of a ray to a light; not above 0 where it brings nothing.
+#[inline(always)]
+pub(super) fn cosine_of(surface: &Surface, shading: Option<DVec3>, direction: Vec3) -> f64 {
     let (geometric, to_light) = (surface.normal.as_dvec3(), direction.as_dvec3());
-    let cosine = match shading {
+    match shading {
         None => geometric.dot(to_light),
         Some(shading) => falling_cosine(geometric, shading, to_light),
-    };
-    Aimed { origin, direction, distance, cosine }
+    }
 }
 // ANCHOR_END: aim
 
@@ -142,7 +153,9 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
         reach[at] = ray.reach;
         [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
-        at += usize::from(ray.aimed.cosine > 0.0 && ray.aimed.distance > 0.0);
+        // Nearer than that the square of the distance is no ordinary number; no direction leads there.
+        let apart = ray.aimed.distance * ray.aimed.distance >= f64::MIN_POSITIVE;
+        at += usize::from(ray.aimed.cosine > 0.0 && apart);
     }
     if !casts_shadows {
         reach[length..at].fill(0.0);
@@ -209,5 +222,6 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    Evidence::of::<PointLight>(scene, "light")
+    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
+    Evidence::among::<Light>(scene, "light", |_| true)
 }

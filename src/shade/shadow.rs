@@ -8,7 +8,7 @@ use crate::intersect::{
     rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{Plane, PointLight};
+use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -137,8 +137,11 @@ pub fn triangle_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among::<With<PointLight>>(scene, "shadow-casting light", |entity| {
+    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
+    Evidence::among::<Light>(scene, "shadow-casting light", |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
+            || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     })
     .and(material_evidence(scene))
 }

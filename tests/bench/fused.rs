@@ -8,8 +8,8 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind,
-    ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, DirectionalLightTable, ImageShape, MaterialKind, MaterialTable, PinholeLens,
+    PlaneTable, PointLightTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
@@ -44,6 +44,10 @@ impl Scene {
         let kinds = ShapeTable::extract(world)?.kind;
         let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
         assert!(known, "the scenes that are measured hold spheres and planes only");
+        let materials: MaterialTable = Table::extract(world)?;
+        assert!(materials.kind.iter().all(|&kind| kind == MaterialKind::Matte), "they hold matte things");
+        let (directional, spot) = (DirectionalLightTable::extract(world)?, SpotLightTable::extract(world)?);
+        assert!(directional.to_light.is_empty() && spot.position.is_empty(), "and point lights");
         Ok(Self {
             image: Table::extract(world)?,
             lens: Table::extract(world)?,
@@ -51,7 +55,7 @@ impl Scene {
             spheres: Table::extract(world)?,
             planes: Table::extract(world)?,
             shapes: Table::extract(world)?,
-            materials: Table::extract(world)?,
+            materials,
             lights: Table::extract(world)?,
             background: Table::extract(world)?,
         })

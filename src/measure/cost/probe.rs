@@ -97,7 +97,8 @@ impl Exact {
         let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
         let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
         let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
-        let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
+        let cuboids = CuboidTable::extract(scene)?;
+        let triangles = TriangleTable::extract(scene)?;
         let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
             (ShapeKind::Sphere, row) => {
                 ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
@@ -281,10 +282,6 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let above = ExactVector::of(flat.normal).dot(&point.minus(&ExactVector::of(flat.centre)));
             above.to_f64().abs() / (U * position.as_dvec3().length())
         }
-        ExactShape::Triangle(facet, normal) => {
-            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
-            above.to_f64().abs() / (U * position.as_dvec3().length())
-        }
         ExactShape::Cuboid(slabs) => {
             let from_centre = point.minus(&ExactVector::of(slabs.centre));
             let beyond = |axis: usize| {
@@ -294,6 +291,10 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             // Within rounding of one face, behind the others.
             let farthest = beyond(0).max(beyond(1)).max(beyond(2));
             farthest.abs() / (U * position.as_dvec3().length())
+        }
+        ExactShape::Triangle(facet, normal) => {
+            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
+            above.to_f64().abs() / (U * position.as_dvec3().length())
         }
     };
     note(&mut worst.surfaces[kind(shape)], off);

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, plane_table, sphere_table};
 use crate::extract::{
-    EllipsoidTable, MaterialKind, MaterialTable, PointLightTable, ShapeKind, ShapeTable, TriangleTable,
+    EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeKind, ShapeTable, TriangleTable,
 };
 use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
@@ -61,7 +61,7 @@ impl ShadowStages {
         let to_light =
             [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
-        stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], colour: vec![[0.5; 3]] });
+        stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], row: vec![0], colour: vec![[0.5; 3]] });
         let mut first = MaterialRows::default();
         first.slices_mut(1)[0] = 0;
         stages.to_light.put(first);
@@ -98,7 +98,8 @@ impl ShadowStages {
 
     fn shapes(&mut self, kind: ShapeKind, count: usize) {
         let row = (0..count as u32).collect();
-        let table = ShapeTable { kind: vec![kind; count], row, material: vec![0; count], name: Vec::new() };
+        let (material, emissive) = (vec![0; count], vec![NO_ROW; count]);
+        let table = ShapeTable { kind: vec![kind; count], row, material, emissive, name: Vec::new() };
         self.to_surface.share(table);
     }
 

@@ -24,9 +24,12 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut camera) = entity.get_mut::<OrthographicCamera>() {
             camera.view_height *= scale;
         }
+        let stronger = |Rgb { r, g, b }: Rgb| Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
         if let Some(mut light) = entity.get_mut::<PointLight>() {
-            let Rgb { r, g, b } = light.intensity;
-            light.intensity = Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
+            light.intensity = stronger(light.intensity);
+        }
+        if let Some(mut light) = entity.get_mut::<SpotLight>() {
+            light.intensity = stronger(light.intensity);
         }
     }
 }

@@ -96,13 +96,13 @@ impl Shapes {
                 let map = ellipsoid.unit_from_world;
                 map.transpose() * (map * (point - ellipsoid.centre))
             }
-            ShapeKind::Triangle => self.triangles.normal[row],
             ShapeKind::Disk => self.disks.flat[row].normal,
             ShapeKind::Rectangle => self.rectangles.flat[row].normal,
             ShapeKind::Cuboid => {
                 let slabs = &self.cuboids.slabs[row];
                 slabs.normal[face_of_point(slabs, point - slabs.centre)]
             }
+            ShapeKind::Triangle => self.triangles.normal[row],
         }
     }
 }

@@ -1,6 +1,7 @@
 use crate::scene::{
-    Adaptive, Background, Cuboid, Disk, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Placement, Plane,
-    PointLight, Rectangle, Resolution, Sampling, Sphere, Statistics, Triangle, View,
+    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, Gradient,
+    ImageTexture, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
+    Rectangle, Resolution, Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -23,13 +24,23 @@ const WORDS: &[Word] = &[
     Word::of::<Cuboid>("cuboid"),
     Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
+    Word::of::<DirectionalLight>("directional_light"),
+    Word::of::<SpotLight>("spot_light"),
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Matte>("matte"),
+    Word::of::<Phong>("phong"),
+    Word::of::<BlinnPhong>("blinn_phong"),
+    Word::of::<Emissive>("emissive"),
+    Word::of::<Checker>("checker"),
+    Word::of::<Stripes>("stripes"),
+    Word::of::<ImageTexture>("image_texture"),
     Word::of::<Background>("background"),
+    Word::of::<Gradient>("gradient"),
+    Word::of::<Environment>("environment"),
     Word::of::<View>("view"),
     Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),

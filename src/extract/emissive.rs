@@ -1,0 +1,41 @@
+use super::check::{kind_and_name, light_colour};
+use super::material::matter_evidence;
+use crate::plan::{Evidence, Table, entities};
+use crate::scene::{Emissive, Refusal};
+use bevy_ecs::prelude::*;
+
+/// What surfaces emit, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EmissiveTable {
+    /// The radiance that leaves every point, linear Rec. 709.
+    pub radiance: Vec<[f32; 3]>,
+}
+
+/// The enabled entities that carry an [`Emissive`], in spawn order; a row of the table is an entity here.
+pub(super) fn emissive_entities(scene: &World) -> Vec<Entity> {
+    entities::<With<Emissive>>(scene)
+}
+
+impl Table for EmissiveTable {
+    const NAME: &'static str = "emissive surfaces";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for entity in emissive_entities(scene) {
+            let emissive = scene.get::<Emissive>(entity).copied().unwrap_or_default();
+            let who = kind_and_name(scene, "emissive", entity);
+            let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
+            table.radiance.push(radiance.map(|part| part as f32));
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.radiance.len() * size_of::<[f32; 3]>()
+    }
+}
+
+/// Evidence that a shape emits light.
+pub fn emissive_evidence(scene: &World) -> Evidence {
+    matter_evidence::<Emissive>(scene, "emissive surface")
+}

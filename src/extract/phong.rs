@@ -1,0 +1,82 @@
+use super::check::kind_and_name;
+use super::check::{number, reflectance, triple};
+use crate::plan::{Table, entities};
+use crate::scene::{Phong, Refusal, Rgb};
+use bevy_ecs::prelude::*;
+
+/// The largest exponent: beyond it a highlight is narrower than the directions of f32 can tell.
+const LARGEST_EXPONENT: f64 = 1e9;
+
+/// Highlights about the mirrored light, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PhongTable {
+    /// The largest share of the light that each sends on: red, green, blue, from 0 to 1.
+    pub specular: Vec<[f64; 3]>,
+    /// How narrow each is.
+    pub exponent: Vec<f64>,
+    /// What each has at its middle, by [`phong_peak`].
+    pub peak: Vec<f64>,
+}
+
+// ANCHOR: phong_peak
+/// The factor N = (n + 2) / 2π of N cosⁿα, in 1/sr.
+///
+/// Light that falls squarely has its mirror direction along the normal, α is the angle to the normal too, and
+/// ∫ N cosⁿα cos α dω over the hemisphere is 2πN / (n + 2) = 1: nothing is lost and nothing is gained.
+/// The more slantingly it falls, the more of the lobe lies below the surface, so the sum is less there.
+pub fn phong_peak(exponent: f64) -> f64 {
+    (exponent + 2.0) / std::f64::consts::TAU
+}
+// ANCHOR_END: phong_peak
+
+impl Table for PhongTable {
+    const NAME: &'static str = "phong highlights";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for entity in entities::<With<Phong>>(scene) {
+            let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
+            let who = kind_and_name(scene, "phong", entity);
+            table.specular.push(shared_light(&who, phong.colour, phong.specular)?[1]);
+            table.exponent.push(exponent_within(&who, phong.exponent)?);
+            table.peak.push(phong_peak(phong.exponent));
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.exponent.len() * size_of::<[f64; 5]>()
+    }
+}
+
+/// The colour of a Phong material, all of whose numbers are checked.
+pub(super) fn phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], Refusal> {
+    let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
+    exponent_within(who, phong.exponent)?;
+    Ok(shared_light(who, phong.colour, phong.specular)?[0])
+}
+
+/// An exponent that a highlight may have.
+pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, Refusal> {
+    if (0.0..=LARGEST_EXPONENT).contains(&exponent) {
+        Ok(exponent)
+    } else {
+        let accepted = format!("it must be a number from 0 to {LARGEST_EXPONENT:e}");
+        Err(Refusal::new(who, "exponent", number(exponent), accepted))
+    }
+}
+
+/// Colour and specular share, which may not come to more than all the light.
+pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f64; 3]; 2], Refusal> {
+    reflectance(who, "colour", colour)?;
+    reflectance(who, "specular", specular)?;
+    if (colour.to_vec() + specular.to_vec()).max_element() <= 1.0 {
+        Ok([colour.to_array(), specular.to_array()])
+    } else {
+        let of_colour = triple(colour.to_vec());
+        let accepted = format!(
+            "with the colour {of_colour} each part must come to at most 1, for a surface gives back no more than it gets"
+        );
+        Err(Refusal::new(who, "specular", triple(specular.to_vec()), accepted))
+    }
+}

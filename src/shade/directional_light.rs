@@ -1,0 +1,52 @@
+use super::LightRays;
+use super::light::{Aimed, LightRay, append_rays, cosine_of};
+use crate::extract::{DirectionalLightTable, material_evidence};
+use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::scene::DirectionalLight;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+// ANCHOR: irradiance_from_direction
+/// What a surface receives of a light whose rays are parallel: E cos θ, whatever the distance.
+#[inline(always)]
+pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] {
+    [irradiance[0] * cosine, irradiance[1] * cosine, irradiance[2] * cosine]
+}
+// ANCHOR_END: irradiance_from_direction
+
+/// Aims along parallel rays; nothing is beyond such a light.
+#[inline(always)]
+fn aim_along(surface: &Surface, shading: Option<DVec3>, to_light: DVec3) -> Aimed {
+    let origin = offset_origin(surface.position, surface.normal, surface.bound);
+    let direction = to_light.as_vec3();
+    let cosine = cosine_of(surface, shading, direction);
+    Aimed { origin, direction, distance: f64::INFINITY, cosine }
+}
+
+/// Appends a tile's rays to directional lights, light after light; each looks without end.
+pub fn aim_at_directional_lights(
+    lights: Res<Shared<DirectionalLightTable>>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
+) {
+    for (surfaces, shading, list, mut rays) in &mut tiles {
+        for (light, &irradiance) in lights.irradiance.iter().enumerate() {
+            append_rays(surfaces, shading, &list.row, &mut rays, lights.casts_shadows[light], |surface, shading| {
+                let aimed = aim_along(surface, shading, lights.to_light[light]);
+                let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
+                LightRay { aimed, reach: f32::INFINITY, irradiance }
+            });
+        }
+    }
+}
+
+/// The stage on offer.
+pub fn directional_light_stage() -> Stage {
+    Stage::new("Aim at directional lights", TileSystems::Aim, aim_at_directional_lights)
+        .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
+        .reads::<MaterialRows>()
+        .appends::<LightRays>()
+        .table::<DirectionalLightTable>()
+        .when(|scene| Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)))
+}

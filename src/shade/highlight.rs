@@ -1,0 +1,59 @@
+//! What the kinds of material with highlights share.
+
+use super::{LightRays, Radiance, ShadowHits};
+use crate::extract::{MaterialKind, MaterialTable};
+use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces};
+use crate::plan::Column;
+use crate::rays::WorldRays;
+use glam::DVec3;
+
+// ANCHOR: highlight
+/// What a highlight sends towards the eye of each unit of irradiance: N cosⁿ of the angle off its middle, in 1/sr.
+///
+/// Nothing from a right angle on; rounding may take a cosine past 1, where a large power would run away.
+#[inline(always)]
+pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
+    if cosine > 0.0 { peak * libm::pow(cosine.min(1.0), exponent) } else { 0.0 }
+}
+// ANCHOR_END: highlight
+
+/// The columns of a tile that a highlight is made of.
+pub(super) struct Lit<'a> {
+    pub eye: &'a WorldRays,
+    pub surfaces: &'a Surfaces,
+    pub shading: Option<&'a ShadingNormals>,
+    pub light: &'a LightRays,
+    pub shadow: Option<&'a ShadowHits>,
+}
+
+impl Lit<'_> {
+    /// Adds the highlights of one kind of material, light ray after light ray, where nothing is in the way.
+    ///
+    /// `share` gets the row of the kind's table, the normal, the way to the light and the way to the eye, and gives what
+    /// is sent on of each unit of irradiance.
+    #[inline(always)]
+    pub fn add_highlights(
+        &self,
+        materials: &MaterialTable,
+        kind: MaterialKind,
+        radiance: &mut Radiance,
+        share: impl Fn(usize, [DVec3; 3]) -> [f64; 3],
+    ) {
+        for ray in 0..self.light.rows() {
+            let path = self.light.path[ray] as usize;
+            let surface = self.surfaces.get(path);
+            let material = surface.material as usize;
+            if materials.kind[material] != kind || self.shadow.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+                continue;
+            }
+            let [to_light, to_eye] = [self.light.direction_of(ray), -self.eye.direction_of(path)];
+            let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(path));
+            let share = share(materials.row[material] as usize, [normal, to_light, to_eye]);
+            let irradiance = self.light.irradiance(ray);
+            let [r, g, b] = [0, 1, 2].map(|part| (share[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+            radiance.r[path] += r;
+            radiance.g[path] += g;
+            radiance.b[path] += b;
+        }
+    }
+}
