@@ -13,6 +13,8 @@ use std::ops::Range;
 
 /// Triangles and rays that the stage gets at once.
 const AMONG: usize = 32;
+/// Rays of the cases beside those that the floor of a million is about: closed meshes, any place, shadow rays.
+pub(super) const BESIDE: u64 = 100_000;
 /// How far t may be off, relative to itself, in u.
 pub(super) const T_BOUND: f64 = 1.0;
 
@@ -22,6 +24,9 @@ const METHODS: [Method; 4] = [
     Method::naive("naive Moller-Trumbore, 1e-6, f32", "u of t", T_BOUND),
     Method::naive("Woop as published, f32, f64 at 0", "u of t", T_BOUND),
 ];
+
+/// The seed of the case that is tried in full.
+const ANY_PLACE: u64 = 204;
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
@@ -37,7 +42,8 @@ pub fn trials() -> Vec<Trial> {
     ];
     let trial = |(seed, (name, thinnest, aim, from)): (u64, (&str, f64, Aim, From))| {
         let view = View { seed, thinnest, aim, from };
-        Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range))
+        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range));
+        if seed == ANY_PLACE { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (201..).zip(views).map(trial).collect();
     trials.extend(triangle_mesh::trials());

@@ -2,7 +2,7 @@
 //! triangles in one place.
 
 use super::bench::Bench;
-use super::triangle::{T_BOUND, by_function, exact};
+use super::triangle::{BESIDE, T_BOUND, by_function, exact};
 use super::triangle_aim::{Aim, Corners, From, View, shot, triangle_table};
 use super::{Group, Method, Tally, Trial};
 use crate::extract::Facet;
@@ -16,7 +16,8 @@ const BLOCK: usize = 16;
 
 /// The cases.
 pub fn trials() -> Vec<Trial> {
-    vec![axes(), lengths_of_directions(), no_rays(), ends(), duplicates()]
+    let trials = [axes(), lengths_of_directions(), no_rays(), ends(), duplicates()];
+    trials.map(|trial| trial.at_most(BESIDE)).into()
 }
 
 fn one_by_one(

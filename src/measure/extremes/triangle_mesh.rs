@@ -1,7 +1,7 @@
 //! Closed meshes: what is inside cannot look out, and what is aimed at an edge or a corner meets one of its faces.
 
 use super::bench::Bench;
-use super::triangle::{T_BOUND, by_function, exact};
+use super::triangle::{BESIDE, T_BOUND, by_function, exact};
 use super::triangle_aim::{Mesh, ray_at};
 use super::{Group, Method, Tally, Trial};
 use crate::extract::TriangleTable;
@@ -55,10 +55,12 @@ pub fn trials() -> Vec<Trial> {
     ];
     let trial = |(seed, (name, place, eye_near, inside, mesh)): (u64, (&str, DVec3, bool, bool, fn() -> Mesh))| {
         let view = View { seed, place, eye_near, inside, mesh };
-        Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range))
+        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range));
+        if inside { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (221..).zip(views).map(trial).collect();
-    trials.push(Trial::new(Group::Triangle, "closed, on a grid, rays exactly on edges", &ON_EDGES, judge_on_edges));
+    let on_edges = Trial::new(Group::Triangle, "closed, on a grid, rays exactly on edges", &ON_EDGES, judge_on_edges);
+    trials.push(on_edges.at_most(BESIDE));
     trials
 }
 
