@@ -23,6 +23,7 @@ mod question;
 mod ray;
 mod report;
 mod screen;
+mod shapes;
 mod shown;
 mod transforms;
 mod turn;
@@ -52,6 +53,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+        Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
     }
 }

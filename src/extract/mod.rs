@@ -6,8 +6,10 @@
 //! f64, so that a scene far from the world's origin loses nothing.
 //! After this no stage looks at a component of the scene again.
 
+mod adaptive;
 mod background;
 mod blinn_phong;
+mod bounds;
 mod camera;
 mod check;
 mod cuboid;
@@ -42,8 +44,10 @@ mod two_colours;
 mod uv_slope;
 mod uv_space;
 
+pub use adaptive::{adaptive_of, check_layers};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
+pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
@@ -122,5 +126,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     GradientTable::extract(scene)?;
     EnvironmentTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;
+    adaptive_of(scene)?;
+    check_layers(scene)?;
     Ok(())
 }

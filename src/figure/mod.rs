@@ -32,6 +32,7 @@ mod screen;
 mod section;
 mod side;
 mod sketch;
+mod slabs;
 mod subject;
 mod svg;
 #[cfg(test)]
@@ -69,7 +70,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 17] {
+pub fn figures() -> [Figure; 18] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -158,6 +159,12 @@ pub fn figures() -> [Figure; 17] {
             chapter: "10_light_and_shadow",
             about: "shadow rays that start where textbooks have them, in three sizes of one scene",
             draw: acne::draw,
+        },
+        Figure {
+            name: "13_slabs",
+            chapter: "13_shapes",
+            about: "where a ray is inside each slab of a cuboid, and inside all three",
+            draw: slabs::draw,
         },
     ]
 }

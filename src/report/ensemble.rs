@@ -9,7 +9,7 @@
 //! mean of D² less V_ref exactly, V_ref being the pieces' sample variance over M.
 
 use super::interval::{Estimate, joined};
-use crate::measure::image_error::Numbers;
+use crate::measure::image_error::{Numbers, RELATIVE_FLOOR};
 
 /// The fewest runs that an interval is given for.
 pub const FEWEST: usize = 4;
@@ -35,6 +35,20 @@ impl Reference {
         }
         let deviations = pieces.iter().map(|piece| less(piece, &mean)).collect();
         Some(Self { mean, deviations })
+    }
+
+    /// What the reference's own variance adds to a relMSE: the mean of V_ref / (r² + 0.01).
+    ///
+    /// 0 of a reference in one piece, which cannot tell it.
+    pub fn relative_variance(&self) -> f64 {
+        let m = self.deviations.len() as f64;
+        let part = |value: f64, r: f64| value * value / (r * r + RELATIVE_FLOOR);
+        let of_piece = |piece: &Numbers| {
+            let pixels = piece.pixels.iter().zip(&self.mean.pixels);
+            let parts = pixels.flat_map(|(piece, mean)| (0..3).map(|at| part(piece[at], mean[at])));
+            parts.filter(|part| part.is_finite()).sum::<f64>() / (3 * piece.pixels.len()) as f64
+        };
+        if m > 1.0 { self.deviations.iter().map(of_piece).sum::<f64>() / (m - 1.0) / m } else { 0.0 }
     }
 
     /// How many pieces it has.

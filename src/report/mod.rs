@@ -5,9 +5,21 @@
 //! Everything up to the runner is a pure function of images and numbers, so it is tested on images of known error.
 //! Nothing here runs in a render.
 
+pub mod csv;
 pub mod curve;
 pub mod deviation;
 pub mod distribution;
 pub mod ensemble;
 pub mod interval;
+pub mod kept;
+pub mod ladder;
+pub mod page;
+pub mod pictures;
+pub mod plot;
+pub mod provenance;
 pub mod refusal;
+pub mod run;
+pub mod runner;
+pub mod sum_up;
+pub mod summary;
+pub mod table;

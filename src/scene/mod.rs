@@ -42,7 +42,7 @@ mod stripes;
 mod texture;
 mod triangle;
 
-pub use adaptive::Adaptive;
+pub use adaptive::{Adaptive, OPEN_END};
 pub use angle::Degrees;
 pub use background::Background;
 pub use bevy_ecs::entity_disabling::Disabled;
@@ -57,7 +57,7 @@ pub use directional_light::DirectionalLight;
 pub use disk::Disk;
 pub use emissive::Emissive;
 pub use environment::Environment;
-pub use file::{FileProblem, PlaceInFile, SceneFile, scene_text, words};
+pub use file::{FileProblem, PlaceInFile, SceneFile, fingerprint, scene_text, words};
 pub use filter::Filter;
 pub use folder::SceneFolder;
 pub use glam::DQuat;

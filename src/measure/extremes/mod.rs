@@ -11,8 +11,10 @@ mod camera_limits;
 mod camera_ndc;
 mod camera_table;
 mod case;
+mod cuboid;
 mod film;
 mod film_bytes;
+mod flat;
 mod frame;
 mod lamp;
 mod plane;
@@ -56,12 +58,28 @@ pub enum Group {
     Triangle,
     /// Films: sums of samples, bytes of pictures.
     Film,
+    /// Rays against disks, and shadow rays off them.
+    Disk,
+    /// Rays against rectangles, and shadow rays off them.
+    Rectangle,
+    /// Rays against cuboids, and shadow rays off them.
+    Cuboid,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 7] =
-        [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Triangle, Self::Film];
+    pub const ALL: [Self; 10] = [
+        Self::Sphere,
+        Self::Plane,
+        Self::Shadow,
+        Self::Camera,
+        Self::Transform,
+        Self::Triangle,
+        Self::Film,
+        Self::Disk,
+        Self::Rectangle,
+        Self::Cuboid,
+    ];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -76,6 +94,9 @@ impl Group {
             Self::Transform => transform::trials(),
             Self::Triangle => triangle::trials(),
             Self::Film => film::trials(),
+            Self::Disk => flat::trials(flat::Kind::Disk),
+            Self::Rectangle => flat::trials(flat::Kind::Rectangle),
+            Self::Cuboid => cuboid::trials(),
         }
     }
 }
@@ -90,6 +111,9 @@ impl fmt::Display for Group {
             Self::Transform => "transform",
             Self::Triangle => "triangle",
             Self::Film => "film",
+            Self::Disk => "disk",
+            Self::Rectangle => "rectangle",
+            Self::Cuboid => "cuboid",
         })
     }
 }

@@ -1,4 +1,4 @@
-use super::{Bug, Planted, hits, light, rays, triangles};
+use super::{Bug, Planted, hits, light, pieces, rays, triangles};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
@@ -13,6 +13,8 @@ const MOST: &str = "05_pinhole";
 const PARALLEL: &str = "04_orthographic";
 /// Spheres that are scaled unevenly.
 const SCALED: &str = "09_camera_to_world";
+/// Disks, rectangles and cuboids.
+const PIECES: &str = "13_shapes";
 /// Triangles, with normals of their own and without.
 const FACETS: &str = "14_transforms";
 /// A column painted for the picture.
@@ -20,7 +22,7 @@ const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 34] = [
+pub static PLANTED: [Planted; 43] = [
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
@@ -36,6 +38,9 @@ pub static PLANTED: [Planted; 34] = [
     bug("unit-ray", "Intersect ellipsoids", "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("two-edges", "Intersect triangles", "third edge not asked for", FACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
     bug("plane-sign", "Intersect planes", "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
+    bug("disk-square", "Intersect disks", "the square about it", PIECES, Bug::Instead(|| pieces::disk_square.into_configs())),
+    bug("one-coordinate", "Intersect rectangles", "one coordinate asked", PIECES, Bug::Instead(|| pieces::one_coordinate.into_configs())),
+    bug("cuboid-far-side", "Intersect cuboids", "where the ray leaves", PIECES, Bug::Instead(|| pieces::cuboid_far_side.into_configs())),
     bug("zero-is-none", "Classify hits", "shape 0 taken for none", MOST, Bug::After(|| hits::zero_is_none.into_configs())),
     bug("normal-inward", "Describe sphere surfaces", "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", "Describe sphere surfaces", "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
@@ -43,6 +48,9 @@ pub static PLANTED: [Planted; 34] = [
     bug("next-corner", "Describe triangle surfaces", "shares one corner on", FACETS, Bug::After(|| triangles::next_corner.into_configs())),
     bug("shorter-normal", "Interpolate shading normals", "not brought to length 1", FACETS, Bug::After(|| triangles::shorter.into_configs())),
     bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
+    bug("disk-inward", "Describe disk surfaces", "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
+    bug("rectangle-epsilon", "Describe rectangle surfaces", "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
+    bug("round-cuboid", "Describe cuboid surfaces", "normal as a sphere's", PIECES, Bug::After(|| pieces::round_cuboid.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
@@ -50,6 +58,9 @@ pub static PLANTED: [Planted; 34] = [
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
     bug("triangles-ignored", "Look for triangles in the way", "not looked for", FACETS, Bug::Instead(|| triangles::ignored.into_configs())),
     bug("behind-counts", "Look for planes in the way", "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
+    bug("disks-ignored", "Look for disks in the way", "not looked for", PIECES, Bug::Instead(|| light::disks_ignored.into_configs())),
+    bug("rectangles-ignored", "Look for rectangles in the way", "not looked for", PIECES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
+    bug("cuboids-ignored", "Look for cuboids in the way", "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
     bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
