@@ -41,6 +41,9 @@ pub mod how_it_is_built;
 #[path = "13_shapes/exercise.rs"]
 pub mod shapes;
 
+#[path = "14_transforms/exercise.rs"]
+pub mod transforms;
+
 #[path = "15_reflection/exercise.rs"]
 pub mod reflection;
 
@@ -88,6 +91,9 @@ pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
 
 /// Chapter 13.
 pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
+
+/// Chapter 14.
+pub const TRANSFORMS: Attempt = Attempt::FallingCosine(transforms::falling_cosine);
 
 /// Chapter 15.
 pub const REFLECTION: Attempt = Attempt::PhongRadiance(reflection::phong_radiance);

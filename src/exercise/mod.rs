@@ -28,6 +28,7 @@ mod screen;
 mod shapes;
 mod shown;
 mod textures;
+mod transforms;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -59,5 +60,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
+        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
     }
 }

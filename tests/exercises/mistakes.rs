@@ -129,6 +129,23 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
         "cosine of the light's slant",
     ),
     ("15_reflection", Attempt::PhongRadiance(even_behind), "even"),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, _, _, e, l| (side(g, e) * cosine(g, l)).max(0.0)),
+        "as the surface lies",
+    ),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, n, s, e, l| fallen(g, cosine(turned(g, mixed(n, s), e), l), e, l)),
+        "negative",
+    ),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, n, s, e, l| fallen(g, cosine(mixed(n, s), l), e, l).max(0.0)),
+        "eye's side",
+    ),
+    ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
+    ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
@@ -428,4 +445,35 @@ fn even_behind(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3]) -> f6
     let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
     let lobe = (m[2] + 2.0) / (2.0 * PI) * alpha.abs().min(1.0).powf(m[2]);
     (m[0] / PI + m[1] * lobe) * e * lit(n, l)
+}
+
+fn mixed(normals: [[f64; 3]; 3], shares: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| (0..3).map(|corner| shares[corner] * normals[corner][axis]).sum())
+}
+
+fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
+    dot(a, b) / length(a) / length(b)
+}
+
+fn side(normal: [f64; 3], towards: [f64; 3]) -> f64 {
+    if dot(normal, towards) > 0.0 { 1.0 } else { -1.0 }
+}
+
+/// The mixed normal on the eye's side of the surface.
+fn turned(geometric: [f64; 3], mixed: [f64; 3], eye: [f64; 3]) -> [f64; 3] {
+    mixed.map(|part| part * side(geometric, eye) * side(geometric, mixed))
+}
+
+/// The cosine, and 0 where the light is below the surface.
+fn fallen(geometric: [f64; 3], cosine: f64, eye: [f64; 3], light: [f64; 3]) -> f64 {
+    if side(geometric, eye) == side(geometric, light) { cosine } else { 0.0 }
+}
+
+fn not_unit(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
+    let normal = turned(g, mixed(n, s), e);
+    fallen(g, dot(normal, l) / length(l), e, l).max(0.0)
+}
+
+fn below_too(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
+    cosine(turned(g, mixed(n, s), e), l).max(0.0)
 }

@@ -30,6 +30,11 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -54,6 +59,8 @@ pub enum Group {
     Transform,
     /// Textures and environments: what a pixel covers, its mean, edges of images.
     Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -69,11 +76,13 @@ pub enum Group {
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
+        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
+        Self::Triangle,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
@@ -94,6 +103,7 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
@@ -112,6 +122,7 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Texture => "texture",
+            Self::Triangle => "triangle",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",

@@ -14,6 +14,7 @@ impl Group {
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
             Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Light => ["highlights and lights", "to judge", "wrong"],
+            Self::Triangle => ["rays against triangles", "met", "misjudged"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
             Self::Disk => ["disks", "to judge", "wrong"],
             Self::Rectangle => ["rectangles", "to judge", "wrong"],
