@@ -38,6 +38,9 @@ pub mod conventions;
 #[path = "12_how_it_is_built/exercise.rs"]
 pub mod how_it_is_built;
 
+#[path = "17_sampling/exercise.rs"]
+pub mod sampling;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -73,3 +76,6 @@ pub const CONVENTIONS: Attempt = Attempt::OursFromTheirs(conventions::ours_from_
 
 /// Chapter 12.
 pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
+
+/// Chapter 17.
+pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);

@@ -82,7 +82,7 @@ pub fn all() -> Vec<Chapter> {
         transforms::chapter(),
         reflection::chapter(),
         textures::chapter(),
-        sampling::chapter(),
+        sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter(),
     ]
 }

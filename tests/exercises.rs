@@ -93,7 +93,8 @@ fn every_stub_is_wrong() {
 
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solution), chapter) in solutions::ALL.iter().zip(&chapters::all()[1..]) {
+    let asking: Vec<Chapter> = chapters::all().into_iter().filter(|chapter| chapter.exercise.is_some()).collect();
+    for ((name, solution), chapter) in solutions::ALL.iter().zip(&asking) {
         let attempt = chapter.exercise.expect("an exercise");
         assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
         let signature = format!("pub fn {}(", attempt.function());

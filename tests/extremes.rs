@@ -57,6 +57,11 @@ fn transforms_hold() {
 }
 
 #[test]
+fn samples_hold() {
+    holds(Group::Sampling, 4096);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

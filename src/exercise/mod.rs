@@ -22,6 +22,7 @@ mod progress;
 mod question;
 mod ray;
 mod report;
+mod sampling;
 mod screen;
 mod shown;
 mod turn;
@@ -51,5 +52,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+        Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -7,7 +7,9 @@
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
 
 mod acne;
+mod aliasing;
 mod field_of_view;
+mod filters;
 mod gallery;
 mod grid;
 mod hit;
@@ -25,6 +27,7 @@ mod pinhole;
 mod pixel_ray;
 mod props;
 mod ray;
+mod samples;
 mod scenery;
 mod screen;
 mod section;
@@ -66,7 +69,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 17] {
+pub fn figures() -> [Figure; 21] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -155,6 +158,30 @@ pub fn figures() -> [Figure; 17] {
             chapter: "10_light_and_shadow",
             about: "shadow rays that start where textbooks have them, in three sizes of one scene",
             draw: acne::draw,
+        },
+        Figure {
+            name: "17_aliasing",
+            chapter: "17_sampling",
+            about: "rings that become finer than a pixel, through three ways of placing samples",
+            draw: aliasing::draw,
+        },
+        Figure {
+            name: "17_points",
+            chapter: "17_sampling",
+            about: "64 points of each sampler in one pixel",
+            draw: samples::draw_points,
+        },
+        Figure {
+            name: "17_filters",
+            chapter: "17_sampling",
+            about: "five filters, from the pixel's centre outward",
+            draw: filters::draw,
+        },
+        Figure {
+            name: "17_variance",
+            chapter: "17_sampling",
+            about: "the variance of a mean over the number of its samples",
+            draw: samples::draw_variance,
         },
     ]
 }

@@ -11,6 +11,7 @@ pub mod field_of_view;
 pub mod film;
 pub mod ndc;
 pub mod plane;
+pub mod sampling;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;

@@ -200,10 +200,11 @@ pub enum Toggle {
     Background,
     View,
     Statistics,
+    Samples,
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 10] = [
+pub const TOGGLES: [Toggle; 11] = [
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
@@ -214,6 +215,7 @@ pub const TOGGLES: [Toggle; 10] = [
     Toggle::Background,
     Toggle::View,
     Toggle::Statistics,
+    Toggle::Samples,
 ];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
@@ -255,6 +257,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Statistics) {
         world.entity_mut(camera).insert(Statistics);
+    }
+    if has(Toggle::Samples) {
+        world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
     }
     world
 }

@@ -38,8 +38,11 @@ pub mod conventions;
 #[path = "12_how_it_is_built.rs"]
 pub mod how_it_is_built;
 
+#[path = "17_sampling.rs"]
+pub mod sampling;
+
 /// By the chapter's name.
-pub const ALL: [(&str, Attempt); 12] = [
+pub const ALL: [(&str, Attempt); 13] = [
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
     ("02_ray", Attempt::Unit(ray::unit)),
     ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
@@ -52,4 +55,5 @@ pub const ALL: [(&str, Attempt); 12] = [
     ("10_light_and_shadow", Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance)),
     ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
+    ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
 ];

@@ -17,6 +17,7 @@ mod frame;
 mod lamp;
 mod plane;
 mod print;
+mod sampling;
 mod shadow;
 mod shadow_stages;
 mod sphere;
@@ -47,13 +48,23 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 6] = [Self::Sphere, Self::Plane, Self::Shadow, Self::Camera, Self::Transform, Self::Film];
+    pub const ALL: [Self; 7] = [
+        Self::Sphere,
+        Self::Plane,
+        Self::Shadow,
+        Self::Camera,
+        Self::Transform,
+        Self::Sampling,
+        Self::Film,
+    ];
 
     /// Its cases.
     fn trials(self) -> Vec<Trial> {
@@ -66,6 +77,7 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
+            Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
         }
     }
@@ -79,6 +91,7 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Sampling => "sampling",
             Self::Film => "film",
         })
     }

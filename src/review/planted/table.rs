@@ -13,13 +13,17 @@ const MOST: &str = "05_pinhole";
 const PARALLEL: &str = "04_orthographic";
 /// Spheres that are scaled unevenly.
 const SCALED: &str = "09_camera_to_world";
+/// Several samples a pixel.
+const SAMPLED: &str = "17_sampling";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 30] = [
+pub static PLANTED: [Planted; 32] = [
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
+    bug("one-pattern", "Place samples", "every pixel alike", SAMPLED, Bug::After(|| rays::one_pattern.into_configs())),
+    bug("radius-doubled", "Place samples", "twice as far from the centre", SAMPLED, Bug::After(|| rays::radius_doubled.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
     bug("no-aspect", "Centre points on the screen", "aspect left out", MOST, Bug::After(|| rays::no_aspect.into_configs())),
