@@ -38,6 +38,9 @@ pub mod conventions;
 #[path = "12_how_it_is_built/exercise.rs"]
 pub mod how_it_is_built;
 
+#[path = "13_shapes/exercise.rs"]
+pub mod shapes;
+
 #[path = "17_sampling/exercise.rs"]
 pub mod sampling;
 
@@ -76,6 +79,9 @@ pub const CONVENTIONS: Attempt = Attempt::OursFromTheirs(conventions::ours_from_
 
 /// Chapter 12.
 pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
+
+/// Chapter 13.
+pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
 
 /// Chapter 17.
 pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);

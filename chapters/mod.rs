@@ -78,7 +78,7 @@ pub fn all() -> Vec<Chapter> {
         light_and_shadow::chapter().exercise(exercises::LIGHT_AND_SHADOW),
         conventions::chapter().exercise(exercises::CONVENTIONS),
         how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
-        shapes::chapter(),
+        shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter(),
         reflection::chapter(),
         textures::chapter(),

@@ -28,6 +28,8 @@ pub enum Attempt {
     OursFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
     /// Chapter 12: stages in order, the column asked for.
     Kept(fn(&[StageWords], &str) -> Vec<String>),
+    /// Chapter 13: origin, direction, the box's corners of least and of most coordinates.
+    NearestBoxT(fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Option<f64>),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
 }
@@ -48,6 +50,7 @@ impl Attempt {
             Self::ReflectedRadiance(_) => "reflected_radiance",
             Self::OursFromTheirs(_) => "ours_from_theirs",
             Self::Kept(_) => "kept",
+            Self::NearestBoxT(_) => "nearest_box_t",
             Self::TentOffset(_) => "tent_offset",
         }
     }

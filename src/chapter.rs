@@ -4,7 +4,7 @@ use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
 use crate::rays::place_samples_stage;
-use crate::scene::{Filter, Resolution, Sampler, Sampling, Statistics, View};
+use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
@@ -79,6 +79,12 @@ pub struct Asked {
     pub statistics: bool,
     /// How pixels are sampled.
     pub sampling: AskedSampling,
+    /// Whether samples go on for as long as there is time, where their number is not asked for.
+    pub endless: bool,
+    /// The error that each pixel is to have.
+    pub error: Option<f64>,
+    /// What else to keep of every pixel.
+    pub layers: Option<Layers>,
 }
 
 /// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
@@ -119,8 +125,19 @@ impl Asked {
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
         }
-        if let Some(sampling) = self.sampling.of(camera.get::<Sampling>()) {
+        let mut asked = self.sampling;
+        if self.endless || self.error.is_some() {
+            asked.samples = asked.samples.or(Some(OPEN_END));
+        }
+        if let Some(sampling) = asked.of(camera.get::<Sampling>()) {
             camera.insert(sampling);
+        }
+        if let Some(error) = self.error {
+            let adaptive = camera.get::<Adaptive>().copied().unwrap_or_default();
+            camera.insert(Adaptive { error, ..adaptive });
+        }
+        if let Some(layers) = self.layers.clone() {
+            camera.insert(layers);
         }
         if self.statistics {
             camera.insert(Statistics);

@@ -34,6 +34,9 @@ pub enum Error {
     /// The reader stopped the render.
     #[error("stopped before the picture was done; nothing was written")]
     Interrupted,
+    /// The reader stopped a render that can be continued.
+    #[error("{0}")]
+    Stopped(String),
     /// Printing failed.
     #[error("cannot print: {0}")]
     Print(#[from] io::Error),

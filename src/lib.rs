@@ -49,6 +49,8 @@ pub mod review;
 
 pub mod measure;
 
+pub mod report;
+
 pub mod exercise;
 
 pub mod command;

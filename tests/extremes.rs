@@ -67,6 +67,21 @@ fn films_hold() {
 }
 
 #[test]
+fn disks_hold() {
+    holds(Group::Disk, 2048);
+}
+
+#[test]
+fn rectangles_hold() {
+    holds(Group::Rectangle, 2048);
+}
+
+#[test]
+fn cuboids_hold() {
+    holds(Group::Cuboid, 2048);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

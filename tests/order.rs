@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// The folders and files of `src/` in the order of the data; each may name itself and those before it.
 ///
 /// `error` is what everyone answers, so it is named by its types from everywhere; it names the first two.
-const ORDER: [&str; 18] = [
+const ORDER: &[&str] = &[
     "scene",
     "plan",
     "extract",
@@ -23,6 +23,7 @@ const ORDER: [&str; 18] = [
     "figure",
     "review",
     "measure",
+    "report",
     "exercise",
     "command",
 ];

@@ -22,14 +22,14 @@ use pinhole::rays::Tile;
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
-    EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world,
+    EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
     singles_and_pairs, stretched, toggled,
 };
 use std::collections::BTreeSet;
 
 /// Whether a combination cannot make a picture: its view asks for what nothing in it writes.
 fn pictureless(on: &[Toggle]) -> bool {
-    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane];
+    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane, Toggle::Pieces];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
 
@@ -42,7 +42,9 @@ fn registry(offer: &[Stage]) -> (Vec<ColumnKind>, Vec<TableKind>) {
     let (mut columns, mut tables) = (Vec::new(), Vec::new());
     for stage in offer {
         columns.extend(stage.writes.iter().filter(|column| !columns.contains(*column)).copied().collect::<Vec<_>>());
-        tables.extend(stage.tables.iter().filter(|table| !tables.contains(*table)).copied().collect::<Vec<_>>());
+        let beside = stage.tables_with.iter().map(|(table, _)| table);
+        let known = stage.tables.iter().chain(beside).filter(|table| !tables.contains(*table));
+        tables.extend(known.copied().collect::<Vec<_>>());
     }
     (columns, tables)
 }
@@ -78,7 +80,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
             match prepare(&scene, &offer).err().expect("refused") {
                 Error::Plan(PlanError::NoSuchView { asked, why }) => {
                     assert_eq!(asked, VIEWED, "{on:?}");
-                    assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes)"), "{on:?}: {why}");
+                    assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, "), "{on:?}: {why}");
                 }
                 other => panic!("{on:?}: {other}"),
             }
@@ -186,8 +188,11 @@ fn stages_declare_what_their_systems_touch() {
         }
         let name = |column: &ColumnKind| format!("column {}", column.name);
         let writes: BTreeSet<String> = stage.writes.iter().map(name).collect();
-        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).map(name).collect();
-        reads.extend(stage.tables.iter().map(|table| format!("table {}", table.name)));
+        let asked = stage.reads_where.iter().map(|(column, _)| column);
+        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).chain(asked).map(name).collect();
+        let asked = stage.tables_where.iter().map(|(table, _)| table);
+        let beside = stage.tables_with.iter().map(|(table, _)| table);
+        reads.extend(stage.tables.iter().chain(asked).chain(beside).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
             // Its rays have origins only where the orthographic stage, an alternative, has brought its table.
@@ -211,11 +216,14 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         }
     }
     type Change = fn(&mut EntityWorldMut<'_>);
-    let changes: [(&str, Change, Change); 8] = [
+    let changes: [(&str, Change, Change); 11] = [
         ("a light", add::<PointLight>, take::<PointLight>),
         ("a sphere", add::<(Sphere, Matte)>, take::<(Sphere, Matte)>),
         ("an ellipsoid", add_ellipsoid, take::<(Sphere, Matte, Placement)>),
         ("a plane", add::<(Plane, Matte)>, take::<(Plane, Matte)>),
+        ("a disk", add::<(Disk, Matte)>, take::<(Disk, Matte)>),
+        ("a rectangle", add::<(Rectangle, Matte)>, take::<(Rectangle, Matte)>),
+        ("a cuboid", add::<(Cuboid, Matte)>, take::<(Cuboid, Matte)>),
         ("a background", add::<Background>, take::<Background>),
         ("a view", add_view, take::<View>),
         ("statistics", add::<Statistics>, take::<Statistics>),
@@ -259,14 +267,25 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 5] = [
+    let kinds: [(&str, &[&str]); 8] = [
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
+        ("coin", &["Intersect disks", "Describe disk surfaces", "Look for disks in the way"]),
+        ("mat", &["Intersect rectangles", "Describe rectangle surfaces", "Look for rectangles in the way"]),
+        ("brick", &["Intersect cuboids", "Describe cuboid surfaces", "Look for cuboids in the way"]),
         ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
-    let on = [Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Ellipsoid, Toggle::Shadow, Toggle::Background];
+    let on = [
+        Toggle::Light,
+        Toggle::Plane,
+        Toggle::Sphere,
+        Toggle::Ellipsoid,
+        Toggle::Pieces,
+        Toggle::Shadow,
+        Toggle::Background,
+    ];
     for (name, stages) in kinds {
         let mut scene = toggled(&on);
         let entity = named(&mut scene, name);
@@ -299,7 +318,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
-    eprintln!("disabled: 6 entities, 14 stages; unused: 1 matte in 2 scenes");
+    eprintln!("disabled: 9 entities, 23 stages; unused: 1 matte in 2 scenes");
 }
 
 fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {

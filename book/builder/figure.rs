@@ -22,7 +22,7 @@ pub type Pictures = BTreeMap<String, (String, Rc<[u8]>)>;
 /// The block that stands for one figure directive.
 pub fn block(kit: &mut Kit, pictures: &mut Pictures, command: &str, caption: &str) -> Result<String, String> {
     let spoken = escape(&plain(caption));
-    let drawn = ["figure", "chart"].contains(&command.split_whitespace().next().unwrap_or_default())
+    let drawn = ["figure", "report"].contains(&command.split_whitespace().next().unwrap_or_default())
         || command.split_whitespace().any(|word| word == "--gallery");
     let picture = if drawn {
         let file = kit.file(command, "svg")?;

@@ -1,4 +1,6 @@
-//! Shapes and the nearest of many.
+//! A scene of many kinds: a ball, a floor, a table top, a board, boxes, a pyramid of triangles; which one does a ray meet?
+//! Each kind narrows the hit in its turn; where two are equally near, the lower shape number wins.
+//! New here: the disk, the rectangle and the cuboid, and how each is described.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -13,7 +15,20 @@ fn main() -> pinhole::Result {
 pub fn chapter() -> Chapter {
     Chapter::new("13_shapes", "shapes and the nearest of many", scene)
         .offer(rays::stages())
-        .offer(intersect::stages())
+        .offer(intersect::start_stage())
+        .offer(intersect::sphere_stage())
+        .offer(intersect::plane_stage())
+        .offer(intersect::disk_stage())
+        .offer(intersect::rectangle_stage())
+        .offer(intersect::cuboid_stage())
+        .offer(intersect::triangle_stage())
+        .offer(intersect::classify_stage())
+        .offer(intersect::sphere_surface_stage())
+        .offer(intersect::plane_surface_stage())
+        .offer(intersect::disk_surface_stage())
+        .offer(intersect::rectangle_surface_stage())
+        .offer(intersect::cuboid_surface_stage())
+        .offer(intersect::triangle_surface_stage())
         .offer(shade::stages())
 }
 // ANCHOR_END: chapter
@@ -22,19 +37,32 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.4, 2.4, 6.2].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
+    let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
+    let wood = world.spawn((Name::new("wood"), matte(0.62, 0.42, 0.25))).id();
+    world.spawn((Name::new("floor"), Plane::default(), matte(0.6, 0.6, 0.6)));
+    // Quaternions: a quarter turn about x, and a twelfth about y.
+    let upright = DQuat::from_xyzw(0.707106781, 0.0, 0.0, 0.707106781);
+    let aside = DQuat::from_xyzw(0.0, 0.258819045, 0.0, 0.965925826);
+    let board = Placement { orientation: upright, ..Placement::at(-0.3, 1.1, -2.2) };
+    world.spawn((Name::new("board"), Rectangle { width: 4.4, depth: 1.8 }, board, matte(0.25, 0.45, 0.5)));
+    let crate_at = Placement { orientation: aside, ..Placement::at(-1.6, 0.6, 0.2) };
+    world.spawn((Name::new("crate"), Cuboid { size: [1.4, 1.2, 1.0].into() }, crate_at, matte(0.75, 0.3, 0.2)));
+    world.spawn((Name::new("ball"), Sphere { radius: 0.45 }, Placement::at(-1.6, 1.65, 0.2), matte(0.85, 0.7, 0.3)));
+    // The leg ends in the very plane of the table top.
+    world.spawn((Name::new("table top"), Disk { radius: 1.0 }, Placement::at(1.2, 0.9, 0.0), UsesMaterial(wood)));
+    let leg = Cuboid { size: [0.14, 0.9, 0.14].into() };
+    world.spawn((Name::new("leg"), leg, Placement::at(1.2, 0.45, 0.0), UsesMaterial(wood)));
+    let top = [1.2, 1.6, 0.0].into();
+    let foot = [[0.8, 0.9, 0.35], [1.6, 0.9, 0.35], [1.2, 0.9, -0.5]];
+    for side in 0..3 {
+        let vertices = [top, foot[side].into(), foot[(side + 1) % 3].into()];
+        world.spawn((Name::new("pyramid"), Triangle { vertices, ..Triangle::default() }, matte(0.5, 0.35, 0.65)));
     }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
-    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
+    let light = PointLight { intensity: Rgb::grey(110.0), ..PointLight::default() };
+    world.spawn((Name::new("lamp"), light, Placement::at(2.6, 4.6, 3.4)));
+    world.spawn((Name::new("evening"), Background { colour: Rgb::new(0.02, 0.03, 0.05) }));
 }
 // ANCHOR_END: scene

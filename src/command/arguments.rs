@@ -1,10 +1,12 @@
+use super::span::span;
 use crate::chapter::{Asked, AskedSampling};
+use crate::extract::MOST_SAMPLES;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::extract::MOST_SAMPLES;
-use crate::scene::{Filter, Resolution, Sampler, TracePixel};
+use crate::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// pinhole: a ray tracing book you can run
 #[derive(Parser)]
@@ -49,10 +51,14 @@ pub enum Command {
     Export(ExportScene),
     /// Measure what a chapter's stages cost, and how exact what they write is
     Cost(CostOfChapter),
+    /// Measure error against run time: many samples, many seeds, a reference, intervals
+    Report(ReportErrors),
     /// Check the function that a chapter asks you to write; without a chapter, list them and how far you are
     Check(CheckExercise),
     /// Draw a figure of the book from its chapter's scene; without a name, list the figures
     Figure(DrawFigure),
+    /// Draw an image that a chapter reads from a file; without a name, list them
+    Draw(DrawImage),
     /// Print what to type in other programs to get a chapter's camera there, and how to come back
     Conventions(CompareConventions),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
@@ -160,6 +166,37 @@ pub struct CostOfChapter {
     pub write: bool,
 }
 
+#[derive(Args, Clone)]
+pub struct ReportErrors {
+    /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
+    #[arg(value_name = "CHAPTER")]
+    pub subject: String,
+    /// Compare with this: sampler=NAME, filter=NAME, a chapter or a scene file; may be given several times
+    #[arg(long, value_name = "WHAT")]
+    pub against: Vec<String>,
+    /// Four sample counts of 8 seeds instead of five of 16
+    #[arg(long)]
+    pub quick: bool,
+    /// How many pixels the image has (default: the scene's shape, about 5,000 pixels)
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
+    pub size: Option<Resolution>,
+    /// How many workers render the timed runs (default: 1)
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
+    pub threads: Option<u16>,
+    /// Keep the report in the chapter's folder, as report.json
+    #[arg(long)]
+    pub write: bool,
+    /// Measure nothing: print what is kept in the chapter's folder
+    #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
+    pub kept: bool,
+    /// With --kept: draw the plot to this SVG instead
+    #[arg(short, long, value_name = "FILE", requires = "kept")]
+    pub output: Option<PathBuf>,
+    /// With --kept: against samples instead of time
+    #[arg(long, requires = "kept")]
+    pub samples_axis: bool,
+}
+
 #[derive(Args)]
 pub struct CompareConventions {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
@@ -184,6 +221,15 @@ pub struct DrawFigure {
     /// The figure's name, such as 05_pinhole
     pub name: Option<String>,
     /// Where to write the SVG (default: out/<name>.svg)
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct DrawImage {
+    /// The image's file name, such as card.png
+    pub name: Option<String>,
+    /// Where to write it (default: out/<name>)
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub output: Option<PathBuf>,
 }
@@ -242,6 +288,12 @@ pub struct SceneOptions {
     pub view: Option<String>,
     #[command(flatten)]
     pub sampling: SamplingOptions,
+    /// Take as many samples of each pixel as bring its relative standard error down to E (such as 0.01)
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub error: Option<f64>,
+    /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
+    #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
+    pub layers: Option<Layers>,
 }
 
 #[derive(Args, Clone, Default)]
@@ -272,6 +324,15 @@ pub struct RenderOptions {
     /// Where to write, ending in .png or .exr (default: both, in out/)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Take samples for so long, such as 500ms, 10s or 2m
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub time: Option<Duration>,
+    /// Continue from the checkpoint beside the picture, to the same bits as if it had not been stopped
+    #[arg(long)]
+    pub resume: bool,
+    /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
+    #[arg(long, value_name = "TIME", value_parser = span)]
+    pub write_every: Option<Duration>,
     /// Print time and rays of every stage as JSON, and nothing else
     #[arg(long, conflicts_with = "quiet")]
     pub stats: bool,
@@ -296,7 +357,21 @@ pub struct ExampleArguments {
 
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { resolution: self.size, view: self.view.clone(), statistics, sampling: self.sampling.asked() }
+        Asked {
+            resolution: self.size,
+            view: self.view.clone(),
+            statistics,
+            sampling: self.sampling.asked(),
+            endless: false,
+            error: self.error,
+            layers: self.layers.clone(),
+        }
+    }
+}
+
+impl RenderOptions {
+    pub fn asked(&self, statistics: bool) -> Asked {
+        Asked { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
 }
 

@@ -5,11 +5,11 @@ use crate::Result;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
 use crate::measure::cost::{PROBES, RENDERS, made_from, measure};
+use crate::report::provenance::{compiler, load, processor};
 use crate::scene::Resolution;
 use std::fmt::Write as _;
 use std::io::Write;
 use std::path::Path;
-use std::process::Command;
 
 /// The image that every chapter is measured with.
 const SIZE: Resolution = Resolution { width: 960, height: 540 };
@@ -61,19 +61,7 @@ fn report(chapter: &Chapter) -> Result<String> {
 
 /// The machine as far as it says: processor, threads, compiler, load.
 fn machine() -> String {
-    let read = |path| std::fs::read_to_string(path).unwrap_or_default();
-    let cpus = read("/proc/cpuinfo");
-    let model = cpus.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split_once(": "));
-    let model = model.map_or("unknown processor", |(_, model)| model);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = read("/proc/loadavg");
-    let load = load.split_whitespace().next().unwrap_or("unknown");
-    format!("{model}, {threads} threads; {}; load {load}", compiler())
-}
-
-/// The compiler that is at hand now, which under cargo is the one that built this.
-fn compiler() -> String {
-    let asked = Command::new("rustc").arg("--version").output().ok().filter(|answer| answer.status.success());
-    let answer = asked.map(|answer| String::from_utf8_lossy(&answer.stdout).trim().to_string());
-    answer.unwrap_or_else(|| format!("rustc {} or later", env!("CARGO_PKG_RUST_VERSION")))
+    let load = load().map_or_else(|| "unknown".into(), |load| format!("{load:.2}"));
+    format!("{}, {threads} threads; {}; load {load}", processor(), compiler())
 }

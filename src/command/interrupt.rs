@@ -27,16 +27,18 @@ pub fn interrupted() -> bool {
 /// Someone at a terminal: sees a bar, and may press Ctrl-C.
 pub struct Waiting {
     bar: ProgressBar,
+    counts_samples: bool,
 }
 
 impl Waiting {
-    /// A bar of this many tiles on standard error; none where that is not a terminal or `quiet` is set.
+    /// A bar of this many tiles on standard error, or, where that is 0, of samples whose number is told later; none where
+    /// standard error is not a terminal or `quiet` is set.
     pub fn new(tiles: u64, quiet: bool) -> Self {
         let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(tiles) };
-        if let Ok(style) = ProgressStyle::with_template("rendering {bar:40} {percent:>3} %  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template("rendering {bar:40} {percent:>3} %  {msg}{eta} left") {
             bar.set_style(style);
         }
-        Self { bar }
+        Self { bar, counts_samples: tiles == 0 }
     }
 
     /// Takes the bar off the screen.
@@ -47,7 +49,22 @@ impl Waiting {
 
 impl Watch for Waiting {
     fn tile_done(&self) {
-        self.bar.inc(1);
+        if !self.counts_samples {
+            self.bar.inc(1);
+        }
+    }
+
+    fn traced(&self, samples: u64) {
+        if self.counts_samples {
+            self.bar.inc(samples);
+        }
+    }
+
+    fn expect(&self, samples: u64, done: u32, of: u32) {
+        if self.counts_samples {
+            self.bar.set_length(samples);
+            self.bar.set_message(format!("{done} of {of} samples, "));
+        }
     }
 
     fn stopped(&self) -> bool {

@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod conventions;
 mod cost;
+mod draw;
 mod export;
 mod extremes;
 mod figure;
@@ -15,17 +16,21 @@ mod find;
 mod hints;
 mod interrupt;
 mod list;
+mod long_render;
 mod plan;
 mod planted;
 mod refused;
 mod render;
+mod report;
 mod review;
+mod span;
 mod subject;
 mod sweep;
 mod trace;
 mod watch;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
+pub use report::has_report;
 
 use crate::chapter::Chapter;
 use crate::{Error, Result};
@@ -45,6 +50,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
     match arguments.command {
         None => render::render_cover(chapters, out),
         Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
+        Some(Command::Draw(asked)) => draw::draw_image(&asked, out),
         Some(Command::List) => list::list(chapters, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
         Some(Command::Render(asked)) => {
@@ -63,6 +69,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
         Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
+        Some(Command::Report(asked)) => report::report(chapters, &asked, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, out),
         Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, out),
@@ -99,8 +106,8 @@ pub fn conclude(result: Result) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(Error::Interrupted) => {
-            let _ = writeln!(std::io::stderr(), "pinhole: {}", Error::Interrupted);
+        Err(stop @ (Error::Interrupted | Error::Stopped(_))) => {
+            let _ = writeln!(std::io::stderr(), "pinhole: {stop}");
             ExitCode::from(130)
         }
         Err(error) => {

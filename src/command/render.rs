@@ -2,15 +2,17 @@ use super::arguments::RenderOptions;
 use super::find;
 use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
+use super::long_render::{Files, render_long, tell_outcome, warn_of_empty_layers};
 use super::subject::Subject;
 use crate::chapter::Chapter;
-use crate::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity, validate};
-use crate::film::{Film, check_place, write_exr, write_png};
+use crate::extract::{ImageShape, LayerTable, PinholeLens, SMALLEST_PIXEL, adaptive_of, camera_entity, validate};
+use crate::film::{Film, check_place};
 use crate::look::RenderStats;
 use crate::plan::Table;
-use crate::render::{Execution, Rendered, render};
-use crate::scene::PerspectiveCamera;
+use crate::render::{Execution, RenderUnderWay};
+use crate::scene::{PerspectiveCamera, Sampling};
 use crate::{Error, Result};
+use bevy_ecs::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -21,28 +23,39 @@ pub fn render_cover(chapters: &[Chapter], out: &mut dyn Write) -> Result {
 
 /// Renders a scene and says what ran, what was left out, and what to try next.
 pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut dyn Write) -> Result {
-    let files = files(subject, options)?;
-    files.iter().try_for_each(|file| check_place(file))?;
+    let pictures = files(subject, options)?;
+    pictures.iter().try_for_each(|file| check_place(file))?;
     let execution = Execution { threads: options.threads.map(usize::from), ..Execution::default() };
-    let rendered = render_world(subject, options, &execution)?;
-    for file in &files {
-        if interrupted() {
-            return Err(Error::Interrupted);
-        }
-        write_file(&rendered, file)?;
-    }
+    let asked = options.asked(!options.quiet);
+    let scene = subject.world(&asked);
+    let placed = |error| subject.placed(error, &asked);
+    validate(&scene).map_err(|refusal| placed(refusal.into()))?;
+    check_requests(&scene, options, &pictures)?;
+    let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
+    let files = Files::new(pictures, &scene, &render.plan);
+    let outcome = if render.is_sampled() {
+        Some(render_long(&mut render, &scene, options, &files, out)?)
+    } else {
+        render_at_once(&mut render, options, &files)?;
+        None
+    };
+    let (samples, rendered) = (render.sampling.samples, render.finish());
     if options.stats {
         let stats = RenderStats::of(subject.name(), &rendered, execution.tile_side);
         let json = serde_json::to_string_pretty(&stats).map_err(std::io::Error::from)?;
         writeln!(out, "{json}")?;
         return Ok(());
     }
-    let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     if !options.quiet {
         write!(out, "{}", RenderStats::of(subject.name(), &rendered, execution.tile_side))?;
+        if let Some(outcome) = &outcome {
+            let target = adaptive_of(&scene)?.map(|adaptive| adaptive.error);
+            tell_outcome(outcome, samples, target, out)?;
+        }
     }
-    writeln!(out, "wrote {}", names.join(" and "))?;
+    writeln!(out, "wrote {}", files.told(outcome.is_some() && files.checkpoint().exists()))?;
     warn_of_rejected(&rendered.film, out)?;
+    warn_of_empty_layers(&rendered.film, &rendered.plan, out)?;
     tell_of_negative_weights(&rendered.film, out)?;
     warn_of_narrow_pixels(subject, options, out)?;
     if !options.quiet {
@@ -51,18 +64,35 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     Ok(())
 }
 
-fn render_world(subject: &Subject<'_>, options: &RenderOptions, execution: &Execution) -> Result<Rendered> {
-    let asked = options.scene.asked(!options.quiet);
-    let scene = subject.world(&asked);
-    let placed = |error| subject.placed(error, &asked);
-    validate(&scene).map_err(|refusal| placed(refusal.into()))?;
-    let image = ImageShape::extract(&scene)?;
-    let side = execution.tile_side;
-    let tiles = u64::from(image.width.div_ceil(side)) * u64::from(image.height.div_ceil(side));
-    let waiting = Waiting::new(tiles, options.quiet || options.stats);
-    let rendered = render(&scene, &subject.stages(), execution, &waiting).map_err(placed);
+/// Refuses what the picture's kind or the camera's rays cannot give.
+fn check_requests(scene: &World, options: &RenderOptions, pictures: &[PathBuf]) -> Result {
+    let is_exr = |file: &PathBuf| ending(file) == "exr";
+    if !LayerTable::kinds_of(scene).is_empty() && !pictures.iter().any(is_exr) {
+        let named = pictures.first().map_or_else(String::new, |file| file.display().to_string());
+        let what = "layers are channels of an EXR, so the name must end in .exr, or be left out for both kinds";
+        return Err(Error::Usage(format!("cannot write layers to {named}: {what}")));
+    }
+    let sampled = camera_entity(scene).is_ok_and(|camera| scene.get::<Sampling>(camera).is_some());
+    if options.resume && !sampled {
+        let what = "one ray a pixel is over at once; --samples, --time or --error take more";
+        return Err(Error::Usage(format!("there is nothing to continue: {what}")));
+    }
+    Ok(())
+}
+
+/// One ray through each pixel: all or nothing.
+fn render_at_once(render: &mut RenderUnderWay, options: &RenderOptions, files: &Files) -> Result {
+    let waiting = Waiting::new(render.film.tiles.len() as u64, options.quiet || options.stats);
+    let rendered = render.advance(render.steps(), &waiting);
     waiting.done();
-    rendered
+    rendered?;
+    for file in &files.pictures {
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+        files.write_one(&render.film, file)?;
+    }
+    Ok(())
 }
 
 /// Where to write: the file asked for, or both kinds in `out/`.
@@ -82,13 +112,6 @@ fn files(subject: &Subject<'_>, options: &RenderOptions) -> Result<Vec<PathBuf>>
 
 fn ending(file: &Path) -> &str {
     file.extension().and_then(|ending| ending.to_str()).unwrap_or("")
-}
-
-fn write_file(rendered: &Rendered, file: &Path) -> Result {
-    match ending(file) {
-        "exr" => write_exr(&rendered.film, file),
-        _ => write_png(&rendered.film, rendered.curve(), file),
-    }
 }
 
 fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {

@@ -45,7 +45,7 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
             Subject::find(chapters, &asked.chapter).and_then(|subject| render_subject(&subject, &asked.options, out));
         match rendered {
             Err(Error::Print(broken)) => return Err(Error::Print(broken)),
-            Err(Error::Interrupted) => break,
+            Err(Error::Interrupted | Error::Stopped(_)) => break,
             Err(told) => writeln!(out, "{told}")?,
             Ok(()) => {}
         }

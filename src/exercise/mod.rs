@@ -24,6 +24,7 @@ mod ray;
 mod report;
 mod sampling;
 mod screen;
+mod shapes;
 mod shown;
 mod turn;
 
@@ -52,6 +53,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
+        Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -1,6 +1,6 @@
 use super::check::{at_most_one, kind_and_name, light_colour};
-use crate::plan::Table;
-use crate::scene::{Background, Refusal, Rgb};
+use crate::plan::{Table, entities};
+use crate::scene::{Background, Environment, Gradient, Refusal, Rgb, called};
 use bevy_ecs::prelude::*;
 
 /// The radiance that a ray which meets nothing brings back.
@@ -27,4 +27,22 @@ impl Table for BackgroundTable {
     fn bytes(&self) -> usize {
         size_of::<Self>()
     }
+}
+
+/// A scene has one kind of background at most.
+pub(super) fn check_one_kind(scene: &World) -> Result<(), Refusal> {
+    let kinds = [
+        ("a Background", entities::<With<Background>>(scene)),
+        ("a Gradient", entities::<With<Gradient>>(scene)),
+        ("an Environment", entities::<With<Environment>>(scene)),
+    ];
+    let given: Vec<String> = kinds
+        .iter()
+        .filter_map(|(kind, found)| found.first().map(|&entity| format!("{kind} by {}", called(scene, entity))))
+        .collect();
+    if given.len() > 1 {
+        let accepted = "it must be one of Background, Gradient and Environment";
+        return Err(Refusal::new("the scene", "background", format!("given as {}", given.join(" and ")), accepted));
+    }
+    Ok(())
 }

@@ -37,6 +37,14 @@ impl Slabs {
         let reach = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * REACH_MARGIN;
         Self { centre, normal, half, reach }
     }
+
+    /// From the centre to the middles of the faces at the ends of the three edges.
+    pub fn half_edges(&self) -> [DVec3; 3] {
+        [0, 1, 2].map(|axis| {
+            let along = self.normal[(axis + 1) % 3].cross(self.normal[(axis + 2) % 3]);
+            along * (self.half[axis] / self.normal[axis].dot(along))
+        })
+    }
 }
 
 /// Cuboids in render space, in spawn order.

@@ -2,7 +2,7 @@ use super::blinn_phong::blinn_phong_colour;
 use super::check::{kind_and_name, reflectance};
 use super::phong::phong_colour;
 use super::shape_entities;
-use crate::plan::{Evidence, Table, entities};
+use crate::plan::{Carried, Evidence, Table, entities};
 use crate::scene::{BlinnPhong, Matte, Phong, Refusal, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
@@ -134,9 +134,8 @@ fn reached(scene: &World) -> BTreeSet<Entity> {
 /// Evidence that a shape made of something is there.
 pub fn material_evidence(scene: &World) -> Evidence {
     let reached = reached(scene);
-    Evidence::among::<Or<(With<Matte>, With<Phong>, With<BlinnPhong>)>>(scene, "material", |entity| {
-        reached.contains(&entity.id())
-    })
+    const MATERIALS: [Carried; 3] = [Carried::of::<Matte>(), Carried::of::<Phong>(), Carried::of::<BlinnPhong>()];
+    Evidence::among_any(scene, "material", &MATERIALS, |entity| reached.contains(&entity.id()))
 }
 
 /// Evidence that a shape carries this component, or uses a material that does.

@@ -6,8 +6,10 @@
 //! f64, so that a scene far from the world's origin loses nothing.
 //! After this no stage looks at a component of the scene again.
 
+mod adaptive;
 mod background;
 mod blinn_phong;
+mod bounds;
 mod camera;
 mod check;
 mod cuboid;
@@ -15,25 +17,37 @@ mod directional_light;
 mod disk;
 mod ellipsoid;
 mod emissive;
+mod environment;
 mod exact_sum;
 mod filter;
 mod flat;
+mod gradient;
+mod image_file;
+mod image_texture;
 mod layers;
 mod material;
 mod phong;
+mod pixel_steps;
 mod plane;
 mod point_light;
 mod pose;
+mod pyramid;
 mod rectangle;
 mod sampling;
 mod shape;
 mod sphere;
 mod spot_light;
+mod srgb;
+mod texture;
 mod triangle;
+mod two_colours;
+mod uv_slope;
 mod uv_space;
 
+pub use adaptive::{adaptive_of, check_layers};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
+pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
@@ -43,24 +57,37 @@ pub use directional_light::DirectionalLightTable;
 pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use emissive::{EmissiveTable, emissive_evidence};
+pub use environment::EnvironmentTable;
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use flat::Flat;
+pub use gradient::GradientTable;
+pub use image_file::Texels;
+pub use image_texture::ImageTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
 pub use phong::{PhongTable, phong_peak};
+pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
 pub use pose::{
     Pose, ahead, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
     world_from_entity,
 };
+pub use pyramid::{Pyramid, halved};
 pub use rectangle::RectangleTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::{ShapeKind, ShapeTable, shape_entities};
 pub use sphere::SphereTable;
 pub use spot_light::{SpotLightTable, versine_of_half};
+pub use srgb::linear_from_srgb;
+pub use texture::{
+    Laid, NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
+    filtered_evidence, texture_evidence, texture_of_kind,
+};
 pub use triangle::{Facet, TriangleTable, VertexNormalTable};
+pub use two_colours::{CheckerTable, StripesTable, TwoColours};
+pub use uv_slope::{UvSlope, UvSlopes, most_of};
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 
 use crate::plan::Table;
@@ -69,7 +96,7 @@ use bevy_ecs::prelude::*;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
-/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, background, view.
+/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
     CameraAxes::extract(scene)?;
@@ -90,7 +117,16 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;
     SpotLightTable::extract(scene)?;
+    TextureMaps::extract(scene)?;
+    CheckerTable::extract(scene)?;
+    StripesTable::extract(scene)?;
+    image_texture::check_images(scene)?;
+    background::check_one_kind(scene)?;
     BackgroundTable::extract(scene)?;
+    GradientTable::extract(scene)?;
+    EnvironmentTable::extract(scene)?;
     check::at_most_one::<View>(scene, "view", "View")?;
+    adaptive_of(scene)?;
+    check_layers(scene)?;
     Ok(())
 }

@@ -5,9 +5,11 @@
 //! Space: render space, up to [`Sketch`] and [`Section`], which make points of the drawing of it (x to the right, y
 //! down, [`WIDTH`](pen::WIDTH) wide).
 //! No figure holds a coordinate of its own: change a chapter's scene, and its figures change.
+//! Beside them, the [images](DRAWN_IMAGES) that chapters read from files are drawn here.
 
 mod acne;
 mod aliasing;
+mod drawn_image;
 mod field_of_view;
 mod filters;
 mod gallery;
@@ -33,12 +35,14 @@ mod screen;
 mod section;
 mod side;
 mod sketch;
+mod slabs;
 mod subject;
 mod svg;
 #[cfg(test)]
 mod trial;
 mod two_ways;
 
+pub use drawn_image::{DRAWN_IMAGES, DrawnImage};
 pub use grid::{Grid, drawn_distance};
 pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
 pub use patch::Patch;
@@ -69,7 +73,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 21] {
+pub fn figures() -> [Figure; 22] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -158,6 +162,12 @@ pub fn figures() -> [Figure; 21] {
             chapter: "10_light_and_shadow",
             about: "shadow rays that start where textbooks have them, in three sizes of one scene",
             draw: acne::draw,
+        },
+        Figure {
+            name: "13_slabs",
+            chapter: "13_shapes",
+            about: "where a ray is inside each slab of a cuboid, and inside all three",
+            draw: slabs::draw,
         },
         Figure {
             name: "17_aliasing",

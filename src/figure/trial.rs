@@ -2,7 +2,8 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rgb, Sphere,
+    Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
+    Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
 use bevy_ecs::prelude::*;
@@ -17,7 +18,7 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain(["09_camera_to_world", "10_light_and_shadow", "17_sampling"])
+        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "17_sampling"])
         .map(chapter)
         .collect()
 }
@@ -42,5 +43,8 @@ fn things(world: &mut World) {
     world.spawn((Sphere { radius: 0.7 }, Placement::at(0.5, 0.7, -1.5), Matte { colour: gold }));
     let egg = Placement { scale: [0.6, 1.0, 0.4].into(), ..Placement::at(0.9, 0.3, 1.4) };
     world.spawn((Sphere { radius: 0.3 }, egg, Matte { colour: gold }));
+    let tilt = DQuat::from_xyzw(0.0, 0.26, 0.1, 0.96).normalize();
+    let brick = Placement { orientation: tilt, ..Placement::at(1.6, 0.4, 0.6) };
+    world.spawn((Cuboid { size: [0.8, 0.6, 0.7].into() }, brick, Matte { colour: red }));
     world.spawn((Plane::default(), Matte { colour: Rgb::grey(0.6) }));
 }

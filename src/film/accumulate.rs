@@ -5,9 +5,7 @@ use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 
 /// Adds each row's radiance to its pixel's sum; where no column says which pixel, a row is the pixel of its number.
-pub fn add_to_film(
-    mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&SampleSigns>, &mut FilmTile)>,
-) {
+pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&SampleSigns>, &mut FilmTile)>) {
     for (radiance, samples, signs, mut film) in &mut tiles {
         let film = &mut *film;
         let (r, g, b) = radiance.slices();

@@ -84,6 +84,11 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         }
         out.write_u32s(&tile.count)?;
         out.write_u32(u32::from(!tile.negative_count.is_empty()))?;
+        out.write_u32s(&tile.negative_count)?;
+        for lane in &tile.negative {
+            out.write_f64s(lane)?;
+        }
+        out.write_u32(u32::from(!tile.negative_count.is_empty()))?;
         for lane in &tile.negative {
             out.write_f64s(lane)?;
         }
@@ -160,6 +165,15 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
         numbers.read_f64s(lane)?;
     }
     numbers.read_u32s(&mut tile.count)?;
+    if numbers.read_u32()? != 0 {
+        let rows = tile.count.len();
+        tile.negative_count.resize(rows, 0);
+        numbers.read_u32s(&mut tile.negative_count)?;
+        for lane in &mut tile.negative {
+            lane.resize(rows, 0.0);
+            numbers.read_f64s(lane)?;
+        }
+    }
     if numbers.read_u32()? != 0 {
         for lane in &mut tile.negative {
             lane.resize(tile.count.len(), 0.0);

@@ -1,3 +1,4 @@
+use crate::extract::linear_from_srgb;
 use std::sync::LazyLock;
 
 /// How linear numbers become the bytes of a picture.
@@ -20,11 +21,6 @@ pub fn srgb_from_linear(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 // ANCHOR_END: srgb_from_linear
-
-/// The light, from 0 to 1, that a screen gives for an sRGB number from 0 to 1.
-pub fn linear_from_srgb(srgb: f64) -> f64 {
-    if srgb <= 0.040_45 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
-}
 
 /// For each byte above 0, the least light that rounds to it.
 static BYTE_STEPS: LazyLock<[f64; 255]> =

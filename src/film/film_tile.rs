@@ -17,6 +17,13 @@ pub struct Rejected {
     pub radiance: [f32; 3],
 }
 
+impl Rejected {
+    /// What comes first: by the sample, then line by line from the top.
+    fn place(&self) -> [u32; 3] {
+        [self.sample, self.pixel[1], self.pixel[0]]
+    }
+}
+
 /// The film of one tile: sums in f64 and the count of samples, a row a pixel.
 ///
 /// All samples are summed alike; those that count negatively are summed once more by themselves, so that both their
@@ -72,13 +79,14 @@ impl FilmTile {
         }
     }
 
+    /// Remembered are those that come first by sample and then by pixel, whatever the order in which they are traced.
     #[cold]
     fn reject(&mut self, row: usize, radiance: [f32; 3]) {
         self.rejected += 1;
-        if self.first_rejected.len() < REMEMBERED {
-            let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
-            self.first_rejected.push(rejected);
-        }
+        let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
+        let at = self.first_rejected.partition_point(|earlier| earlier.place() <= rejected.place());
+        self.first_rejected.insert(at, rejected);
+        self.first_rejected.truncate(REMEMBERED);
     }
 
     /// Adds a sample that counts negatively, or rejects it.
@@ -103,7 +111,13 @@ impl FilmTile {
     /// the plain mean.
     /// Where such a filter rings below 0, it is 0.
     pub fn mean(&self, row: usize) -> [f32; 3] {
-        self.weighted(row).unwrap_or_else(|| self.mean_f64(row)).map(|part| part.max(0.0) as f32)
+        self.shown_f64(row).map(|part| part.max(0.0) as f32)
+    }
+
+    /// The same, unrounded, and below 0 where a filter rings.
+    #[inline(always)]
+    pub fn shown_f64(&self, row: usize) -> [f64; 3] {
+        self.weighted(row).unwrap_or_else(|| self.mean_f64(row))
     }
 
     /// The sum of a row's weights: its samples, less those that count negatively once, and once more.
@@ -215,8 +229,17 @@ impl Film {
     }
 
     /// The mean radiance of a pixel, linear Rec. 709.
+    ///
+    /// While the first samples are under way, a pixel that has none yet shows the nearest one up and to the left that has.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
         let (tile, row) = self.place(x, y);
+        let waits = self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < 4);
+        if !waits {
+            return self.tiles[tile].mean(row);
+        }
+        let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
+        let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
+        let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
         self.tiles[tile].mean(row)
     }
 
@@ -236,7 +259,7 @@ impl Film {
     pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
         let film = &self.tiles[tile];
         let (count, weight) = (film.count[row], film.weight(row));
-        let variance = self.moments.get(tile).map_or([0.0; 3], |moments| moments.variance(row, count));
+        let variance = self.moments.get(tile).map_or([0.0; 3], |own| own.variance(&self.tiles[tile], row));
         let n = f64::from(count.max(1));
         match film.weighted(row) {
             Some(weighted) if weight < i64::from(count) => {
@@ -267,13 +290,19 @@ impl Film {
     /// All samples that could not join: how many, and the first few.
     pub fn rejected(&self) -> (u64, Vec<Rejected>) {
         let count = self.tiles.iter().map(|tile| tile.rejected).sum();
-        (count, self.tiles.iter().flat_map(|tile| tile.first_rejected.iter().copied()).take(REMEMBERED).collect())
+        let mut first: Vec<Rejected> = self.tiles.iter().flat_map(|tile| tile.first_rejected.clone()).collect();
+        first.sort_by_key(Rejected::place);
+        first.truncate(REMEMBERED);
+        (count, first)
     }
 
-    /// Bytes that its sums and counts take, and what holds them together.
+    /// Bytes that its sums, counts, moments and layers take, and what holds them together.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
         let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
-        self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum()
+        let sums: usize = self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum();
+        let moments = self.moments.iter().map(|own| own.rows() * 3 * size_of::<f64>() + size_of::<FilmMoments>());
+        let planned = self.planned.iter().map(|own| own.len() * size_of::<u32>());
+        sums + moments.chain(planned).chain(self.layers.iter().map(FilmLayers::bytes)).sum::<usize>()
     }
 }

@@ -1,5 +1,5 @@
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
-use crate::intersect::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
+use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime, Shared, Stage, TileSystems};
 use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
 use crate::scene::LayerKind;
@@ -105,6 +105,7 @@ struct Known<'t> {
     rays: Option<&'t WorldRays>,
     hits: &'t Hits,
     surfaces: Option<&'t Surfaces>,
+    shading_normals: Option<&'t ShadingNormals>,
     uvs: Option<&'t SurfaceUvs>,
     colours: Option<&'t SurfaceColours>,
 }
@@ -114,7 +115,7 @@ impl Known<'_> {
     #[inline(always)]
     fn value(&self, kind: LayerKind, row: usize) -> DVec3 {
         let normal = || self.surfaces.map_or(DVec3::ZERO, |surfaces| surfaces.get(row).normal.as_dvec3());
-        let shading_normal = normal;
+        let shading_normal = || self.shading_normals.map_or_else(normal, |normals| normals.get(row));
         let to_camera = |normal: DVec3| self.table.world_from_camera.transpose() * normal;
         let alone = |number: f64| DVec3::new(number, 0.0, 0.0);
         match kind {
@@ -157,12 +158,13 @@ pub fn add_to_layers(
         Option<&WorldRays>,
         Option<&Hits>,
         Option<&Surfaces>,
+        Option<&ShadingNormals>,
         Option<&SurfaceUvs>,
         Option<&SurfaceColours>,
         &mut FilmLayers,
     )>,
 ) {
-    for (raster, samples, rays, hits, surfaces, uvs, colours, mut layers) in &mut tiles {
+    for (raster, samples, rays, hits, surfaces, shading_normals, uvs, colours, mut layers) in &mut tiles {
         let layers = &mut *layers;
         let pixel_of = |row: usize| samples.map_or(row, |samples| samples.pixel[row] as usize);
         (0..raster.rows()).for_each(|row| layers.taken[pixel_of(row)] += 1);
@@ -175,7 +177,7 @@ pub fn add_to_layers(
             }
         }
         let materials = materials.as_deref().map(|materials| &**materials);
-        let known = Known { table: &table, materials, rays, hits, surfaces, uvs, colours };
+        let known = Known { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
         let mut lanes = layers.sums.iter_mut();
         for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
             let channels: Vec<&mut Vec<f64>> = lanes.by_ref().take(kind.channels().len()).collect();
@@ -193,23 +195,28 @@ pub fn layers_stage() -> Stage {
     Stage::new("Add to the layers", TileSystems::Layers, add_to_layers)
         .reads::<RasterPoints>()
         .reads_where::<PixelSamples>(sampling_evidence)
-        .reads_where::<Hits>(|scene| layer_evidence(scene, "layer of what is met", needs_hits))
-        .reads_where::<WorldRays>(|scene| layer_evidence(scene, "layer of depth", needs_rays))
-        .reads_where::<Surfaces>(|scene| layer_evidence(scene, "layer of surfaces", needs_surfaces))
-        .reads_where::<SurfaceUvs>(|scene| layer_evidence(scene, "layer of uv", |kind| kind == LayerKind::Uv))
+        .reads_where::<Hits>(|scene| layer_evidence(scene, "hit layer", needs_hits))
+        .reads_where::<WorldRays>(|scene| layer_evidence(scene, "depth layer", needs_rays))
+        .reads_where::<Surfaces>(|scene| layer_evidence(scene, "surface layer", needs_surfaces))
+        .reads_where::<ShadingNormals>(|scene| layer_evidence(scene, "shading layer", needs_shading_normals))
+        .reads_where::<SurfaceUvs>(|scene| layer_evidence(scene, "uv layer", |kind| kind == LayerKind::Uv))
         .reads_where::<SurfaceColours>(albedo_evidence)
         .writes::<FilmLayers>()
         .table::<LayerTable>()
         .table_where::<MaterialTable>(albedo_evidence)
-        .when(|scene| layer_evidence(scene, "camera that asks for layers", |_| true))
+        .when(|scene| layer_evidence(scene, "layer request", |_| true))
 }
 
 fn albedo_evidence(scene: &World) -> Evidence {
-    layer_evidence(scene, "layer of albedo", |kind| kind == LayerKind::Albedo)
+    layer_evidence(scene, "albedo layer", |kind| kind == LayerKind::Albedo)
 }
 
 fn needs_hits(kind: LayerKind) -> bool {
     !matches!(kind, LayerKind::Samples | LayerKind::Variance)
+}
+
+fn needs_shading_normals(kind: LayerKind) -> bool {
+    matches!(kind, LayerKind::ShadingNormal | LayerKind::ShadingNormalCamera)
 }
 
 fn needs_rays(kind: LayerKind) -> bool {

@@ -15,9 +15,10 @@ mod moments;
 mod png;
 mod whole_file;
 
+pub use crate::extract::linear_from_srgb;
 pub use accumulate::{add_to_film, film_stage};
 pub use checkpoint::{read_checkpoint, write_checkpoint};
-pub use develop::{Curve, byte_from_linear, linear_from_srgb, srgb_from_linear};
+pub use develop::{Curve, byte_from_linear, srgb_from_linear};
 pub use exr::write_exr;
 pub use film_tile::{Film, FilmTile, Rejected};
 pub use layered_exr::{ENTITY_NAMES, write_layered_exr};

@@ -33,7 +33,7 @@ impl FilmMoments {
         if n == 0.0 || !FilmTile::takes(radiance) {
             return;
         }
-        let mean = film.mean_f64(row);
+        let mean = film.shown_f64(row);
         let share = n / (n + 1.0);
         let square = |part: usize| {
             let away = f64::from(radiance[part]) - mean[part];
@@ -44,10 +44,15 @@ impl FilmMoments {
         self.b[row] += square(2);
     }
 
-    /// The variance of one sample, estimated from `count` of them: red, green, blue; 0 where there are fewer than 2.
-    pub fn variance(&self, row: usize, count: u32) -> [f64; 3] {
-        let freedom = f64::from(count.max(2) - 1);
-        [self.r[row] / freedom, self.g[row] / freedom, self.b[row] / freedom]
+    /// The variance of one sample of a row, red, green, blue: that of the pixel's mean times its number of samples.
+    ///
+    /// 0 where fewer than two samples tell.
+    /// A mean of samples that count 1 or −1 is a ratio of two sums, and its variance is that of the ratio's linear part.
+    pub fn variance(&self, film: &FilmTile, row: usize) -> [f64; 3] {
+        let count = f64::from(film.count[row]);
+        let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
+        let share = ratio * ratio / (count - 1.0).max(1.0);
+        [self.r[row] * share, self.g[row] * share, self.b[row] * share]
     }
 }
 
@@ -88,7 +93,7 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
 /// Whether anyone asks how noisy the pixels are.
 pub fn variance_evidence(scene: &World) -> Evidence {
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
-    let layer = layer_evidence(scene, "layer of variance", |kind| kind == LayerKind::Variance);
+    let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)
 }
 

@@ -71,19 +71,12 @@ pub fn cuboid_shot(seed: u64, index: u64, spot: Spot, eye: Eye, sizes: f64, rati
         return (ray_on_axes(&slabs, at, matches!(eye, Eye::InFace), &mut draws), slabs);
     }
     let origin = (centre + start).as_vec3();
-    let aimed = [0, 1, 2].map(|axis| step(&slabs, axis) * at[axis]).iter().sum::<DVec3>();
+    let aimed = slabs.half_edges().iter().zip(at).map(|(&edge, at)| edge * at).sum::<DVec3>();
     let towards = centre + aimed - origin.as_dvec3();
     let towards = if towards.length() > 0.0 { towards.normalize() } else { seen_from };
     let quanta = draws.between(-BAND_IN_QUANTA, BAND_IN_QUANTA) * QUANTUM;
     let quanta = if longest > 1e3 * shortest { quanta * draws.unit() } else { quanta };
     (rounded_ray(origin, towards + draws.unit_vector_across(towards) * quanta), slabs)
-}
-
-/// From the centre to the middle of the face across an axis, along the cuboid's edge.
-#[must_use]
-pub fn step(slabs: &Slabs, axis: usize) -> DVec3 {
-    let along = slabs.normal[(axis + 1) % 3].cross(slabs.normal[(axis + 2) % 3]);
-    along * (slabs.half[axis] / slabs.normal[axis].dot(along))
 }
 
 /// Three unit vectors at angles of 45 degrees or more.

@@ -3,12 +3,15 @@
 //! Reads: f32 rays and shapes, in world space unless a function says otherwise. Writes: what the
 //! textbook would. No chapter's render uses anything from here; figures show what would have come of it.
 
+pub mod adaptive;
 pub mod camera;
+pub mod cuboid;
 pub mod ellipsoid;
 pub mod entity_per_ray;
 pub mod euler;
 pub mod field_of_view;
 pub mod film;
+pub mod flat;
 pub mod ndc;
 pub mod plane;
 pub mod sampling;

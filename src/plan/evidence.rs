@@ -32,6 +32,21 @@ impl Evidence {
         Self::told(scene, noun, &found, &enabled, &declared::<F>(scene))
     }
 
+    /// Needed if any enabled entity carries one of these components and is `reachable`.
+    ///
+    /// Not `Or` in a filter: a query that only reads finds nothing where one of its components was never spawned.
+    pub fn among_any(scene: &World, noun: &str, any: &[Carried], reachable: impl Fn(EntityRef<'_>) -> bool) -> Self {
+        let all = |find: fn(&Carried) -> fn(&World) -> Vec<Entity>| {
+            let mut found: Vec<Entity> = any.iter().flat_map(|carried| find(carried)(scene)).collect();
+            found.sort_by_key(|entity| entity.index());
+            found.dedup();
+            found
+        };
+        let enabled = all(|carried| carried.enabled);
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        Self::told(scene, noun, &found, &enabled, &all(|carried| carried.declared))
+    }
+
     /// Needed if any enabled entity that passes the filter is of a kind; those of another kind count for nothing.
     pub fn of_kind<F: QueryFilter>(scene: &World, noun: &str, is_of_kind: impl Fn(Entity) -> bool) -> Self {
         let mut declared = declared::<F>(scene);
@@ -73,6 +88,20 @@ impl Evidence {
             (true, false) => self,
             (false, true) => other,
         }
+    }
+}
+
+/// A component, as evidence looks for those that carry it.
+#[derive(Clone, Copy)]
+pub struct Carried {
+    enabled: fn(&World) -> Vec<Entity>,
+    declared: fn(&World) -> Vec<Entity>,
+}
+
+impl Carried {
+    /// The component `C`.
+    pub const fn of<C: Component>() -> Self {
+        Self { enabled: entities::<With<C>>, declared: declared::<With<C>> }
     }
 }
 

@@ -17,7 +17,7 @@ mod table;
 
 pub use column::{Column, ColumnKind, Lane, LaneValue, LaneValues, Lifetime, column};
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
-pub use evidence::{Evidence, counted, entities};
+pub use evidence::{Carried, Evidence, counted, entities};
 pub use stage::{Slot, Stage, StageKind};
 pub use systems::{Bounce, Sample, TileSystems};
 pub use table::{ExtractedTable, Shared, Table, TableKind};

@@ -32,6 +32,12 @@ pub enum TileSystems {
     Surface,
     /// Normals by which light falls, where they are not the surfaces' own.
     Normal,
+    /// What a pixel covers of the surface.
+    Footprint,
+    /// Each surface's own colour, and where on its texture it is.
+    Colour,
+    /// Textures colour their own rows, in any order.
+    Texture,
     /// What a ray that met nothing brings back.
     Background,
     /// What else is asked of a pixel is taken down, before the light goes on its way.
@@ -54,7 +60,7 @@ pub enum TileSystems {
 
 impl TileSystems {
     /// All sets in order.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: &[Self] = &[
         Self::Raster,
         Self::Ndc,
         Self::Screen,
@@ -65,6 +71,9 @@ impl TileSystems {
         Self::Classify,
         Self::Surface,
         Self::Normal,
+        Self::Footprint,
+        Self::Colour,
+        Self::Texture,
         Self::Background,
         Self::Layers,
         Self::Aim,
@@ -79,6 +88,15 @@ impl TileSystems {
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
     /// independently of the others.
     pub fn order_free(self) -> bool {
-        matches!(self, Self::Start | Self::Intersect | Self::Surface | Self::Occlude)
+        matches!(
+            self,
+            Self::Start
+                | Self::Intersect
+                | Self::Surface
+                | Self::Footprint
+                | Self::Colour
+                | Self::Texture
+                | Self::Occlude
+        )
     }
 }

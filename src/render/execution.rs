@@ -36,6 +36,10 @@ impl Default for Execution {
 pub trait Watch: Sync {
     /// A tile is done.
     fn tile_done(&self) {}
+    /// So many samples of pixels have been traced.
+    fn traced(&self, _samples: u64) {}
+    /// A pass begins: so many samples of pixels are expected altogether, and so many samples a pixel are done.
+    fn expect(&self, _samples: u64, _done: u32, _of: u32) {}
     /// Whether to stop.
     fn stopped(&self) -> bool {
         false

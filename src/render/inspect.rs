@@ -1,6 +1,7 @@
 use super::Execution;
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
+use super::under_way::{film_for, shares};
 use crate::Result;
 use crate::extract::ImageShape;
 use crate::film::{Film, FilmTile};
@@ -49,6 +50,7 @@ pub fn inspect_tile(
         height: image.height,
         tile_side: side,
         tiles: vec![FilmTile::new(tile)],
+        done: vec![0],
         ..Film::default()
     };
     inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
@@ -58,23 +60,19 @@ fn inspect_film(
     scene: &World,
     offer: &[Stage],
     image: ImageShape,
-    mut film: Film,
+    film: Film,
     run: Run,
     hooks: &[Hook],
 ) -> Result<Inspection> {
     let (plan, tables) = prepare(scene, offer)?;
+    let mut film = film_for(scene, &plan, film);
     let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
-    swap_all(&mut frame, &mut film);
+    for (tile, mut share) in frame.tiles.clone().into_iter().zip(shares(&mut film)) {
+        frame.swap_share(tile, &mut share);
+    }
     for tile in frame.tiles.clone() {
         frame.activate(tile, &run, None);
     }
     frame.run();
     Ok(Inspection { plan, world: frame.world, tiles: frame.tiles, image })
-}
-
-/// Lends every part of the film to its tile, or takes all back.
-fn swap_all(frame: &mut RenderWorld, film: &mut Film) {
-    for (tile, film_tile) in frame.tiles.clone().into_iter().zip(&mut film.tiles) {
-        frame.swap_film(tile, film_tile);
-    }
 }

@@ -4,21 +4,27 @@
 //! Writes: the [`Film`](crate::film::Film), what ran and how long it took.
 //! `rayon` appears here, and in `measure`, which renders nothing; no stage knows of threads.
 
+mod adaptive;
 mod bounce;
 mod clock;
 mod execution;
 mod inspect;
+mod key;
 mod memory;
+mod passes;
 mod render_world;
 mod rendered;
 mod steps;
 mod under_way;
 
+pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 pub use bounce::follow_bounces;
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
 pub use inspect::{Inspection, inspect, inspect_stages, inspect_tile};
+pub use key::film_key;
 pub use memory::peak_memory;
+pub use passes::{Limits, Outcome, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use rendered::{Rendered, render};
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};

@@ -32,7 +32,7 @@ pub struct RenderUnderWay {
 }
 
 /// One tile's share of the film.
-struct Share<'f> {
+pub(super) struct Share<'f> {
     film: &'f mut FilmTile,
     moments: Option<&'f mut FilmMoments>,
     layers: Option<&'f mut FilmLayers>,
@@ -122,6 +122,18 @@ impl RenderUnderWay {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
+    /// Lays the film aside for one of pilot samples, whose random numbers are others.
+    pub fn begin_pilot(&mut self) {
+        let film = Film { pilot: true, ..self.film.emptied() };
+        self.take(film);
+    }
+
+    /// Throws the pilot's samples away and begins anew, with as many samples for each pixel as have been decided.
+    pub fn begin_planned(&mut self, planned: Vec<Vec<u32>>) {
+        let film = Film { planned, ..self.film.emptied() };
+        self.take(film);
+    }
+
     /// Continues from another film of the same plan and scene, such as a checkpoint's.
     pub fn take(&mut self, film: Film) {
         self.execution.tile_side = film.tile_side;
@@ -155,7 +167,7 @@ impl RenderUnderWay {
 }
 
 /// A film with the columns that the plan keeps beside sums and counts.
-fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
+pub(super) fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
     let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
     if keeps(FilmMoments::NAME) {
@@ -168,7 +180,7 @@ fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
     film
 }
 
-fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send {
+pub(super) fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send {
     let mut moments = film.moments.iter_mut();
     let mut layers = film.layers.iter_mut();
     let mut planned = film.planned.iter();
@@ -187,8 +199,10 @@ impl RenderWorld {
         let tile = self.tiles[0];
         self.swap_share(tile, share);
         for run in runs(*share.done, to) {
-            if self.activate(tile, &run, share.planned) > 0 {
+            let active = self.activate(tile, &run, share.planned);
+            if active > 0 {
                 self.run();
+                watch.traced(active as u64);
             }
         }
         self.swap_share(tile, share);
@@ -222,7 +236,8 @@ impl RenderWorld {
         }
     }
 
-    fn swap_share(&mut self, tile: Entity, share: &mut Share<'_>) {
+    /// Lends a tile's share of the film to its entity, or takes it back: the two change places.
+    pub(super) fn swap_share(&mut self, tile: Entity, share: &mut Share<'_>) {
         self.swap_film(tile, share.film);
         let mut entity = self.world.entity_mut(tile);
         if let (Some(moments), Some(mut own)) = (&mut share.moments, entity.get_mut::<FilmMoments>()) {

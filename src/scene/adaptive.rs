@@ -1,6 +1,9 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
+/// Where samples run out that nobody has counted: those of a time or of an error alone.
+pub const OPEN_END: u32 = 65_536;
+
 /// On the camera, beside `Sampling`: each pixel gets as many samples as its own noise asks for.
 ///
 /// The error of a pixel is the standard error of its mean radiance, relative to that radiance:

@@ -1,5 +1,5 @@
-use super::Radiance;
 use super::light::light_evidence;
+use super::{Radiance, SurfaceColours};
 use crate::extract::{MaterialTable, emissive_evidence, material_evidence};
 use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
@@ -8,11 +8,15 @@ use bevy_ecs::prelude::*;
 // ANCHOR: shade_flat
 /// Gives every row the colour of the surface that it hit, as if colour were light: the picture of a scene in which
 /// nothing shines.
-pub fn shade_flat(materials: Res<Shared<MaterialTable>>, mut tiles: Query<(&Surfaces, &MaterialRows, &mut Radiance)>) {
-    for (surfaces, list, mut radiance) in &mut tiles {
+pub fn shade_flat(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &MaterialRows, &mut Radiance)>,
+) {
+    for (surfaces, colours, list, mut radiance) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let [r, g, b] = materials.colour[surfaces.material[row] as usize];
+            let material = surfaces.material[row] as usize;
+            let [r, g, b] = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
             (radiance.r[row], radiance.g[row], radiance.b[row]) = (r as f32, g as f32, b as f32);
         }
     }
@@ -24,6 +28,7 @@ pub fn flat_stage() -> Stage {
     Stage::new("Show surfaces unlit", TileSystems::Shade, shade_flat)
         .kind(StageKind::Alternative)
         .reads::<Surfaces>()
+        .reads_if::<SurfaceColours>()
         .reads::<MaterialRows>()
         .reads::<Radiance>()
         .writes::<Radiance>()

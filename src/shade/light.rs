@@ -1,7 +1,7 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{MaterialTable, material_evidence};
 use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Carried, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -197,6 +197,9 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
-    Evidence::among::<Light>(scene, "light", |_| true)
+    Evidence::among_any(scene, "light", &LIGHTS, |_| true)
 }
+
+/// Every component that is a light; a new one joins here.
+pub(super) const LIGHTS: [Carried; 3] =
+    [Carried::of::<PointLight>(), Carried::of::<DirectionalLight>(), Carried::of::<SpotLight>()];

@@ -6,26 +6,45 @@
 
 mod background;
 mod blinn_phong;
+mod checker;
 mod colour;
 mod directional_light;
 mod emissive;
+mod environment;
 mod flat;
+mod footprint;
+mod gradient;
 mod highlight;
+mod image_texture;
 mod light;
+mod lookup;
 mod phong;
 mod point_light;
 mod radiance;
 mod shadow;
 mod spot_light;
+mod surface_colour;
+mod texture_point;
 
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
+pub use checker::{
+    box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
+    wave_mean,
+};
 pub use colour::SurfaceColours;
 pub use directional_light::{aim_at_directional_lights, directional_light_stage, irradiance_from_direction};
 pub use emissive::{add_emission, emissive_stage};
+pub use environment::{
+    add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
+};
 pub use flat::{flat_stage, shade_flat};
+pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
+pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
+pub use image_texture::{colour_images, image_stage};
 pub use light::{LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage};
+pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
@@ -34,12 +53,17 @@ pub use shadow::{
     rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
 };
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
+pub use surface_colour::{colour_stage, colour_surfaces};
+pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
 
 use crate::plan::Stage;
 
 /// What light does at surfaces, with shadows, and what is behind everything.
 pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_stage(), start_light_stage(), background_stage(), flat_stage()];
+    let mut stages = vec![start_stage(), start_light_stage()];
+    stages.extend(colour_stages());
+    stages.extend(background_stages());
+    stages.push(flat_stage());
     stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([
@@ -56,4 +80,14 @@ pub fn stages() -> Vec<Stage> {
 /// A surface's own colour, whether the scene has lights or not, and what is behind everything.
 pub fn unlit_stages() -> Vec<Stage> {
     vec![start_stage(), background_stage(), flat_stage().when(flat::shown_evidence)]
+}
+
+/// Surfaces with colours of their own: textures, and what a pixel covers of them.
+pub fn colour_stages() -> Vec<Stage> {
+    vec![footprint_stage(), colour_stage(), lay_stage(), checker_stage(), stripes_stage(), image_stage()]
+}
+
+/// What is behind everything, of every kind.
+pub fn background_stages() -> Vec<Stage> {
+    vec![background_stage(), gradient_stage(), environment_stage()]
 }

@@ -1,4 +1,5 @@
 use super::LightRays;
+use super::light::LIGHTS;
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
 };
@@ -137,8 +138,7 @@ pub fn triangle_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    type Light = Or<(With<PointLight>, With<DirectionalLight>, With<SpotLight>)>;
-    Evidence::among::<Light>(scene, "shadow-casting light", |entity| {
+    Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)

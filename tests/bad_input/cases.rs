@@ -71,6 +71,21 @@ pub const CAMERAS: &[Case] = &[
     ("two cameras, one unnamed", &["camera", "\"main\"", "(unnamed, entity "], |w| {
         w.spawn(OrthographicCamera::default());
     }),
+    ("adaptive without sampling", &["\"main\"", "adaptive", "Sampling"], |w| put(w, "main", Adaptive::default())),
+    ("an error of 0", &["\"main\"", "error", "above 0"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { error: 0.0, ..Adaptive::default() }))
+    }),
+    ("an error that is no number", &["\"main\"", "error", "NaN"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { error: f64::NAN, ..Adaptive::default() }))
+    }),
+    ("a pilot of 3", &["\"main\"", "pilot", "3", "from 4"], |w| {
+        put(w, "main", (Sampling::default(), Adaptive { pilot: 3, ..Adaptive::default() }))
+    }),
+    ("no layers", &["\"main\"", "kinds", "empty"], |w| put(w, "main", Layers::default())),
+    ("layers twice", &["layers", "\"main\"", "\"ball\""], |w| {
+        put(w, "main", Layers::all());
+        put(w, "ball", Layers::all());
+    }),
     ("both kinds on one", &["camera", "PerspectiveCamera and an OrthographicCamera", "\"main\""], |w| {
         put(w, "main", OrthographicCamera::default())
     }),
@@ -210,10 +225,38 @@ pub const SHAPES: &[Case] = &[
     }),
     ("normal 0", &["\"floor\"", "normal", "(0, 0, 0)"], |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::ZERO)),
     ("two shapes on one entity", &["\"ball\"", "Sphere and Plane"], |w| put(w, "ball", Plane::default())),
+    ("a disk of radius 0", &["disk \"coin\"", "radius", "is 0,"], |w| coin(w, Disk { radius: 0.0 })),
+    ("a width of −1", &["rectangle \"coin\"", "width", "is -1,"], |w| coin(w, Rectangle { width: -1.0, depth: 1.0 })),
+    ("a depth of 1e300", &["rectangle \"coin\"", "depth", "is 1e300,"], |w| {
+        coin(w, Rectangle { width: 1.0, depth: 1e300 });
+    }),
+    ("a cuboid without height", &["cuboid \"coin\"", "size", "(1, 0, 2)", "each part must be a length"], |w| {
+        coin(w, Cuboid { size: DVec3::new(1.0, 0.0, 2.0) });
+    }),
+    ("a cuboid like a hair", &["cuboid \"coin\"", "size", "(1, 200000000, 1)", "1e7 times"], |w| {
+        coin(w, Cuboid { size: DVec3::new(1.0, 2e8, 1.0) });
+    }),
+    ("a cuboid out of reach by its scale", &["\"coin\"", "longest placed edge", "it must be a length"], |w| {
+        coin(w, Cuboid { size: DVec3::splat(1e17) });
+        edit::<Placement>(w, "coin", |p| p.scale = DVec3::splat(1e5));
+    }),
+    ("a disk out of reach by its scale", &["\"coin\"", "placed size", "it must be a length"], |w| {
+        coin(w, Disk { radius: 1e17 });
+        edit::<Placement>(w, "coin", |p| p.scale = DVec3::new(1e5, 1.0, 1.0));
+    }),
+    ("a disk and a cuboid", &["\"coin\"", "Disk and Cuboid"], |w| {
+        coin(w, Disk::default());
+        put(w, "coin", Cuboid::default());
+    }),
     ("an unnamed sphere", &["(unnamed, entity ", "radius", "-2"], |w| {
         w.spawn((Sphere { radius: -2.0 }, Matte::default()));
     }),
 ];
+
+/// A further shape.
+fn coin(w: &mut World, shape: impl Bundle) {
+    w.spawn((Name::new("coin"), shape, Matte::default()));
+}
 
 pub const MATTER: &[Case] = &[
     ("no material", &["\"ball\"", "material", "missing", "Matte"], |w| {
@@ -312,6 +355,12 @@ pub const FIELDS: &[Field] = &[
     ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.x = v)),
     ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.y = v)),
     ("normal", "floor", |w, v| edit::<Plane>(w, "floor", |p| p.normal.z = v)),
+    ("radius", "coin", |w, v| coin(w, Disk { radius: v })),
+    ("width", "coin", |w, v| coin(w, Rectangle { width: v, depth: 1.0 })),
+    ("depth", "coin", |w, v| coin(w, Rectangle { width: 1.0, depth: v })),
+    ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(v, 1.0, 1.0) })),
+    ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(1.0, v, 1.0) })),
+    ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(1.0, 1.0, v) })),
     ("position", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.position.z = v)),
     ("orientation", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.orientation.w = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.r = v)),

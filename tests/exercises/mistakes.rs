@@ -90,6 +90,11 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("12_how_it_is_built", Attempt::Kept(forward), "later"),
     ("12_how_it_is_built", Attempt::Kept(backward), "last to first"),
     ("12_how_it_is_built", Attempt::Kept(one_step), "only the stage"),
+    ("13_shapes", Attempt::NearestBoxT(|o, d, l, m| passed(o, d, l, m).map(|(near, _)| near)), "behind the origin"),
+    ("13_shapes", Attempt::NearestBoxT(|o, d, l, m| Some(passed(o, d, l, m)?.0).filter(|&t| t > 0.0)), "from inside"),
+    ("13_shapes", Attempt::NearestBoxT(|o, d, l, m| Some(passed(o, d, l, m)?.1).filter(|&t| t > 0.0)), "far side"),
+    ("13_shapes", Attempt::NearestBoxT(min_and_max), "0 by 0"),
+    ("13_shapes", Attempt::NearestBoxT(first_entered), "last slab"),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -289,4 +294,41 @@ fn without_root(u: f64, radius: f64) -> f64 {
 
 fn one_step(stages: &[StageWords], asked: &str) -> Vec<String> {
     only(stages, |stage| stage.needed && stage.writes.iter().any(|column| column == asked))
+}
+
+/// Where a ray is inside a box, whatever lies behind it.
+fn passed(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<(f64, f64)> {
+    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        if d[axis] == 0.0 {
+            if o[axis] < least[axis] || o[axis] > most[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
+        (near, far) = (near.max(a.min(b)), far.min(a.max(b)));
+    }
+    (near <= far).then_some((near, far))
+}
+
+/// Nothing asked beforehand: rays in the plane of a face divide 0 by 0.
+fn min_and_max(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let (a, b) = ((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
+        let (first, last) = if a < b { (a, b) } else { (b, a) };
+        near = if first > near { first } else { near };
+        far = if last < far { last } else { far };
+        if !(near <= far) || first.is_nan() {
+            return None;
+        }
+    }
+    [near, far].into_iter().find(|&t| t > 0.0)
+}
+
+fn first_entered(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
+    passed(o, d, least, most)?;
+    let near = |axis: usize| ((least[axis] - o[axis]) / d[axis]).min((most[axis] - o[axis]) / d[axis]);
+    (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
 }

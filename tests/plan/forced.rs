@@ -1,6 +1,8 @@
 //! Stages forced on that a scene does not need, and off that it does.
 
 use super::*;
+use pinhole::film::{FilmLayers, FilmMoments};
+use pinhole::render::render;
 
 /// The offer with one stage's say replaced.
 fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
@@ -24,6 +26,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         .map(|on| (format!("{on:?}"), toggled(&on)))
         .collect();
     for eye in EYES {
+        scenes.push((format!("pieces, {eye:?}"), pieces(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
     }
@@ -74,6 +77,12 @@ fn forcing_an_exact_stage_on_changes_nothing() {
     assert_eq!(untried, [&"Add to the film", &"Place raster points", &"Start in the dark"], "tried too little");
 }
 
+/// What a film keeps beside its light.
+fn beside(scene: &World, offer: &[Stage]) -> (Vec<FilmLayers>, Vec<FilmMoments>) {
+    let film = render(scene, offer, &one_world(), &()).expect("renders").film;
+    (film.layers, film.moments)
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let offer = offer();
@@ -81,9 +90,11 @@ fn forcing_a_needed_stage_off_shows() {
     let witnesses: Vec<(&str, World)> = vec![
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
+        ("pieces", pieces(Setup { size, ..Setup::default() })),
         ("stretched", stretched(Setup { size, ..Setup::default() })),
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
+        ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
     ];
     for stage in &offer {
         let mut powers = Vec::new();
@@ -93,6 +104,9 @@ fn forcing_a_needed_stage_off_shows() {
             }
             match film_by(scene, &forced(&offer, &[stage.name], false), &one_world()) {
                 Ok(film) if film != self::film(scene) => powers.push(format!("changes \"{name}\"")),
+                Ok(_) if beside(scene, &forced(&offer, &[stage.name], false)) != beside(scene, &offer) => {
+                    powers.push(format!("changes what \"{name}\" keeps beside its light"));
+                }
                 Ok(_) => {}
                 Err(Error::Plan(PlanError::NoProducer { stage: reader, column, why })) => {
                     assert!(stage.writes.iter().any(|own| own.name == column), "\"{}\" writes {column}", stage.name);

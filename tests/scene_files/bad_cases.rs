@@ -145,5 +145,9 @@ pub const MEANING: &[Case] = &[
         &["parent \"flat\"", "(1, 0, 1)"],
     ),
     ("a view of no column", "[(name: \"eye\", perspective_camera: (), ^view: (column: \"colours\"))]", &["`colours`"]),
+    ("a disk of radius 0", "[@, (name: \"a\", disk: (radius: ^0), matte: ())]", &["disk \"a\"", "radius is 0"]),
+    ("a depth of −1", "[@, (name: \"a\", rectangle: (width: 1, depth: ^-1), matte: ())]", &["depth is -1"]),
+    ("a flat cuboid", "[@, (name: \"a\", cuboid: (size: ^(1, 0, 1)), matte: ())]", &["size is (1, 0, 1)", "each part"]),
+    ("a disk's width", "[@, (name: \"a\", disk: (^width: 1), matte: ())]", &["disk \"a\"", "`width`", "`radius`"]),
     ("two shapes on one entity", "[@, ^(name: \"a\", sphere: (), plane: (), matte: ())]", &["one shape only"]),
 ];

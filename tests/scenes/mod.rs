@@ -3,7 +3,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::film_stage;
+use pinhole::film::{film_stage, layers_stage, moments_stage};
 use pinhole::look::view_stage;
 pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
@@ -69,7 +69,7 @@ pub fn offer() -> Vec<Stage> {
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
     offer.push(view_stage(&offer));
-    offer.push(film_stage());
+    offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
 }
 
@@ -160,6 +160,48 @@ pub fn stretched(setup: Setup) -> World {
     world
 }
 
+/// Disks, rectangles and cuboids: stretched, mirrored and turned ones, one of each that a parent shears, pairs that are the
+/// same, and an edge that two share; nothing else.
+///
+/// All places lie on the grid of [`full`], so that it may be moved exactly; nothing but the scale is in scene units.
+pub fn pieces(setup: Setup) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: setup.point(0.23, 1.53, 4.9), target: setup.point(0.01, 0.77, 0.02), up: DVec3::Y };
+    setup.camera(&mut world, look);
+    let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
+    let disk = |radius: f64| Disk { radius: radius * setup.scale };
+    let rectangle = |width: f64, depth: f64| Rectangle { width: width * setup.scale, depth: depth * setup.scale };
+    let cuboid = |x: f64, y: f64, z: f64| Cuboid { size: DVec3::new(x, y, z) * setup.scale };
+    let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+    let upright = DQuat::IDENTITY;
+    let placed = |[x, y, z]: [f64; 3], scale: [f64; 3], orientation| Placement {
+        position: setup.point(x, y, z),
+        orientation,
+        scale: DVec3::from(scale),
+    };
+    let floor = placed([0.0, 0.017, 0.0], [1.0, -3.0, 1.0], upright);
+    world.spawn((Name::new("floor"), rectangle(7.0, 5.0), floor, matte(0.6, 0.6, 0.6)));
+    let brick = placed([-1.27, 0.55, 0.53], [-1.0, 1.5, 1.0], tilt);
+    world.spawn((Name::new("brick"), cuboid(1.0, 0.5, 0.7), brick, matte(0.9, 0.7, 0.2)));
+    world.spawn((Name::new("double brick"), cuboid(1.0, 0.5, 0.7), brick, matte(0.9, 0.1, 0.1)));
+    let coin = placed([0.29, 0.8, 1.09], [-1.0, 1.0, 0.5], tilt);
+    world.spawn((Name::new("coin"), disk(0.5), coin, matte(0.2, 0.5, 0.9)));
+    world.spawn((Name::new("double coin"), disk(0.5), coin, matte(0.1, 0.9, 0.1)));
+    for x in [0.75, 1.25] {
+        let tile = placed([x, 0.5, -0.75], [1.0, 1.0, -1.0], upright);
+        world.spawn((Name::new("tile"), rectangle(0.5, 0.5), tile, matte(x - 0.5, 0.7, 0.3)));
+    }
+    let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 0.5], upright))).id();
+    let turned = |x| Placement { orientation: tilt, position: DVec3::X * x * setup.scale, ..Placement::default() };
+    world.spawn((Name::new("sheared brick"), cuboid(0.5, 0.5, 0.5), turned(0.0), matte(0.7, 0.2, 0.9), ChildOf(group)));
+    world.spawn((Name::new("sheared coin"), disk(0.25), turned(0.75), matte(0.7, 0.9, 0.2), ChildOf(group)));
+    world.spawn((Name::new("sheared tile"), rectangle(0.5, 0.25), turned(-0.75), matte(0.2, 0.9, 0.9), ChildOf(group)));
+    world.spawn((Name::new("lamp"), setup.light(60.0, true), placed([2.51, 4.02, 3.03], [1.0; 3], upright)));
+    world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
+    world
+}
+
 /// How many pixels of [`ties`] see a ball and the pane at the very same distance.
 pub const TIED_PIXELS: usize = 8;
 
@@ -195,26 +237,31 @@ pub enum Toggle {
     Plane,
     Sphere,
     Ellipsoid,
+    /// A disk, a rectangle and a cuboid.
+    Pieces,
     Shadow,
     Orthographic,
     Background,
     View,
     Statistics,
+    Layers,
     Samples,
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 11] = [
+pub const TOGGLES: [Toggle; 12] = [
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,
     Toggle::Sphere,
     Toggle::Ellipsoid,
+    Toggle::Pieces,
     Toggle::Shadow,
     Toggle::Orthographic,
     Toggle::Background,
     Toggle::View,
     Toggle::Statistics,
+    Toggle::Layers,
     Toggle::Samples,
 ];
 
@@ -248,6 +295,18 @@ pub fn toggled(on: &[Toggle]) -> World {
         let egg = (Sphere { radius: 0.5 }, Placement { scale, ..Placement::at(1.2, 0.75, 0.3) });
         world.spawn((Name::new("egg"), egg, Matte { colour: Rgb::new(0.9, 0.8, 0.6) }));
     }
+    if has(Toggle::Pieces) {
+        let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
+        let coin = Placement {
+            orientation: DQuat::from_xyzw(0.5, 0.1, 0.1, 0.5).normalize(),
+            ..Placement::at(-1.2, 0.9, 0.5)
+        };
+        world.spawn((Name::new("coin"), Disk { radius: 0.5 }, coin, matte(0.9, 0.7, 0.1)));
+        let mat = (Rectangle { width: 1.5, depth: 1.0 }, Placement::at(0.3, 0.05, 1.2));
+        world.spawn((Name::new("mat"), mat, matte(0.3, 0.2, 0.7)));
+        let brick = (Cuboid { size: DVec3::new(0.6, 0.4, 0.5) }, Placement::at(-0.4, 1.6, 0.0));
+        world.spawn((Name::new("brick"), brick, matte(0.6, 0.2, 0.1)));
+    }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
     }
@@ -257,6 +316,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Statistics) {
         world.entity_mut(camera).insert(Statistics);
+    }
+    if has(Toggle::Layers) {
+        world.entity_mut(camera).insert(Layers::all());
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });

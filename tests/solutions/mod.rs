@@ -38,11 +38,14 @@ pub mod conventions;
 #[path = "12_how_it_is_built.rs"]
 pub mod how_it_is_built;
 
+#[path = "13_shapes.rs"]
+pub mod shapes;
+
 #[path = "17_sampling.rs"]
 pub mod sampling;
 
 /// By the chapter's name.
-pub const ALL: [(&str, Attempt); 13] = [
+pub const ALL: [(&str, Attempt); 14] = [
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
     ("02_ray", Attempt::Unit(ray::unit)),
     ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
@@ -55,5 +58,6 @@ pub const ALL: [(&str, Attempt); 13] = [
     ("10_light_and_shadow", Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance)),
     ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
+    ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
 ];

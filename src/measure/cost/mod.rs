@@ -7,7 +7,7 @@ mod probe;
 mod sources;
 
 pub use probe::{PROBES, stage_errors};
-pub use sources::{made_from, made_from_these};
+pub use sources::{fingerprint, made_from, made_from_these};
 
 use crate::Result;
 use crate::plan::Stage;

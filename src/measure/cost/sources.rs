@@ -55,6 +55,11 @@ fn missing(path: &Path) -> Error {
     Error::Usage(format!("the sources that this was built from are not here ({} cannot be read)", path.display()))
 }
 
+/// The same hash of any bytes.
+pub fn fingerprint(bytes: &[u8]) -> String {
+    format!("{:016x}", fnv(OFFSET_BASIS, bytes))
+}
+
 const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
 fn fnv(hash: u64, bytes: &[u8]) -> u64 {

@@ -11,8 +11,10 @@ mod camera_limits;
 mod camera_ndc;
 mod camera_table;
 mod case;
+mod cuboid;
 mod film;
 mod film_bytes;
+mod flat;
 mod frame;
 mod lamp;
 mod plane;
@@ -52,11 +54,17 @@ pub enum Group {
     Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
+    /// Rays against disks, and shadow rays off them.
+    Disk,
+    /// Rays against rectangles, and shadow rays off them.
+    Rectangle,
+    /// Rays against cuboids, and shadow rays off them.
+    Cuboid,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
@@ -64,6 +72,9 @@ impl Group {
         Self::Transform,
         Self::Sampling,
         Self::Film,
+        Self::Disk,
+        Self::Rectangle,
+        Self::Cuboid,
     ];
 
     /// Its cases.
@@ -79,6 +90,9 @@ impl Group {
             Self::Transform => transform::trials(),
             Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
+            Self::Disk => flat::trials(flat::Kind::Disk),
+            Self::Rectangle => flat::trials(flat::Kind::Rectangle),
+            Self::Cuboid => cuboid::trials(),
         }
     }
 }
@@ -93,6 +107,9 @@ impl fmt::Display for Group {
             Self::Transform => "transform",
             Self::Sampling => "sampling",
             Self::Film => "film",
+            Self::Disk => "disk",
+            Self::Rectangle => "rectangle",
+            Self::Cuboid => "cuboid",
         })
     }
 }

@@ -14,6 +14,9 @@ impl Group {
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
+            Self::Disk => ["disks", "to judge", "wrong"],
+            Self::Rectangle => ["rectangles", "to judge", "wrong"],
+            Self::Cuboid => ["cuboids", "to judge", "wrong"],
         }
     }
 

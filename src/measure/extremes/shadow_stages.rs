@@ -1,7 +1,10 @@
 //! From a ray to the shadow ray that leaves its hit, through the kit's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
-use crate::extract::{EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeKind, ShapeTable};
+use crate::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
+    ShapeKind, ShapeTable,
+};
 use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
@@ -48,6 +51,24 @@ impl ShadowStages {
         Self::of(&of_hits, shade::ellipsoid_shadow_stage())
     }
 
+    /// The stages for disks, a light still to be placed.
+    pub fn of_disks() -> Self {
+        let of_hits = [intersect::disk_stage(), intersect::classify_stage(), intersect::disk_surface_stage()];
+        Self::of(&of_hits, shade::disk_shadow_stage())
+    }
+
+    /// The stages for rectangles, a light still to be placed.
+    pub fn of_rectangles() -> Self {
+        let of_hits = [intersect::rectangle_stage(), intersect::classify_stage(), intersect::rectangle_surface_stage()];
+        Self::of(&of_hits, shade::rectangle_shadow_stage())
+    }
+
+    /// The stages for cuboids, a light still to be placed.
+    pub fn of_cuboids() -> Self {
+        let of_hits = [intersect::cuboid_stage(), intersect::classify_stage(), intersect::cuboid_surface_stage()];
+        Self::of(&of_hits, shade::cuboid_shadow_stage())
+    }
+
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light =
@@ -77,6 +98,27 @@ impl ShadowStages {
     /// The scene's ellipsoids; an ellipsoid's place is its number.
     pub fn ellipsoids(&mut self, table: EllipsoidTable) {
         self.shapes(ShapeKind::Ellipsoid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's disks; a disk's place is its number.
+    pub fn disks(&mut self, table: DiskTable) {
+        self.shapes(ShapeKind::Disk, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's rectangles; a rectangle's place is its number.
+    pub fn rectangles(&mut self, table: RectangleTable) {
+        self.shapes(ShapeKind::Rectangle, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's cuboids; a cuboid's place is its number.
+    pub fn cuboids(&mut self, table: CuboidTable) {
+        self.shapes(ShapeKind::Cuboid, table.shape.len());
         self.to_surface.share(table.clone());
         self.to_light.share(table);
     }

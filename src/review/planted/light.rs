@@ -62,6 +62,15 @@ pub fn spheres_ignored() {}
 /// No ellipsoid is looked for.
 pub fn ellipsoids_ignored() {}
 
+/// No disk is looked for.
+pub fn disks_ignored() {}
+
+/// No rectangle is looked for.
+pub fn rectangles_ignored() {}
+
+/// No cuboid is looked for.
+pub fn cuboids_ignored() {}
+
 /// A plane behind the ray counts as before it.
 pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {

@@ -5,6 +5,7 @@
 
 mod hits;
 mod light;
+mod pieces;
 mod rays;
 mod table;
 

@@ -1,4 +1,4 @@
-use super::{Bug, Planted, hits, light, rays};
+use super::{Bug, Planted, hits, light, pieces, rays};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
@@ -13,6 +13,8 @@ const MOST: &str = "05_pinhole";
 const PARALLEL: &str = "04_orthographic";
 /// Spheres that are scaled unevenly.
 const SCALED: &str = "09_camera_to_world";
+/// Disks, rectangles and cuboids.
+const PIECES: &str = "13_shapes";
 /// Several samples a pixel.
 const SAMPLED: &str = "17_sampling";
 /// A column painted for the picture.
@@ -20,7 +22,7 @@ const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 32] = [
+pub static PLANTED: [Planted; 41] = [
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("one-pattern", "Place samples", "every pixel alike", SAMPLED, Bug::After(|| rays::one_pattern.into_configs())),
     bug("radius-doubled", "Place samples", "twice as far from the centre", SAMPLED, Bug::After(|| rays::radius_doubled.into_configs())),
@@ -37,17 +39,26 @@ pub static PLANTED: [Planted; 32] = [
     bug("far-root", "Intersect spheres", "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", "Intersect ellipsoids", "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("plane-sign", "Intersect planes", "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
+    bug("disk-square", "Intersect disks", "the square about it", PIECES, Bug::Instead(|| pieces::disk_square.into_configs())),
+    bug("one-coordinate", "Intersect rectangles", "one coordinate asked", PIECES, Bug::Instead(|| pieces::one_coordinate.into_configs())),
+    bug("cuboid-far-side", "Intersect cuboids", "where the ray leaves", PIECES, Bug::Instead(|| pieces::cuboid_far_side.into_configs())),
     bug("zero-is-none", "Classify hits", "shape 0 taken for none", MOST, Bug::After(|| hits::zero_is_none.into_configs())),
     bug("normal-inward", "Describe sphere surfaces", "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", "Describe sphere surfaces", "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
     bug("normal-as-direction", "Describe ellipsoid surfaces", "taken for a direction", SCALED, Bug::After(|| hits::normal_as_direction.into_configs())),
     bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
+    bug("disk-inward", "Describe disk surfaces", "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
+    bug("rectangle-epsilon", "Describe rectangle surfaces", "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
+    bug("round-cuboid", "Describe cuboid surfaces", "normal as a sphere's", PIECES, Bug::After(|| pieces::round_cuboid.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
     bug("behind-counts", "Look for planes in the way", "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
+    bug("disks-ignored", "Look for disks in the way", "not looked for", PIECES, Bug::Instead(|| light::disks_ignored.into_configs())),
+    bug("rectangles-ignored", "Look for rectangles in the way", "not looked for", PIECES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
+    bug("cuboids-ignored", "Look for cuboids in the way", "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
     bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),

@@ -7,6 +7,7 @@
 //!
 //! [`words`] is the one list of what a file may hold.
 
+mod fingerprint;
 mod found;
 mod open;
 mod problem;
@@ -18,6 +19,7 @@ mod slip;
 mod word;
 mod write;
 
+pub use fingerprint::fingerprint;
 pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
 pub use word::words;

@@ -3,7 +3,7 @@ use super::refer::resolve;
 use super::scan::{entities, fields};
 use super::slip::{Slip, place_of};
 use super::{FileProblem, PlaceInFile};
-use crate::scene::{ChildOf, Disabled, Name, Refusal, UsesMaterial};
+use crate::scene::{ChildOf, Disabled, Name, Refusal, SceneFolder, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -110,6 +110,8 @@ impl SceneFile {
                 put.insert(Disabled);
             }
         }
+        // Last, so that entities keep the numbers that their order gives them.
+        world.insert_resource(SceneFolder::of(&self.path));
         world
     }
 }

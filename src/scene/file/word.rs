@@ -1,7 +1,7 @@
 use crate::scene::{
-    Adaptive, Background, BlinnPhong, Cuboid, DirectionalLight, Disk, Emissive, Layers, LookAt, Matte,
-    OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Resolution, Sampling,
-    Sphere, SpotLight, Statistics, Triangle, View,
+    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, Gradient,
+    ImageTexture, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
+    Rectangle, Resolution, Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -35,7 +35,12 @@ const WORDS: &[Word] = &[
     Word::of::<Phong>("phong"),
     Word::of::<BlinnPhong>("blinn_phong"),
     Word::of::<Emissive>("emissive"),
+    Word::of::<Checker>("checker"),
+    Word::of::<Stripes>("stripes"),
+    Word::of::<ImageTexture>("image_texture"),
     Word::of::<Background>("background"),
+    Word::of::<Gradient>("gradient"),
+    Word::of::<Environment>("environment"),
     Word::of::<View>("view"),
     Word::of::<Layers>("layers"),
     Word::of::<Statistics>("statistics"),

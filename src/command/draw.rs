@@ -1,0 +1,25 @@
+use super::arguments::DrawImage;
+use crate::figure::DRAWN_IMAGES;
+use crate::film::write_whole;
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// Draws an image that a chapter reads from a file, or lists those there are.
+pub fn draw_image(asked: &DrawImage, out: &mut dyn Write) -> Result {
+    let Some(name) = &asked.name else {
+        for image in &DRAWN_IMAGES {
+            writeln!(out, "{:<18} {}; kept in {}", image.file, image.about, image.folder)?;
+        }
+        return Ok(());
+    };
+    let Some(image) = DRAWN_IMAGES.iter().find(|image| image.file == name) else {
+        let names: Vec<&str> = DRAWN_IMAGES.iter().map(|image| image.file).collect();
+        return Err(Error::Usage(format!("there is no image \"{name}\" to be drawn; there are {}", names.join(", "))));
+    };
+    let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join(image.file));
+    let bytes = image.bytes()?;
+    write_whole(&file, |file| file.write_all(&bytes))?;
+    writeln!(out, "wrote {}", file.display())?;
+    Ok(())
+}

@@ -1,0 +1,263 @@
+use super::arguments::ReportErrors;
+use super::interrupt::interrupted;
+use super::subject::Subject;
+use crate::chapter::{Asked, Chapter};
+use crate::extract::{ImageShape, camera_entity, validate};
+use crate::film::{check_place, write_whole};
+use crate::plan::Table;
+use crate::render::Watch;
+use crate::report::kept::{keep, kept, made_from};
+use crate::report::ladder::Ladder;
+use crate::report::page::page;
+use crate::report::pictures::pictures;
+use crate::report::plot::{Against, plot};
+use crate::report::provenance::{Provenance, load};
+use crate::report::run::Shelf;
+use crate::report::runner::{Progress, Variant, fingerprint, run_all};
+use crate::report::sum_up::{measure, sum_up};
+use crate::report::summary::Report;
+use crate::scene::{Filter, Resolution, Sampler, Sampling, scene_text};
+use crate::{Error, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
+use std::path::Path;
+
+/// The pixels of a report's image, unless it is told otherwise: as many as fit its time.
+const PIXELS: f64 = 96.0 * 54.0;
+/// The first chapter that has a report.
+const FIRST_CHAPTER: u32 = 13;
+
+/// Measures error against run time, or shows what is kept of an earlier measurement.
+pub fn report(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+    if asked.kept {
+        return show_kept(chapters, asked, out);
+    }
+    if asked.subject == "all" {
+        return chapters.iter().filter(|chapter| has_report(chapter)).try_for_each(|chapter| {
+            // What a chapter is compared with is what it was compared with last.
+            let against = kept(chapter.name).map_or_else(|_| asked.against.clone(), |report| report.against);
+            let asked = ReportErrors { subject: chapter.name.into(), against, ..asked.clone() };
+            measure_one(chapters, &asked, out)
+        });
+    }
+    measure_one(chapters, asked, out)
+}
+
+/// Whether a chapter's report is kept beside it: from the first on that takes many samples.
+pub fn has_report(chapter: &Chapter) -> bool {
+    let number = chapter.name.split_once('_').and_then(|(number, _)| number.parse::<u32>().ok());
+    number.is_some_and(|number| number >= FIRST_CHAPTER)
+}
+
+fn show_kept(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+    let report = kept(super::find::chapter(chapters, &asked.subject)?.name)?;
+    let Some(file) = &asked.output else {
+        write!(out, "{report}")?;
+        return Ok(());
+    };
+    let against = if asked.samples_axis { Against::Samples } else { Against::Render };
+    write_whole(file, |file| file.write_all(plot(&report, against).text.as_bytes()))?;
+    writeln!(out, "wrote {}", file.display())?;
+    Ok(())
+}
+
+fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+    let subject = Subject::find(chapters, &asked.subject)?;
+    let name = file_stem(&subject, &asked.against);
+    let files = ["html", "json", "csv"].map(|ending| Path::new("out/report").join(format!("{name}.{ending}")));
+    files.iter().try_for_each(|file| check_place(file))?;
+    let rivals = rivals(chapters, &asked.against)?;
+    let size = size(&subject, asked.size)?;
+    let variants = variants(&subject, &rivals, size)?;
+    let ladder = Ladder::new(asked.quick);
+    let sources = made_from(if let Subject::Chapter(chapter) = &subject { chapter.name } else { "cover" })?;
+    let threads = asked.threads.map_or(1, usize::from);
+    let shelf_made_from = fingerprint(&variants, &ladder, &format!("{sources} {threads}"))?;
+    let shelf = Shelf::new(Path::new("out/report").join(format!("{name}.runs")), shelf_made_from);
+    let mut provenance = Provenance::now(command_line(asked));
+    let waiting = Bar::new(&ladder, &variants);
+    let runs = run_all(&variants, &ladder, threads, &shelf, &waiting);
+    waiting.bar.finish_and_clear();
+    let runs = runs.map_err(|error| match error {
+        Error::Interrupted => Error::Usage(format!(
+            "stopped; the runs made so far are kept in out/report/{name}.runs, and the same command goes on from there"
+        )),
+        other => other,
+    })?;
+    provenance.load[1] = load();
+    let measured = measure(&variants, &ladder, &runs)?;
+    let scenes = variants
+        .iter()
+        .map(|variant| Ok(crate::measure::cost::fingerprint(scene_text(&(variant.scene)())?.as_bytes())));
+    let empty = Report {
+        name: subject.stem(),
+        title: subject.title().into(),
+        against: asked.against.clone(),
+        scenes: scenes.collect::<Result<Vec<_>>>()?,
+        size: [size.width, size.height],
+        ladder: ladder.clone(),
+        threads,
+        variants: Vec::new(),
+        comparisons: Vec::new(),
+        family_level: 0.0,
+        timers: None,
+        flags: Vec::new(),
+        provenance,
+        made_from: sources,
+    };
+    let report = sum_up(empty, &variants, &runs, &measured);
+    let html = page(&report, &pictures(&report, &variants, &runs, &measured))?;
+    let json = serde_json::to_string_pretty(&report).map_err(std::io::Error::from)?;
+    let texts = [html, json, crate::report::csv::csv(&variants, &ladder, &runs, &measured)];
+    for (file, text) in files.iter().zip(&texts) {
+        write_whole(file, |file| file.write_all(text.as_bytes()))?;
+    }
+    write!(out, "{report}")?;
+    if asked.write {
+        keep(&report)?;
+        writeln!(out, "wrote {}", crate::report::kept::place(&report.name).display())?;
+    }
+    shelf.clear()?;
+    writeln!(out, "wrote {}", files.map(|file| file.display().to_string()).join(", "))?;
+    Ok(())
+}
+
+/// What the first variant is compared with.
+enum Rival<'c> {
+    Subject(Subject<'c>),
+    Sampler(&'static str, Sampler),
+    Filter(&'static str, Filter),
+}
+
+fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
+    let rival = |word: &String| match word.split_once('=') {
+        Some(("sampler", name)) => {
+            let found = Sampler::ALL.into_iter().find(|(word, _)| *word == name);
+            found
+                .map(|(word, sampler)| Rival::Sampler(word, sampler))
+                .ok_or_else(|| no_such("sampler", name, &Sampler::ALL))
+        }
+        Some(("filter", name)) => {
+            let found = Filter::ALL.into_iter().find(|(word, _)| *word == name);
+            found.map(|(word, filter)| Rival::Filter(word, filter)).ok_or_else(|| no_such("filter", name, &Filter::ALL))
+        }
+        Some((other, _)) => Err(Error::Usage(format!(
+            "--against takes a chapter, a scene file, sampler=NAME or filter=NAME, and {other} is none of these"
+        ))),
+        None => Subject::find(chapters, word).map(Rival::Subject),
+    };
+    against.iter().map(rival).collect()
+}
+
+fn no_such<T>(kind: &str, name: &str, all: &[(&'static str, T)]) -> Error {
+    let all: Vec<&str> = all.iter().map(|(word, _)| *word).collect();
+    Error::Usage(format!("there is no {kind} \"{name}\"; there are {}", all.join(", ")))
+}
+
+/// The subject itself, then each rival: the subject with another sampler or filter, or another scene.
+fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolution) -> Result<Vec<Variant<'c>>> {
+    let asked = move || Asked { resolution: Some(size), view: None, ..Asked::default() };
+    let of =
+        |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
+            let world = subject.picture_world(&asked());
+            validate(&world).map_err(|refusal| subject.placed(refusal.into(), &asked()))?;
+            let camera = camera_entity(&world)?;
+            let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
+            change(&mut sampling);
+            let scene = Box::new(move || subject.picture_world(&asked()));
+            Ok(Variant { name, sampling, stages: subject.stages(), scene, reference })
+        };
+    let mut variants = vec![of(subject, String::new(), &|_| (), 0)?];
+    for rival in rivals {
+        let own = variants.len();
+        let next = match rival {
+            Rival::Sampler(word, sampler) => of(subject, (*word).into(), &|it| it.sampler = *sampler, 0)?,
+            Rival::Filter(word, filter) => of(subject, (*word).into(), &|it| it.filter = *filter, own)?,
+            Rival::Subject(other) => of(other, other.stem(), &|_| (), own)?,
+        };
+        let same = variants.iter().position(|it: &Variant<'_>| it.name == next.name);
+        if same.is_some() {
+            return Err(Error::Usage(format!("{} is named twice", next.name)));
+        }
+        variants.push(next);
+    }
+    variants[0].name = first_name(subject, rivals, &variants[0].sampling);
+    Ok(variants)
+}
+
+/// What the subject is called: by what the others differ in.
+fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) -> String {
+    let sampler = Sampler::ALL.iter().find(|(_, it)| *it == sampling.sampler).map_or("its sampler", |(word, _)| word);
+    let filter = Filter::ALL.iter().find(|(_, it)| *it == sampling.filter).map_or("its filter", |(word, _)| word);
+    let [samplers, filters] = [
+        rivals.iter().any(|rival| matches!(rival, Rival::Sampler(..))),
+        rivals.iter().any(|rival| matches!(rival, Rival::Filter(..))),
+    ];
+    match (samplers, filters) {
+        (true, false) => sampler.into(),
+        (false, true) => filter.into(),
+        (true, true) => format!("{sampler}, {filter}"),
+        (false, false) => subject.stem(),
+    }
+}
+
+/// The image's size: as asked, or the scene's own shape at a number of pixels that fits a report's time.
+fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> {
+    if let Some(size) = asked {
+        return Ok(size);
+    }
+    let world = subject.picture_world(&Asked::default());
+    validate(&world).map_err(|refusal| subject.placed(refusal.into(), &Asked::default()))?;
+    let ImageShape { width, height, .. } = ImageShape::extract(&world)?;
+    let aspect = f64::from(width) / f64::from(height);
+    let across = (PIXELS * aspect).sqrt().round().clamp(1.0, PIXELS);
+    let down = (across / aspect).round().max(1.0);
+    Ok(Resolution { width: (across as u32).min(width), height: (down as u32).min(height) })
+}
+
+fn file_stem(subject: &Subject<'_>, against: &[String]) -> String {
+    let letter = |letter: char| if letter.is_ascii_alphanumeric() || "_-".contains(letter) { letter } else { '-' };
+    let words: Vec<String> = against.iter().map(|word| word.chars().map(letter).collect()).collect();
+    if words.is_empty() { subject.stem() } else { format!("{}-against-{}", subject.stem(), words.join("-")) }
+}
+
+fn command_line(asked: &ReportErrors) -> String {
+    let mut words = format!("cargo run --release -- report {}", asked.subject);
+    asked.against.iter().for_each(|against| words += &format!(" --against {against}"));
+    if let Some(Resolution { width, height }) = asked.size {
+        words += &format!(" --size {width}x{height}");
+    }
+    if asked.quick {
+        words += " --quick";
+    }
+    words
+}
+
+/// A bar that counts samples.
+struct Bar {
+    bar: ProgressBar,
+}
+
+impl Bar {
+    fn new(ladder: &Ladder, variants: &[Variant<'_>]) -> Self {
+        let references = variants.iter().enumerate().filter(|(own, variant)| variant.reference == *own).count() as u64;
+        let all = variants.len() as u64 * ladder.samples_of_runs() + references * ladder.reference_samples();
+        let bar = ProgressBar::new(all);
+        if let Ok(style) = ProgressStyle::with_template("measuring {bar:40} {percent:>3} %  {eta} left") {
+            bar.set_style(style);
+        }
+        Self { bar }
+    }
+}
+
+impl Watch for Bar {
+    fn stopped(&self) -> bool {
+        interrupted()
+    }
+}
+
+impl Progress for Bar {
+    fn run_done(&self, samples: u64) {
+        self.bar.inc(samples);
+    }
+}

@@ -1,0 +1,47 @@
+use super::Texels;
+use super::check::{at_most_one, kind_and_name, number};
+use super::image_file::{Numbers, read_texels};
+use crate::plan::Table;
+use crate::scene::{Environment, Refusal};
+use bevy_ecs::prelude::*;
+
+/// The radiance of a background from an image of all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentTable {
+    /// Linear Rec. 709 radiance.
+    pub image: Texels,
+    /// Sine and cosine of the turn about +y.
+    pub turn: [f64; 2],
+}
+
+impl Table for EnvironmentTable {
+    const NAME: &'static str = "environment";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let Some(entity) = at_most_one::<Environment>(scene, "environment", "Environment")? else {
+            return Ok(Self { image: Texels::single([0.0; 3]), turn: [0.0, 1.0] });
+        };
+        let Environment { file, turn, scale } = scene.get::<Environment>(entity).cloned().unwrap_or_default();
+        let who = kind_and_name(scene, "environment", entity);
+        if !turn.0.is_finite() {
+            return Err(Refusal::new(who, "turn", format!("{}°", number(turn.0)), "it must be a finite angle"));
+        }
+        if !(0.0..f64::INFINITY).contains(&scale) {
+            return Err(Refusal::new(who, "scale", number(scale), "it must be a finite number of at least 0"));
+        }
+        let mut image = read_texels(scene, &who, &file, Numbers::Radiance)?;
+        for part in image.rgb.iter_mut().flatten() {
+            *part = (f64::from(*part) * scale) as f32;
+        }
+        if image.rgb.iter().flatten().any(|part| !part.is_finite()) {
+            let accepted = "the brightest texel times it must be at most 3.4e38";
+            return Err(Refusal::new(who, "scale", number(scale), accepted));
+        }
+        let (sine, cosine) = libm::sincos(turn.radians());
+        Ok(Self { image, turn: [sine, cosine] })
+    }
+
+    fn bytes(&self) -> usize {
+        self.image.rgb.len() * size_of::<[f32; 3]>() + size_of::<[f64; 2]>()
+    }
+}

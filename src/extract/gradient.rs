@@ -1,0 +1,29 @@
+use super::check::{at_most_one, kind_and_name, light_colour};
+use crate::plan::Table;
+use crate::scene::{Gradient, Refusal, Rgb};
+use bevy_ecs::prelude::*;
+
+/// The radiance of a background that changes from below to above.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GradientTable {
+    /// Straight down, linear Rec. 709.
+    pub bottom: [f64; 3],
+    /// Straight up.
+    pub top: [f64; 3],
+}
+
+impl Table for GradientTable {
+    const NAME: &'static str = "gradient";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let Some(entity) = at_most_one::<Gradient>(scene, "gradient", "Gradient")? else { return Ok(Self::default()) };
+        let gradient = scene.get::<Gradient>(entity).copied().unwrap_or_default();
+        let who = kind_and_name(scene, "gradient", entity);
+        let colour = |field, colour: Rgb| light_colour(&who, field, colour).map(Rgb::to_array);
+        Ok(Self { bottom: colour("bottom", gradient.bottom)?, top: colour("top", gradient.top)? })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

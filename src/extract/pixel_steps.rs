@@ -1,0 +1,43 @@
+use super::{CameraAxes, ImageShape, PinholeLens, SamplingTable, ViewRectangle, camera_entity};
+use crate::plan::Table;
+use crate::scene::{OrthographicCamera, Refusal};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// The least share of a pixel that a sample stands for, however many there are, as in pbrt-v4: neighbouring samples are
+/// drawn at random, and so further apart than the pixel's side over the root of their number.
+const LEAST_SHARE: f64 = 0.125;
+
+/// How a camera's rays change from one sample to the next: to the right, and down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelSteps {
+    /// Of the direction, where the image plane is at distance 1; 0 for parallel rays.
+    pub direction: [DVec3; 2],
+    /// Of the origin; 0 where all rays start at the eye.
+    pub origin: [DVec3; 2],
+    /// The direction in which the camera looks, a unit vector.
+    pub ahead: DVec3,
+}
+
+impl Table for PixelSteps {
+    const NAME: &'static str = "pixel steps";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (image, axes) = (ImageShape::extract(scene)?, CameraAxes::extract(scene)?.world_from_camera);
+        // A pixel is as wide as it is high, on a screen that is 2 high.
+        let share = (1.0 / f64::from(SamplingTable::extract(scene)?.samples).sqrt()).max(LEAST_SHARE);
+        let pixel = 2.0 / f64::from(image.height) * share;
+        let steps = |length: f64| [axes.x_axis * length, -axes.y_axis * length];
+        let parallel = scene.get::<OrthographicCamera>(camera_entity(scene)?).is_some();
+        let (direction, origin) = if parallel {
+            ([DVec3::ZERO; 2], steps(pixel * ViewRectangle::extract(scene)?.half_height))
+        } else {
+            (steps(pixel * PinholeLens::extract(scene)?.tan_half_vertical), [DVec3::ZERO; 2])
+        };
+        Ok(Self { direction, origin, ahead: -axes.z_axis })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

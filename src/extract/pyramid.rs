@@ -1,0 +1,114 @@
+use super::Texels;
+
+/// An image and its ever smaller copies, each half as wide and as high as the one before, down to a single texel.
+///
+/// Each texel is the mean of the part of the image that it stands for, in linear light.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pyramid {
+    /// The image first.
+    pub levels: Vec<Texels>,
+}
+
+impl Pyramid {
+    /// The pyramid that stands on an image.
+    pub fn on(image: Texels) -> Self {
+        let mut levels = vec![image];
+        while let Some(below) = levels.last().filter(|level| level.width * level.height > 1) {
+            let next = halved(below);
+            levels.push(next);
+        }
+        Self { levels }
+    }
+
+    /// Bytes that its texels take.
+    pub fn bytes(&self) -> usize {
+        self.levels.iter().map(|level| level.rgb.len() * size_of::<[f32; 3]>()).sum()
+    }
+}
+
+// ANCHOR: halved
+/// The same image at half the size, rounded down but not to 0; where a side is odd, a texel is split between the two that
+/// it lies in, so that no light is lost.
+pub fn halved(image: &Texels) -> Texels {
+    let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
+    let mut rgb = Vec::with_capacity(width * height);
+    for y in 0..height {
+        for x in 0..width {
+            rgb.push(mean(image, covered(x, width, image.width), covered(y, height, image.height)));
+        }
+    }
+    Texels { width, height, rgb }
+}
+
+/// From where to where a texel of the smaller side reaches, in texels of the larger one.
+fn covered(at: usize, smaller: usize, larger: usize) -> [f64; 2] {
+    [at, at + 1].map(|edge| (edge * larger) as f64 / smaller as f64)
+}
+
+/// The mean of a rectangle of an image, texels that lie in it partly counted by that part.
+///
+/// Differences to one texel are summed, so that the mean of equal texels is that texel to the last bit.
+fn mean(image: &Texels, across: [f64; 2], down: [f64; 2]) -> [f32; 3] {
+    let part = |range: [f64; 2], at: usize| range[1].min(at as f64 + 1.0) - range[0].max(at as f64);
+    let whole = |range: [f64; 2]| range[0] as usize..range[1].ceil() as usize;
+    let base = image.rgb[whole(down).start * image.width + whole(across).start].map(f64::from);
+    let (mut sum, mut area) = ([0.0; 3], 0.0);
+    for y in whole(down) {
+        for x in whole(across) {
+            let weight = part(across, x) * part(down, y);
+            area += weight;
+            for (channel, sum) in sum.iter_mut().enumerate() {
+                *sum += weight * (f64::from(image.rgb[y * image.width + x][channel]) - base[channel]);
+            }
+        }
+    }
+    [0, 1, 2].map(|channel| (base[channel] + sum[channel] / area) as f32)
+}
+// ANCHOR_END: halved
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Some image whose texels differ.
+    fn image(width: usize, height: usize) -> Texels {
+        let texel = |at: usize| {
+            let mixed = |salt: usize| ((at * 7919 + salt * 104_729) % 1009) as f32 / 1009.0;
+            [mixed(1), mixed(2), mixed(3)]
+        };
+        Texels { width, height, rgb: (0..width * height).map(texel).collect() }
+    }
+
+    fn sums(level: &Texels) -> [f64; 3] {
+        let count = level.rgb.len() as f64;
+        [0, 1, 2].map(|channel| level.rgb.iter().map(|texel| f64::from(texel[channel])).sum::<f64>() / count)
+    }
+
+    #[test]
+    fn every_level_holds_the_same_light() {
+        let mut levels = 0;
+        for (width, height) in [(1, 1), (1, 9), (2, 2), (3, 5), (7, 64), (64, 64), (101, 37), (256, 3)] {
+            let pyramid = Pyramid::on(image(width, height));
+            let whole = sums(&pyramid.levels[0]);
+            for level in &pyramid.levels {
+                assert_eq!(level.rgb.len(), level.width * level.height);
+                for (mean, whole) in sums(level).into_iter().zip(whole) {
+                    assert!((mean - whole).abs() <= 1e-6 * whole, "{width} × {height}: {mean} for {whole}");
+                }
+                levels += 1;
+            }
+            let top = pyramid.levels.last().expect("a level");
+            assert_eq!((top.width, top.height), (1, 1));
+        }
+        eprintln!("pyramids: {levels} levels hold the light of their images");
+    }
+
+    #[test]
+    fn a_constant_image_is_its_constant_in_every_level() {
+        for (width, height) in [(1, 1), (3, 5), (64, 48), (101, 37)] {
+            let constant = [0.1, 0.7, 1.0 / 3.0];
+            let pyramid = Pyramid::on(Texels { width, height, rgb: vec![constant; width * height] });
+            assert!(pyramid.levels.iter().all(|level| level.rgb.iter().all(|&texel| texel == constant)));
+        }
+    }
+}

@@ -1,0 +1,251 @@
+use super::check::{kind_and_name, positive_length, triple};
+use super::material::material_entities;
+use super::{eye, pose, shape_entities};
+use crate::plan::{Evidence, Table, entities};
+use crate::scene::{Checker, ImageTexture, Refusal, Stripes, TextureBy, UsesMaterial};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+use std::collections::BTreeSet;
+
+/// The row of a material without a texture of a kind.
+pub const NO_TEXTURE: u32 = u32::MAX;
+
+/// A kind of texture.
+pub trait Texture: Component {
+    /// What messages call it.
+    const WORD: &'static str;
+    /// What a plan counts.
+    const NOUN: &'static str;
+    /// What it is laid along.
+    fn by(&self) -> TextureBy;
+    /// Whether a pixel gets the mean of what it covers.
+    fn filter(&self) -> bool;
+}
+
+impl Texture for Checker {
+    const WORD: &'static str = "checker";
+    const NOUN: &'static str = "checkered material";
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn filter(&self) -> bool {
+        self.filter
+    }
+}
+
+impl Texture for Stripes {
+    const WORD: &'static str = "stripes";
+    const NOUN: &'static str = "striped material";
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn filter(&self) -> bool {
+        self.filter
+    }
+}
+
+impl Texture for ImageTexture {
+    const WORD: &'static str = "image texture";
+    const NOUN: &'static str = "image texture";
+    fn by(&self) -> TextureBy {
+        self.by
+    }
+    fn filter(&self) -> bool {
+        self.filter
+    }
+}
+
+/// Evidence that a shape is made of a material with such a texture.
+pub fn texture_of_kind<T: Texture>(scene: &World, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
+    let shapes = shape_entities(scene);
+    let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
+    let reached: BTreeSet<Entity> = used.chain(shapes.iter().copied()).collect();
+    Evidence::among::<With<T>>(scene, noun, |entity| {
+        reached.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
+    })
+}
+
+/// Evidence that a shape is made of a material with a texture of any kind.
+pub fn texture_evidence(scene: &World) -> Evidence {
+    texture_of_kind::<Checker>(scene, Checker::NOUN, |_| true)
+        .or(texture_of_kind::<Stripes>(scene, Stripes::NOUN, |_| true))
+        .or(texture_of_kind::<ImageTexture>(scene, ImageTexture::NOUN, |_| true))
+}
+
+/// Evidence that a texture is filtered.
+pub fn filtered_evidence(scene: &World) -> Evidence {
+    texture_of_kind(scene, "filtered checker", Checker::filter)
+        .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
+        .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
+}
+
+/// Evidence that a texture is laid along uv.
+pub fn by_uv_evidence(scene: &World) -> Evidence {
+    texture_of_kind::<Checker>(scene, "checker by uv", |texture| texture.by == TextureBy::Uv)
+        .or(texture_of_kind::<Stripes>(scene, "stripe pattern by uv", |texture| texture.by == TextureBy::Uv))
+        .or(texture_of_kind::<ImageTexture>(scene, "image by uv", |texture| texture.by == TextureBy::Uv))
+}
+
+/// Evidence that a texture is laid along uv and filtered.
+pub fn filtered_by_uv_evidence(scene: &World) -> Evidence {
+    fn such<T: Texture>(texture: &T) -> bool {
+        texture.by() == TextureBy::Uv && texture.filter()
+    }
+    texture_of_kind(scene, "filtered checker by uv", such::<Checker>)
+        .or(texture_of_kind(scene, "filtered stripe pattern by uv", such::<Stripes>))
+        .or(texture_of_kind(scene, "filtered image by uv", such::<ImageTexture>))
+}
+
+/// What a texture's coordinates are made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Laid {
+    /// There is no texture.
+    #[default]
+    Nowhere,
+    /// u and v.
+    AlongUv,
+    /// The point in the shape's own space.
+    InSpace,
+    /// The same, seen along the axis that the surface faces most.
+    OnFaces,
+}
+
+/// How a material's texture is laid: from uv or the shape's space to the texture's own coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TextureMap {
+    /// What the coordinates are made of.
+    pub laid: Laid,
+    /// Coordinates a unit.
+    pub matrix: DMat3,
+    /// The coordinates of the origin.
+    pub shift: DVec3,
+}
+
+/// How each material's texture is laid, in the order of the materials.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextureMaps {
+    /// One a material.
+    pub map: Vec<TextureMap>,
+}
+
+impl Table for TextureMaps {
+    const NAME: &'static str = "texture maps";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        check_owners(scene)?;
+        let map = material_entities(scene).into_iter().map(|material| texture_map(scene, material));
+        Ok(Self { map: map.collect::<Result<_, _>>()? })
+    }
+
+    fn bytes(&self) -> usize {
+        self.map.len() * size_of::<TextureMap>()
+    }
+}
+
+/// How the texture that a material's entity carries is laid.
+fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
+    if let Some(checker) = scene.get::<Checker>(material) {
+        let size = size_of_texture::<Checker>(scene, material, checker.size)?;
+        return Ok(laid_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
+    }
+    if let Some(stripes) = scene.get::<Stripes>(material) {
+        let size = size_of_texture::<Stripes>(scene, material, stripes.size)?;
+        let mut across = stripes.across;
+        if stripes.by == TextureBy::Uv {
+            across.z = 0.0;
+        }
+        let longest = across.abs().max_element();
+        if !(longest > 0.0 && longest.is_finite()) {
+            let accepted = match stripes.by {
+                TextureBy::Uv => "its x and y, along u and v, must be a finite direction other than 0",
+                TextureBy::Space => "it must be a finite direction other than 0",
+            };
+            let who = kind_and_name(scene, Stripes::WORD, material);
+            return Err(Refusal::new(who, "across", triple(stripes.across), accepted));
+        }
+        let row = (across / longest).normalize() / size;
+        return Ok(laid_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
+    }
+    if let Some(image) = scene.get::<ImageTexture>(material) {
+        let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
+        let map = laid_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
+        return Ok(if image.by == TextureBy::Space { TextureMap { laid: Laid::OnFaces, ..map } } else { map });
+    }
+    Ok(TextureMap::default())
+}
+
+/// In space a cell's or image's middle is at the origin, along uv its corner.
+fn laid_by(by: TextureBy, matrix: DMat3) -> TextureMap {
+    match by {
+        TextureBy::Uv => TextureMap { laid: Laid::AlongUv, matrix, shift: DVec3::ZERO },
+        TextureBy::Space => TextureMap { laid: Laid::InSpace, matrix, shift: DVec3::splat(0.5) },
+    }
+}
+
+fn size_of_texture<T: Texture>(scene: &World, material: Entity, size: f64) -> Result<f64, Refusal> {
+    positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
+}
+
+/// Every texture must belong to a material, and a material have one texture.
+fn check_owners(scene: &World) -> Result<(), Refusal> {
+    let materials: BTreeSet<Entity> = material_entities(scene).into_iter().collect();
+    let mut owned: Vec<(Entity, &str)> = Vec::new();
+    owned.extend(entities::<With<Checker>>(scene).into_iter().map(|owner| (owner, Checker::WORD)));
+    owned.extend(entities::<With<Stripes>>(scene).into_iter().map(|owner| (owner, Stripes::WORD)));
+    owned.extend(entities::<With<ImageTexture>>(scene).into_iter().map(|owner| (owner, ImageTexture::WORD)));
+    owned.sort_by_key(|(owner, _)| owner.index());
+    for (at, &(owner, word)) in owned.iter().enumerate() {
+        let who = kind_and_name(scene, word, owner);
+        if !materials.contains(&owner) {
+            let accepted = "a texture belongs on an entity that is a material, such as one with a Matte";
+            return Err(Refusal::new(who, "material", "missing", accepted));
+        }
+        if let Some((_, other)) = owned.get(at + 1).filter(|(other, _)| *other == owner) {
+            let value = format!("given twice, as {word} and as {other}");
+            return Err(Refusal::new(who, "texture", value, "a material may have one texture only"));
+        }
+    }
+    Ok(())
+}
+
+/// The row that each material has among those with a texture of one kind, and the entities that are these rows.
+pub(super) fn rows_of_kind<T: Texture>(scene: &World) -> (Vec<u32>, Vec<Entity>) {
+    let (mut of_material, mut rows) = (Vec::new(), Vec::new());
+    for material in material_entities(scene) {
+        let carries = scene.get::<T>(material).is_some();
+        of_material.push(if carries { rows.len() as u32 } else { NO_TEXTURE });
+        rows.extend(carries.then_some(material));
+    }
+    (of_material, rows)
+}
+
+/// Each shape's own space, in the order of the shapes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShapeSpaces {
+    /// Where its origin is, from the eye.
+    pub origin: Vec<DVec3>,
+    /// Takes a difference of two points into it.
+    pub shape_from_world: Vec<DMat3>,
+    /// Takes one out of it.
+    pub world_from_shape: Vec<DMat3>,
+}
+
+impl Table for ShapeSpaces {
+    const NAME: &'static str = "shape spaces";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for shape in shape_entities(scene) {
+            let pose = pose(scene, &kind_and_name(scene, "shape", shape), shape)?;
+            table.origin.push(pose.world_from_entity.translation - eye);
+            table.shape_from_world.push(pose.entity_from_world);
+            table.world_from_shape.push(pose.world_from_entity.matrix3);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.origin.len() * (size_of::<DVec3>() + 2 * size_of::<DMat3>())
+    }
+}

@@ -1,0 +1,70 @@
+use super::check::{kind_and_name, reflectance};
+use super::texture::{Texture, rows_of_kind};
+use crate::plan::Table;
+use crate::scene::{Checker, Refusal, Rgb, Stripes};
+use bevy_ecs::prelude::*;
+
+/// Textures of one kind that are made of two colours, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TwoColours {
+    /// The row of each material's texture; [`NO_TEXTURE`](super::NO_TEXTURE) where it has none of this kind.
+    pub of_material: Vec<u32>,
+    /// The one colour, as a share of light from 0 to 1.
+    pub first: Vec<[f64; 3]>,
+    /// The other.
+    pub second: Vec<[f64; 3]>,
+    /// Whether a pixel gets the mean of what it covers.
+    pub filter: Vec<bool>,
+}
+
+impl TwoColours {
+    fn of<T: Texture>(scene: &World, colours: impl Fn(&T) -> (Rgb, Rgb)) -> Result<Self, Refusal> {
+        let (of_material, rows) = rows_of_kind::<T>(scene);
+        let mut table = Self { of_material, ..Self::default() };
+        for material in rows {
+            let Some(texture) = scene.get::<T>(material) else { continue };
+            let who = kind_and_name(scene, T::WORD, material);
+            let (first, second) = colours(texture);
+            table.first.push(reflectance(&who, "first", first)?.to_array());
+            table.second.push(reflectance(&who, "second", second)?.to_array());
+            table.filter.push(texture.filter());
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.of_material.len() * 4 + self.first.len() * (2 * size_of::<[f64; 3]>() + size_of::<bool>())
+    }
+}
+
+/// The materials that are checkered.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CheckerTable(pub TwoColours);
+
+/// The materials that are striped.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StripesTable(pub TwoColours);
+
+impl Table for CheckerTable {
+    const NAME: &'static str = "checkers";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        TwoColours::of::<Checker>(scene, |checker| (checker.first, checker.second)).map(Self)
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+}
+
+impl Table for StripesTable {
+    const NAME: &'static str = "stripes";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        TwoColours::of::<Stripes>(scene, |stripes| (stripes.first, stripes.second)).map(Self)
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+}

@@ -1,0 +1,18 @@
+use crate::plan::Plan;
+use crate::scene::fingerprint;
+use bevy_ecs::prelude::*;
+
+/// What a film is a film of, as a number: two renders with the same key add to the same sums.
+///
+/// It depends on the scene but for the number of samples, on the stages that run, and on the program's version; the
+/// number of workers and the side of a tile are no part of it.
+pub fn film_key(scene: &World, plan: &Plan) -> u64 {
+    let mut text = String::from(env!("CARGO_PKG_VERSION"));
+    text += &fingerprint(scene);
+    for row in plan.rows.iter().filter(|row| row.kept) {
+        text += row.stage;
+        text.push('\n');
+    }
+    // FNV-1a.
+    text.bytes().fold(0xCBF2_9CE4_8422_2325, |key, byte| (key ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+}

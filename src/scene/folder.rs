@@ -1,0 +1,18 @@
+use bevy_ecs::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// The folder that the files which a scene names are relative to; the current one where a scene has none.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct SceneFolder(pub PathBuf);
+
+impl SceneFolder {
+    /// The folder of a scene file.
+    pub fn of(scene_file: &Path) -> Self {
+        Self(scene_file.parent().map(Path::to_path_buf).unwrap_or_default())
+    }
+
+    /// Where a file that the scene names is.
+    pub fn path_of(scene: &World, file: &str) -> PathBuf {
+        scene.get_resource::<Self>().map_or_else(|| PathBuf::from(file), |folder| folder.0.join(file))
+    }
+}

@@ -1,0 +1,42 @@
+use super::SurfaceColours;
+use crate::extract::{MaterialTable, texture_evidence};
+use crate::intersect::{MaterialRows, Surfaces};
+use crate::plan::{Column, Shared, Stage, TileSystems};
+use bevy_ecs::prelude::*;
+
+// ANCHOR: colour_surfaces
+/// Gives every row that sends on light the colour of its material, and black to the others.
+pub fn colour_surfaces(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &mut SurfaceColours)>,
+) {
+    for (surfaces, list, mut colours) in &mut tiles {
+        let (r, g, b) = colours.slices_mut(surfaces.rows());
+        r.fill(0.0);
+        g.fill(0.0);
+        b.fill(0.0);
+        for &row in &list.row {
+            let row = row as usize;
+            [r[row], g[row], b[row]] = materials.colour[surfaces.material[row] as usize];
+        }
+    }
+}
+// ANCHOR_END: colour_surfaces
+
+impl SurfaceColours {
+    /// Writes a row.
+    #[inline(always)]
+    pub(super) fn set(&mut self, row: usize, colour: [f64; 3]) {
+        [self.r[row], self.g[row], self.b[row]] = colour;
+    }
+}
+
+/// The stage on offer: what textures then colour again.
+pub fn colour_stage() -> Stage {
+    Stage::new("Colour surfaces", TileSystems::Colour, colour_surfaces)
+        .reads::<Surfaces>()
+        .reads::<MaterialRows>()
+        .writes::<SurfaceColours>()
+        .table::<MaterialTable>()
+        .when(texture_evidence)
+}

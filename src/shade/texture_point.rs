@@ -1,0 +1,193 @@
+use super::Footprints;
+use crate::extract::{
+    Laid, ShapeSpaces, TextureMap, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence, most_of,
+    texture_evidence,
+};
+use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::rays::WorldRays;
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+
+column! {
+    /// Where each surface lies on its texture, and what its pixel covers there; all 0 where it has none.
+    pub struct TexturePoints("texture", "of the texture", "cells, stripes, images", Ray) {
+        /// The first coordinate.
+        x: f64,
+        /// The second.
+        y: f64,
+        /// The third.
+        z: f64,
+        /// The pixel's step to the right, x; 0 where nothing is filtered.
+        rx: f64,
+        /// The step to the right, y.
+        ry: f64,
+        /// The step to the right, z.
+        rz: f64,
+        /// The step down, x.
+        dx: f64,
+        /// The step down, y.
+        dy: f64,
+        /// The step down, z.
+        dz: f64,
+    }
+}
+
+/// One row of [`TexturePoints`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TexturePoint {
+    /// Where, in units of the texture.
+    pub point: DVec3,
+    /// The pixel's steps to the right and down.
+    pub steps: [DVec3; 2],
+}
+
+impl TexturePoint {
+    /// The same without what the pixel covers.
+    #[inline(always)]
+    pub fn alone(self) -> Self {
+        Self { steps: [DVec3::ZERO; 2], ..self }
+    }
+}
+
+impl TexturePoints {
+    /// Each coordinate's part after the point.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.x[row], self.y[row], self.z[row]].map(|part| (part - part.floor()) as f32)
+    }
+
+    /// Reads a row.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> TexturePoint {
+        TexturePoint {
+            point: DVec3::new(self.x[row], self.y[row], self.z[row]),
+            steps: [
+                DVec3::new(self.rx[row], self.ry[row], self.rz[row]),
+                DVec3::new(self.dx[row], self.dy[row], self.dz[row]),
+            ],
+        }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, row: usize, at: TexturePoint) {
+        (self.x[row], self.y[row], self.z[row]) = at.point.into();
+        (self.rx[row], self.ry[row], self.rz[row]) = at.steps[0].into();
+        (self.dx[row], self.dy[row], self.dz[row]) = at.steps[1].into();
+    }
+}
+
+/// A step through a matrix; a step without end has none in any direction.
+#[inline(always)]
+fn mapped(matrix: DMat3, step: DVec3) -> DVec3 {
+    ended(matrix * step)
+}
+
+#[inline(always)]
+fn ended(step: DVec3) -> DVec3 {
+    if step.is_finite() { step } else { DVec3::INFINITY }
+}
+
+/// The two axes of a shape's space that an image is laid along on a side that faces this way, as rows: those of the side
+/// of a cuboid across the axis that the normal has most of.
+#[inline(always)]
+pub fn face_from_space(normal: DVec3) -> DMat3 {
+    let axis = most_of(normal);
+    let [right, down] = face_axes(axis, normal[axis] < 0.0);
+    DMat3::from_cols(right, down, DVec3::ZERO).transpose()
+}
+
+/// Fills where on its texture each row is.
+pub fn lay_textures(
+    maps: Res<Shared<TextureMaps>>,
+    spaces: Res<Shared<ShapeSpaces>>,
+    slopes: Option<Res<Shared<UvSlopes>>>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &Surfaces,
+        &MaterialRows,
+        Option<&SurfaceUvs>,
+        Option<&Footprints>,
+        &mut TexturePoints,
+    )>,
+) {
+    for (rays, hits, surfaces, list, uvs, footprints, mut points) in &mut tiles {
+        let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
+        [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
+        for &row in &list.row {
+            let row = row as usize;
+            let map = &maps.map[surfaces.material[row] as usize];
+            let shape = hits.shape[row] as usize;
+            let steps = footprints.map_or([DVec3::ZERO; 2], |footprints| footprints.get(row));
+            let at = match map.laid {
+                Laid::Nowhere => continue,
+                Laid::AlongUv => {
+                    let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
+                    let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
+                        let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
+                        let normal = surfaces.get(row).normal.as_dvec3();
+                        [0, 1].map(|way| ended(slopes.slope[shape].step(at.point, normal, steps[way], at.steps[way])))
+                    });
+                    TexturePoint { point: uv, steps }
+                }
+                Laid::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps),
+                Laid::OnFaces => {
+                    let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
+                    let normal = surfaces.get(row).normal.as_dvec3();
+                    on_face(face_from_space(spaces.world_from_shape[shape].transpose() * normal), at)
+                }
+            };
+            points.set(row, on_texture(map, at));
+        }
+    }
+}
+
+// ANCHOR: in_space
+/// A point and its pixel's steps, in the shape's own space.
+#[inline(always)]
+fn in_space(spaces: &ShapeSpaces, shape: usize, point: DVec3, steps: [DVec3; 2]) -> TexturePoint {
+    let matrix = spaces.shape_from_world[shape];
+    TexturePoint { point: matrix * (point - spaces.origin[shape]), steps: steps.map(|step| mapped(matrix, step)) }
+}
+// ANCHOR_END: in_space
+
+fn on_face(face: DMat3, at: TexturePoint) -> TexturePoint {
+    TexturePoint { point: face * at.point, steps: at.steps.map(|step| mapped(face, step)) }
+}
+
+#[inline(always)]
+fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
+    TexturePoint { point: map.matrix * at.point + map.shift, steps: at.steps.map(|step| mapped(map.matrix, step)) }
+}
+
+/// The stage on offer.
+pub fn lay_stage() -> Stage {
+    Stage::new("Lay textures", TileSystems::Colour, lay_textures)
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<Surfaces>()
+        .reads::<MaterialRows>()
+        .reads_where::<SurfaceUvs>(by_uv_evidence)
+        .reads_if::<Footprints>()
+        .writes::<TexturePoints>()
+        .table::<TextureMaps>()
+        .table::<ShapeSpaces>()
+        .table_where::<UvSlopes>(filtered_by_uv_evidence)
+        .when(texture_evidence)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn from_outside_no_face_mirrors_the_image() {
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+        for side in sides {
+            let face = face_from_space(side * 0.8 + DVec3::new(0.1, -0.2, 0.3));
+            let (right, down) = (face.row(0), face.row(1));
+            assert_eq!(down.cross(right), side, "right and down are seen as such from outside");
+            assert!(side.y != 0.0 || down == DVec3::NEG_Y, "it stands upright");
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Renders in passes: the same bits however they are cut, stopped and continued; by time; by error; with layers.
+
+mod scenes;
+
+#[path = "long_renders/adaptive.rs"]
+mod adaptive;
+#[path = "long_renders/killed.rs"]
+mod killed;
+#[path = "long_renders/layers.rs"]
+mod layers;
+
+use bevy_ecs::prelude::*;
+use pinhole::Error;
+use pinhole::film::{Film, read_checkpoint, write_checkpoint};
+use pinhole::measure::film_bits::FilmBits;
+use pinhole::render::{Execution, Limits, RenderUnderWay, Watch, Worlds, film_key, render, render_in_passes, steps_of};
+use pinhole::scene::*;
+use scenes::{Setup, full, named};
+use std::fs;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Every stage, and those that every chapter has.
+pub fn offer() -> Vec<pinhole::plan::Stage> {
+    pinhole::Chapter::new("all", "all", |_| ())
+        .offer(pinhole::rays::stages())
+        .offer(pinhole::intersect::stages())
+        .offer(pinhole::shade::stages())
+        .stages()
+}
+
+/// A scene whose camera takes samples, and whatever else is put on it.
+pub fn sampled(size: [u32; 2], sampling: Sampling, more: impl Bundle) -> World {
+    let mut scene = full(Setup { size, ..Setup::default() });
+    let camera = named(&mut scene, "camera");
+    scene.entity_mut(camera).insert((sampling, more));
+    scene
+}
+
+const SIZE: [u32; 2] = [45, 37];
+
+fn seven(sampler: Sampler) -> Sampling {
+    Sampling { samples: 7, seed: 5, sampler, ..Sampling::default() }
+}
+
+fn everything_of(film: &Film) -> (FilmBits, &Vec<pinhole::film::FilmMoments>) {
+    (FilmBits::of(film), &film.moments)
+}
+
+#[test]
+fn passes_of_any_lengths_make_the_same_film() {
+    let variance = Layers { kinds: vec![LayerKind::Variance] };
+    let mut tried = 0;
+    for (_, sampler) in Sampler::ALL {
+        let scene = sampled(SIZE, seven(sampler), variance.clone());
+        let whole = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
+        assert!(FilmBits::of(&whole).colours() > 500);
+        let cuts: [&[u32]; 5] = [&[1, 2, 3, 4], &[2, 5, 6, 9], &[4], &[3, 8], &[1, 10]];
+        for (number, cut) in cuts.into_iter().enumerate() {
+            for worlds in [Worlds::PerWorker, Worlds::One] {
+                let threads = Some(1 + number % 3);
+                let execution = Execution { threads, worlds, ..Execution::default() };
+                let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+                for &step in cut.iter().chain([&steps_of(7)]) {
+                    under_way.advance(step, &()).expect("goes on");
+                }
+                assert!(everything_of(&under_way.film) == everything_of(&whole), "{sampler:?}, {cut:?}, {worlds:?}");
+                tried += 1;
+            }
+        }
+        for tile_side in [8, 31, 64] {
+            let execution = Execution { tile_side, ..Execution::default() };
+            let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+            for step in [1, 2, 3, 6, steps_of(7)] {
+                under_way.advance(step, &()).expect("goes on");
+            }
+            FilmBits::of(&under_way.film).assert_is(&FilmBits::of(&whole), &format!("tiles of {tile_side}"));
+            tried += 1;
+        }
+        let limits = Limits { write_every: Some(Duration::ZERO), ..Limits::default() };
+        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut kept = 0;
+        let mut keep = |_: &Film| {
+            kept += 1;
+            Ok(())
+        };
+        let outcome = render_in_passes(&mut under_way, &limits, &(), &mut keep).expect("renders");
+        assert_eq!((outcome.samples, outcome.stopped, outcome.out_of_time), (7, false, false));
+        assert!(kept >= 3, "kept {kept} times");
+        assert!(everything_of(&under_way.film) == everything_of(&whole), "{sampler:?} in passes");
+        tried += 1;
+    }
+    eprintln!("passes: {tried} ways to cut {} films of 7 samples, every bit the same", Sampler::ALL.len());
+}
+
+#[test]
+fn the_first_pass_shows_every_eighth_pixel_and_the_others_show_it_too() {
+    let scene = sampled(SIZE, seven(Sampler::Sobol), ());
+    let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut seen = Vec::new();
+    for (step, lattice) in [(1, 8), (2, 4), (3, 2), (4, 1)] {
+        under_way.advance(step, &()).expect("goes on");
+        let film = &under_way.film;
+        let traced: u32 = film.tiles.iter().flat_map(|tile| &tile.count).sum();
+        assert_eq!(traced, SIZE[0].div_ceil(lattice) * SIZE[1].div_ceil(lattice));
+        for y in 0..SIZE[1] {
+            for x in 0..SIZE[0] {
+                let shown = film.mean(x, y);
+                assert_eq!(shown, film.mean(x / lattice * lattice, y / lattice * lattice), "{x},{y} of {lattice}");
+            }
+        }
+        seen.push(traced);
+    }
+    eprintln!("low resolution first: {seen:?} of {} pixels are traced", SIZE[0] * SIZE[1]);
+}
+
+/// Stops after so many tiles.
+struct StopAfter(AtomicU64);
+
+impl Watch for StopAfter {
+    fn tile_done(&self) {
+        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
+    }
+
+    fn stopped(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("picture.checkpoint");
+    let sampling = seven(Sampler::Sobol);
+    let scene = sampled(SIZE, sampling, Layers::all());
+    let key = film_key(&scene, &RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins").plan);
+    let whole = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
+    let mut stops = 0;
+    for tiles in 1..20 {
+        let execution = Execution { threads: Some(2), tile_side: 16, ..Execution::default() };
+        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+        let watch = StopAfter(AtomicU64::new(tiles));
+        for step in [1, 4, 6, steps_of(7)] {
+            match under_way.advance(step, &watch) {
+                Ok(()) => {}
+                Err(Error::Interrupted) => {
+                    stops += 1;
+                    break;
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+        write_checkpoint(&under_way.film, key, &path).expect("written");
+        let kept = read_checkpoint(key, &path).expect("read");
+        assert!(kept == under_way.film, "a checkpoint holds all of a film");
+        let mut next = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        next.take(kept);
+        next.advance(steps_of(7), &()).expect("goes on");
+        FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped after {tiles} tiles"));
+        let by_pixel = |film: &Film| -> Vec<Vec<u64>> {
+            let places = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
+            let bits = |(x, y)| {
+                let (tile, row) = film.place(x, y);
+                let (layers, moments) = (&film.layers[tile], &film.moments[tile]);
+                let sums = layers.sums.iter().map(|lane| lane[row].to_bits());
+                let counts = layers.counts().map(|lane| u64::from(lane[row]));
+                sums.chain(counts).chain([moments.r[row].to_bits(), moments.b[row].to_bits()]).collect()
+            };
+            places.map(bits).collect()
+        };
+        assert!(by_pixel(&next.film) == by_pixel(&whole), "layers and moments after {tiles} tiles");
+    }
+    assert!(stops > 5, "only {stops} stops");
+    eprintln!("stopped: {stops} times between two tiles, continued to the same bits with all layers");
+}
+
+#[test]
+fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("picture.checkpoint");
+    let plan_of = |scene: &World| RenderUnderWay::begin(scene, &offer(), &Execution::default()).expect("begins").plan;
+    let key_of = |sampling: Sampling, more: Layers| {
+        let scene = sampled(SIZE, sampling, more);
+        film_key(&scene, &plan_of(&scene))
+    };
+    let (sobol, layers) = (seven(Sampler::Sobol), Layers { kinds: vec![LayerKind::Position] });
+    let key = key_of(sobol, layers.clone());
+    assert_eq!(key, key_of(Sampling { samples: 70, ..sobol }, layers.clone()), "more samples continue it");
+    for other in [
+        key_of(Sampling { seed: 6, ..sobol }, layers.clone()),
+        key_of(Sampling { filter: Filter::Box { radius: 0.25 }, ..sobol }, layers.clone()),
+        key_of(sobol, Layers { kinds: vec![LayerKind::Normal] }),
+        key_of(seven(Sampler::Independent), layers.clone()),
+    ] {
+        assert_ne!(key, other);
+    }
+    let stratified = seven(Sampler::Stratified);
+    assert_ne!(key_of(stratified, layers.clone()), key_of(Sampling { samples: 8, ..stratified }, layers.clone()));
+
+    let scene = sampled([16, 16], sobol, layers);
+    let film = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
+    write_checkpoint(&film, key, &path).expect("written");
+    let good = fs::read(&path).expect("read");
+    let refused = |bytes: &[u8], key: u64| {
+        fs::write(&path, bytes).expect("written");
+        let said = read_checkpoint(key, &path).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(said.starts_with(&format!("cannot continue from {}: ", path.display())), "{said}");
+        assert!(!said.contains('\n') && !said.ends_with('.'), "{said}");
+        said
+    };
+    let mut cut = 0;
+    for length in (0..good.len()).step_by(97).chain([good.len() - 1]) {
+        let said = refused(&good[..length], key);
+        assert!(said.contains("cut short or damaged"), "{length}: {said}");
+        cut += 1;
+    }
+    let mut damaged = 0;
+    for at in (32..good.len()).step_by(61) {
+        let mut bytes = good.clone();
+        bytes[at] ^= 0x10;
+        let said = refused(&bytes, key);
+        assert!(said.contains("cut short or damaged"), "{at}: {said}");
+        damaged += 1;
+    }
+    assert!(refused(&[good.as_slice(), b"x"].concat(), key).contains("cut short or damaged"));
+    assert!(refused(b"PNG and more than twenty bytes", key).contains("no checkpoint"));
+    assert!(refused(&good, key + 1).contains("of another scene"));
+    let mut later = good.clone();
+    later[20] = 9;
+    assert!(refused(&later, key).contains("version 9"));
+    eprintln!("checkpoints: {cut} cut short, {damaged} damaged, all refused");
+}
+
+#[test]
+fn a_time_is_kept_to_within_a_pass() {
+    let sampling = Sampling { samples: 1 << 20, ..seven(Sampler::Sobol) };
+    let scene = sampled(SIZE, sampling, ());
+    for time in [50, 200, 600].map(Duration::from_millis) {
+        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let began = Instant::now();
+        let limits = Limits { time: Some(time), ..Limits::default() };
+        let outcome = render_in_passes(&mut under_way, &limits, &(), &mut |_| Ok(())).expect("renders");
+        let took = began.elapsed();
+        assert!(outcome.out_of_time && outcome.samples >= 1);
+        // A machine that others work on too may take a pass out of turn.
+        assert!(took < time * 3 + Duration::from_millis(300), "{time:?} became {took:?}");
+        let over = took.as_secs_f64() / time.as_secs_f64() - 1.0;
+        eprintln!("time: {time:?} asked, {took:?} taken ({:+.1} %), {} samples", over * 100.0, outcome.samples);
+    }
+}

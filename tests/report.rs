@@ -1,0 +1,163 @@
+//! The statistics of `report` on renderers of known variance and bias.
+
+#[path = "report/coverage.rs"]
+mod coverage;
+#[path = "report/synthetic.rs"]
+mod synthetic;
+
+use coverage::coverage;
+use pinhole::measure::image_error::Numbers;
+use pinhole::report::curve::{Curve, Level};
+use pinhole::report::ensemble::{Ensemble, Reference};
+use pinhole::report::interval::LEVEL;
+use pinhole::report::refusal::{Refused, disjoint};
+use synthetic::{Noise, PIECES, Renderer};
+
+/// Repetitions of each case here; `cargo bench --bench coverage` makes 1,000.
+const REPETITIONS: usize = 60;
+
+/// The share of binomial draws of `of` at `share` that are below `held`.
+fn below(held: usize, of: usize, share: f64) -> f64 {
+    let mut term = (1.0 - share).powi(of as i32);
+    let mut sum = 0.0;
+    for k in 0..held {
+        sum += term;
+        term *= (of - k) as f64 / (k + 1) as f64 * share / (1.0 - share);
+    }
+    sum
+}
+
+/// Were every true coverage 95 %, one of these would be outside its band once in ten thousand runs of the test; the
+/// draws have fixed seeds, so it either holds or not.
+#[test]
+fn intervals_hold_the_truth_as_often_as_they_say() {
+    let mut tried = 0;
+    for noise in [Noise::Gaussian, Noise::Uniform, Noise::Lognormal(0.5)] {
+        for bias in [0.0, 0.1] {
+            for row in coverage(noise, bias, REPETITIONS) {
+                assert_eq!(row.refused, 0, "{noise:?}, bias {bias}: {row:?}");
+                let (low, high) = (below(row.held + 1, row.of, 0.95), 1.0 - below(row.held, row.of, 0.97));
+                assert!(low > 1e-4 && high > 1e-4, "{noise:?}, bias {bias}: {row:?}");
+                tried += row.of;
+            }
+        }
+    }
+    eprintln!("report: {tried} intervals at 95 %, each kind within its binomial band");
+}
+
+#[test]
+fn a_planted_bias_is_found_and_an_absent_one_is_not() {
+    let (mut found, mut imagined, repetitions) = (0, 0, 40);
+    for seed in 0..repetitions {
+        for bias in [0.0, 0.1] {
+            let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias, seconds: 1e-3 };
+            let reference = renderer.reference(64, seed);
+            let curve = renderer.curve(&[64], 16, (&reference, 64), seed);
+            let interval = curve.levels[0].ensemble.bias_squared().expect("16 seeds").interval(LEVEL);
+            if bias > 0.0 {
+                found += usize::from(interval.low > 0.0)
+            } else {
+                imagined += usize::from(interval.low > 0.0)
+            }
+        }
+    }
+    assert_eq!(found, repetitions as usize);
+    // 40 draws at 2.5 %: more than 6 come up once in 10⁵ tests.
+    assert!(imagined <= 6, "{imagined} of {repetitions} found a bias that is not there");
+    eprintln!("report: a planted bias found {found} times of {repetitions}, an absent one {imagined} times");
+}
+
+#[test]
+fn error_is_variance_and_bias_together_exactly() {
+    let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.1, seconds: 1e-3 };
+    let reference = renderer.reference(16, 5);
+    let ensemble = &renderer.curve(&[4], 16, (&reference, 16), 9).levels[0].ensemble;
+    let [mse, variance, bias] = [ensemble.mse(), ensemble.variance(), ensemble.bias_squared()]
+        .map(|estimate| estimate.expect("16 seeds and 8 pieces").value);
+    assert!((mse - variance - bias).abs() < 1e-15, "{mse} is not {variance} + {bias}");
+}
+
+/// Three images of one pixel, worked out by hand: X = 2, 4, 4.5, 5.5 and P = 1, 3 (so P̄ = 2, V_ref = 1).
+#[test]
+fn images_of_known_error_are_measured_exactly() {
+    let grey = |value: f64| Numbers { size: [1, 1], pixels: vec![[value; 3]], white: None };
+    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two pieces");
+    let runs: Vec<Numbers> = [2.0, 4.0, 4.5, 5.5].map(grey).to_vec();
+    let ensemble = Ensemble::of(&runs, &reference);
+    assert_eq!(ensemble.reference_variance(), Some(1.0));
+    assert_eq!(ensemble.mse_of_runs(), [-1.0, 3.0, 5.25, 11.25]);
+    assert_eq!(ensemble.mse().expect("four runs").value, 18.5 / 4.0);
+    // D = 0, 2, 2.5, 3.5: the sum is 8 and that of the squares 22.5, so pairs give (64 − 22.5) / 12.
+    assert!((ensemble.bias_squared().expect("four runs").value - (41.5 / 12.0 - 1.0)).abs() < 1e-15);
+    assert!((ensemble.variance().expect("four runs").value - (22.5 - 16.0) / 3.0).abs() < 1e-15);
+}
+
+#[test]
+fn one_run_has_an_error_and_no_interval() {
+    let grey = |value: f64| Numbers { size: [1, 1], pixels: vec![[value; 3]], white: None };
+    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two pieces");
+    let ensemble = Ensemble::of(&[grey(5.0)], &reference);
+    assert_eq!(ensemble.mse_of_runs(), [8.0]);
+    assert!(ensemble.mse().is_none() && ensemble.variance().is_none() && ensemble.bias_squared().is_none());
+    let level = Level { samples: 1, ensemble, seconds: vec![1.0] };
+    let refused = level.told_mse(LEVEL).expect_err("refused").to_string();
+    assert_eq!(refused, "no interval: 1 seeds are too few, 4 are needed");
+    assert!(Reference::of(&[]).is_none());
+}
+
+#[test]
+fn pixels_that_are_no_numbers_join_no_product() {
+    let two = |value: f64, odd: f64| Numbers { size: [2, 1], pixels: vec![[value; 3], [odd; 3]], white: None };
+    let reference = Reference::of(&[two(1.0, 1.0), two(3.0, 1.0)]).expect("two pieces");
+    for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let runs = [two(2.0, 1.0), two(4.0, odd), two(4.5, 1.0), two(5.5, 1.0)];
+        let ensemble = Ensemble::of(&runs, &reference);
+        assert_eq!((ensemble.compared, ensemble.mse_of_runs()), (1, vec![-1.0, 3.0, 5.25, 11.25]));
+    }
+}
+
+#[test]
+fn what_the_reference_cannot_carry_is_refused() {
+    let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.0, seconds: 1e-3 };
+    // In one piece, and only sixteen times as long as the longest run.
+    let short = Reference::of(&[renderer.render(256, 1)]).expect("a piece");
+    let curve = renderer.curve(&[1, 4, 16], 8, (&short, 256), 3);
+    let curve = Curve { pieces: 1, reference_samples: 256, ..curve };
+    let refused = curve.slope(LEVEL).expect_err("refused");
+    assert_eq!(refused, Refused::ReferenceTooShort { longest: 16, reference: 256 });
+    let sentence = "no slope: the longest run has 16 samples a pixel and the reference 256 in one piece, whose variance \
+                    is unknown; it needs 1600 in one piece, or two pieces of disjoint seeds";
+    assert_eq!(refused.to_string(), sentence);
+    // A method so good that the reference's noise hides its error.
+    let good = Renderer { deviation: 1e-4, ..renderer };
+    let noisy = renderer.reference(1, 1);
+    let curve = good.curve(&[1, 4], 8, (&noisy, 1), 3);
+    let refused = curve.slope(LEVEL).expect_err("refused");
+    assert!(matches!(refused, Refused::BelowReference { samples: 1, .. }), "{refused}");
+    // No randomness, no error: nothing to fit.
+    let exact = Renderer { deviation: 0.0, ..renderer };
+    let reference = exact.reference(1, 1);
+    let refused = exact.curve(&[1, 4], 8, (&reference, 1), 3).slope(LEVEL).expect_err("refused");
+    assert_eq!(refused, Refused::NoError { samples: 1 });
+    assert_eq!(disjoint(&[4, 5, 6], &[6]), Err(Refused::SharedSeed { seed: 6 }));
+}
+
+/// Subtracting V_ref mends the slope that a reference no longer than the longest run would give.
+#[test]
+fn a_short_reference_does_not_flatten_the_slope() {
+    let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.0, seconds: 1e-3 };
+    let ladder = [1, 4, 16, 64];
+    let reference = renderer.reference(64 / PIECES as u64, 2);
+    let curve = renderer.curve(&ladder, 16, (&reference, 64 / PIECES as u64), 4);
+    let slope = curve.slope(LEVEL).expect("carried").interval(LEVEL);
+    assert!(slope.holds(-1.0) && slope.high - slope.low < 0.3, "{slope:?}");
+    let naive: Vec<[f64; 2]> = (curve.levels.iter())
+        .map(|level| {
+            let reference = level.ensemble.reference_variance().expect("pieces");
+            [(level.samples as f64).ln(), (level.ensemble.mse().expect("seeds").value + reference).ln()]
+        })
+        .collect();
+    let flat = (naive[3][1] - naive[0][1]) / (naive[3][0] - naive[0][0]);
+    assert!(flat > -0.9, "not subtracting gave {flat}");
+    eprintln!("report: slope {:.3}, and {flat:.3} where V_ref stays in", slope.value);
+}
