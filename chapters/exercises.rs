@@ -41,6 +41,9 @@ pub mod how_it_is_built;
 #[path = "13_shapes/exercise.rs"]
 pub mod shapes;
 
+#[path = "16_textures/exercise.rs"]
+pub mod textures;
+
 #[path = "17_sampling/exercise.rs"]
 pub mod sampling;
 
@@ -82,6 +85,9 @@ pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
 
 /// Chapter 13.
 pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
+
+/// Chapter 16.
+pub const TEXTURES: Attempt = Attempt::MeanOfStripes(textures::mean_of_stripes);
 
 /// Chapter 17.
 pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);

@@ -81,7 +81,7 @@ pub fn all() -> Vec<Chapter> {
         shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter(),
         reflection::chapter(),
-        textures::chapter(),
+        textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter(),
     ]

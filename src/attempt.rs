@@ -30,6 +30,8 @@ pub enum Attempt {
     Kept(fn(&[StageWords], &str) -> Vec<String>),
     /// Chapter 13: origin, direction, the box's corners of least and of most coordinates.
     NearestBoxT(fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Option<f64>),
+    /// Chapter 16: the middle of a range, its width.
+    MeanOfStripes(fn(f64, f64) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
 }
@@ -51,6 +53,7 @@ impl Attempt {
             Self::OursFromTheirs(_) => "ours_from_theirs",
             Self::Kept(_) => "kept",
             Self::NearestBoxT(_) => "nearest_box_t",
+            Self::MeanOfStripes(_) => "mean_of_stripes",
             Self::TentOffset(_) => "tent_offset",
         }
     }

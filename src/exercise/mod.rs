@@ -26,6 +26,7 @@ mod sampling;
 mod screen;
 mod shapes;
 mod shown;
+mod textures;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -54,6 +55,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
+        Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -29,6 +29,7 @@ mod pinhole;
 mod pixel_ray;
 mod props;
 mod ray;
+mod rings;
 mod samples;
 mod scenery;
 mod screen;
@@ -73,7 +74,7 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 22] {
+pub fn figures() -> [Figure; 23] {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     [
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
@@ -170,10 +171,16 @@ pub fn figures() -> [Figure; 22] {
             draw: slabs::draw,
         },
         Figure {
-            name: "17_aliasing",
+            name: "16_aliasing",
+            chapter: "16_textures",
+            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+            draw: aliasing::draw,
+        },
+        Figure {
+            name: "17_rings",
             chapter: "17_sampling",
             about: "rings that become finer than a pixel, through three ways of placing samples",
-            draw: aliasing::draw,
+            draw: rings::draw,
         },
         Figure {
             name: "17_points",

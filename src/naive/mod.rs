@@ -18,4 +18,5 @@ pub mod sampling;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;
+pub mod texture;
 pub mod triangle;
