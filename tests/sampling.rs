@@ -226,7 +226,10 @@ fn the_command_line_samples_what_it_is_told_and_refuses_in_a_sentence() {
         ("plan 5 --sampler halton", "a sampler is one of sobol, stratified, independent"),
         ("plan 5 --filter lanczos", "a filter is one of box, tent, gaussian, mitchell, blackman-harris"),
         ("trace 5 --pixel 1,2 --sample 1", "sample is 1, but the camera takes one sample of each pixel, number 0"),
-        ("trace 5 --pixel 1,2 --samples 4 --sample 4", "sample is 4, but the camera takes samples 0 to 3 of each pixel"),
+        (
+            "trace 5 --pixel 1,2 --samples 4 --sample 4",
+            "sample is 4, but the camera takes samples 0 to 3 of each pixel",
+        ),
     ] {
         let refused = run(words).0.expect_err(words);
         assert!(refused.contains(told) && !refused.contains('\n') && !refused.ends_with('.'), "{words}: {refused}");

@@ -42,9 +42,10 @@ fn question() -> Question<Input, f64> {
                 r * (1.0 - (1.0 - u).sqrt())
             }),
             Mistake::new("left and right are swapped; the place must grow with u", |&(u, r)| -tent_offset(u, r)),
-            Mistake::new("the place is counted from the pixel's edge; asked is the distance from its centre", |input| {
-                0.5 + tent_offset(input.0, input.1)
-            }),
+            Mistake::new(
+                "the place is counted from the pixel's edge; asked is the distance from its centre",
+                |input| 0.5 + tent_offset(input.0, input.1),
+            ),
         ],
         hints: &[
             "half of the samples belong to each side; take u below 1/2 for the left side, and count how much of that \

@@ -37,9 +37,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
 }
 
-fn place_on_grid(
-    mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut RasterPoints, &mut PixelSamples)>,
-) {
+fn place_on_grid(mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut RasterPoints, &mut PixelSamples)>) {
     for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples) in &mut tiles {
         let (xs, ys) = raster.slices_mut(active.len());
         let (pixels, numbers) = samples.slices_mut(active.len());

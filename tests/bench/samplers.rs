@@ -6,6 +6,7 @@
 //! `-- --trials 200` takes fewer means.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
+#[allow(dead_code, reason = "pairs and their interval are for other benchmarks")]
 mod interval;
 
 use interval::{cpu, median};
@@ -66,18 +67,26 @@ fn points() {
     let stratified = nanoseconds(|| sum_over_pixels(Stratified::new(5, 16, 0, Purpose::Pixel)));
     let uneven = nanoseconds(|| sum_over_pixels(Stratified::new(5, 17, 0, Purpose::Pixel)));
     let sobol = nanoseconds(|| sum_over_pixels(Sobol::new(5, 0, Purpose::Pixel)));
-    println!("a point of 2 numbers: independent {independent:.2} ns, stratified {stratified:.2} ns (17 samples: {uneven:.2} ns), sobol {sobol:.2} ns");
+    println!(
+        "a point of 2 numbers: independent {independent:.2} ns, stratified {stratified:.2} ns (17 samples: \
+         {uneven:.2} ns), sobol {sobol:.2} ns"
+    );
 }
 
 fn offsets() {
     for (word, filter) in Filter::ALL {
         let cells = FilterCells::of(filter);
-        let sum = |offset: &dyn Fn(f64) -> f64| (0..PIXELS).map(|bits| offset(unit(bits.wrapping_mul(2_654_435_761)))).sum();
+        let sum = |offset: &dyn Fn(f64) -> f64| -> f64 {
+            (0..PIXELS).map(|bits| offset(unit(bits.wrapping_mul(2_654_435_761)))).sum()
+        };
         let taken = match filter {
             Filter::Box { radius } => nanoseconds(|| sum(&|u| box_offset(u, radius))),
             Filter::Tent { radius } => nanoseconds(|| sum(&|u| tent_offset(u, radius))),
             _ => nanoseconds(|| sum(&|u| table_offset(u, &cells).0)),
         };
-        println!("an offset of {word}: {taken:.2} ns, table of {} bytes", cells.cells.len() * 56 + cells.first.len() * 2);
+        println!(
+            "an offset of {word}: {taken:.2} ns, table of {} bytes",
+            cells.cells.len() * 56 + cells.first.len() * 2
+        );
     }
 }

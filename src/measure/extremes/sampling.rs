@@ -101,9 +101,8 @@ fn judge_stripes(range: Range<u64>) -> Tally {
         let (period, phase, pixel) = (draws.between(0.5, 1.0), draws.unit(), index as u32);
         let bright = |x: f64| (x / period + phase).rem_euclid(1.0) < 0.5;
         let key = PixelKey::new(5, [pixel, 1]);
-        let places = |place: &dyn Fn(u32) -> f64| {
-            (0..MANY).filter(|&n| bright(place(n))).count() as f64 / f64::from(MANY)
-        };
+        let places =
+            |place: &dyn Fn(u32) -> f64| (0..MANY).filter(|&n| bright(place(n))).count() as f64 / f64::from(MANY);
         let exact = bright_share(period, phase);
         tally.count(true);
         tally.scores[0].measure((places(&|n| unit(Sobol::new(n, 0, Purpose::Pixel).two(key)[0])) - exact).abs());
