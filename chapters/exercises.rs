@@ -50,6 +50,9 @@ pub mod reflection;
 #[path = "16_textures/exercise.rs"]
 pub mod textures;
 
+#[path = "17_sampling/exercise.rs"]
+pub mod sampling;
+
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
@@ -100,6 +103,9 @@ pub const REFLECTION: Attempt = Attempt::PhongRadiance(reflection::phong_radianc
 
 /// Chapter 16.
 pub const TEXTURES: Attempt = Attempt::MeanOfStripes(textures::mean_of_stripes);
+
+/// Chapter 17.
+pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);

@@ -82,7 +82,7 @@ pub fn all() -> Vec<Chapter> {
         transforms::chapter().exercise(exercises::TRANSFORMS),
         reflection::chapter().exercise(exercises::REFLECTION),
         textures::chapter().exercise(exercises::TEXTURES),
-        sampling::chapter(),
+        sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]
 }

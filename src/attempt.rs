@@ -38,6 +38,8 @@ pub enum Attempt {
     PhongRadiance(fn([f64; 3], f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 17: a number from 0 to below 1, the tent's radius.
+    TentOffset(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -61,6 +63,7 @@ impl Attempt {
             Self::MeanOfStripes(_) => "mean_of_stripes",
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
+            Self::TentOffset(_) => "tent_offset",
         }
     }
 }

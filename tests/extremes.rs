@@ -67,6 +67,11 @@ fn triangles_hold() {
 }
 
 #[test]
+fn samples_hold() {
+    holds(Group::Sampling, 4096);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

@@ -122,9 +122,11 @@ fn rows_systems_columns_and_tables_are_one_list() {
         for column in &columns {
             assert_eq!((column.present)(&tile), of_plan.contains(column.name), "{on:?}: column {}", column.name);
         }
+        // Where samples are taken: which one, and of which pixels.
+        let sampled = if on.contains(&Toggle::Samples) { 2 } else { 0 };
         assert_eq!(
             tile.archetype().components().len(),
-            plan.columns.len() + 1,
+            plan.columns.len() + 1 + sampled,
             "{on:?}: columns and the tile, no more"
         );
 

@@ -129,7 +129,7 @@ pub struct CompareImages {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// sphere, plane, shadow, camera, transform or film (default: all)
+    /// sphere, plane, shadow, camera, transform, sampling or film (default: all)
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text

@@ -24,6 +24,7 @@ mod question;
 mod ray;
 mod reflection;
 mod report;
+mod sampling;
 mod screen;
 mod shapes;
 mod shown;
@@ -61,5 +62,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
+        Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -61,6 +61,18 @@ pub const CAMERAS: &[Case] = &[
         w.despawn(camera);
     }),
     ("the only camera disabled", &["camera", "missing"], |w| put(w, "main", Disabled)),
+    ("no samples", &["\"main\"", "samples", "is 0,", "1 to 16777216"], |w| {
+        put(w, "main", Sampling { samples: 0, ..Sampling::default() });
+    }),
+    ("more samples than a number tells apart", &["\"main\"", "samples", "16777217", "1 to 16777216"], |w| {
+        put(w, "main", Sampling { samples: (1 << 24) + 1, ..Sampling::default() });
+    }),
+    ("a filter of no width", &["\"main\"", "filter radius", "is 0,", "0.015625 to 64"], |w| {
+        filter(w, Filter::Tent { radius: 0.0 });
+    }),
+    ("a bell wider than its filter", &["\"main\"", "filter sigma", "is 20,", "0.1875 to 12"], |w| {
+        filter(w, Filter::Gaussian { radius: 1.5, sigma: 20.0 });
+    }),
     ("two cameras", &["camera", "\"main\"", "\"second\""], |w| {
         w.spawn((Name::new("second"), PerspectiveCamera::default()));
     }),
@@ -384,11 +396,22 @@ pub const ORTHOGRAPHIC: &[Case] = &[
     }),
 ];
 
+/// A camera that samples with this filter.
+fn filter(world: &mut World, filter: Filter) {
+    put(world, "main", Sampling { filter, ..Sampling::default() });
+}
+
 /// A field of a component, the entity, how to set it.
 pub type Field = (&'static str, &'static str, fn(&mut World, f64));
 
 /// Every number that an author writes.
 pub const FIELDS: &[Field] = &[
+    ("filter radius", "main", |w, v| filter(w, Filter::Box { radius: v })),
+    ("filter radius", "main", |w, v| filter(w, Filter::Tent { radius: v })),
+    ("filter radius", "main", |w, v| filter(w, Filter::BlackmanHarris { radius: v })),
+    ("filter sigma", "main", |w, v| filter(w, Filter::Gaussian { radius: 1.5, sigma: v })),
+    ("filter b", "main", |w, v| filter(w, Filter::Mitchell { radius: 2.0, b: v, c: 0.3 })),
+    ("filter c", "main", |w, v| filter(w, Filter::Mitchell { radius: 2.0, b: 0.3, c: v })),
     ("fov", "main", |w, v| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(v))),
     ("eye", "main", |w, v| look_at(w, LookAt { eye: DVec3::new(v, 0.0, 1.0), ..LookAt::default() })),
     ("eye", "main", |w, v| look_at(w, LookAt { eye: DVec3::new(0.0, v, 1.0), ..LookAt::default() })),

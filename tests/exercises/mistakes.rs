@@ -146,6 +146,12 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
     ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
+    ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
+    ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
+    ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
+    ("17_sampling", Attempt::TentOffset(|u, _| super::solutions::sampling::tent_offset(u, 1.0)), "radius is left out"),
+    ("17_sampling", Attempt::TentOffset(|u, r| r * (1.0 - (1.0 - u).sqrt())), "on one side"),
+    ("17_sampling", Attempt::TentOffset(|u, r| super::solutions::sampling::tent_offset(1.0 - u, r)), "swapped"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
@@ -339,6 +345,15 @@ fn backward(stages: &[StageWords], asked: &str) -> Vec<String> {
     let mut kept = super::solutions::how_it_is_built::kept(stages, asked);
     kept.reverse();
     kept
+}
+
+/// Where the area up to the place is counted from the tent's end as if from its top.
+fn from_the_rim(u: f64, radius: f64) -> f64 {
+    if u < 0.5 { -radius * (1.0 - 2.0 * u).sqrt() } else { radius * (2.0 * u - 1.0).sqrt() }
+}
+
+fn without_root(u: f64, radius: f64) -> f64 {
+    if u < 0.5 { radius * (4.0 * u * u - 1.0) } else { radius * (1.0 - 4.0 * (1.0 - u) * (1.0 - u)) }
 }
 
 fn one_step(stages: &[StageWords], asked: &str) -> Vec<String> {

@@ -312,6 +312,7 @@ pub enum Toggle {
     Phong,
     BlinnPhong,
     Emissive,
+    Samples,
 }
 
 /// All of them.
@@ -328,6 +329,7 @@ pub const TOGGLES: &[Toggle] = &[
     Toggle::View,
     Toggle::Statistics,
     Toggle::Layers,
+    Toggle::Samples,
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
@@ -409,6 +411,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Layers) {
         world.entity_mut(camera).insert(Layers::all());
+    }
+    if has(Toggle::Samples) {
+        world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
     }
     world
 }

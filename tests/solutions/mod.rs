@@ -50,6 +50,9 @@ pub mod reflection;
 #[path = "16_textures.rs"]
 pub mod textures;
 
+#[path = "17_sampling.rs"]
+pub mod sampling;
+
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
@@ -71,5 +74,6 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
     ("15_reflection", Attempt::PhongRadiance(reflection::phong_radiance)),
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
+    ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
 ];

@@ -21,6 +21,7 @@ mod light;
 mod light_albedo;
 mod plane;
 mod print;
+mod sampling;
 mod shadow;
 mod shadow_stages;
 mod sphere;
@@ -61,6 +62,8 @@ pub enum Group {
     Texture,
     /// Rays against triangles and meshes of them, and their surfaces.
     Triangle,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -83,6 +86,7 @@ impl Group {
         Self::Camera,
         Self::Transform,
         Self::Triangle,
+        Self::Sampling,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
@@ -104,6 +108,7 @@ impl Group {
             Self::Transform => transform::trials(),
             Self::Texture => texture::trials(),
             Self::Triangle => triangle::trials(),
+            Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
@@ -123,6 +128,7 @@ impl fmt::Display for Group {
             Self::Transform => "transform",
             Self::Texture => "texture",
             Self::Triangle => "triangle",
+            Self::Sampling => "sampling",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",

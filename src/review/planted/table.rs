@@ -21,6 +21,8 @@ const TEXTURED: &str = "16_textures";
 const REFLECTION: &str = "15_reflection";
 /// Triangles, with normals of their own and without.
 const FACETS: &str = "14_transforms";
+/// Several samples a pixel.
+const SAMPLED: &str = "17_sampling";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
@@ -28,6 +30,8 @@ const PAINTED: &str = "02_ray";
 #[rustfmt::skip]
 pub static PLANTED: &[Planted] = &[
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
+    bug("one-pattern", "Place samples", "every pixel alike", SAMPLED, Bug::After(|| rays::one_pattern.into_configs())),
+    bug("radius-doubled", "Place samples", "twice as far from the centre", SAMPLED, Bug::After(|| rays::radius_doubled.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
     bug("no-aspect", "Centre points on the screen", "aspect left out", MOST, Bug::After(|| rays::no_aspect.into_configs())),
