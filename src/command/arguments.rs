@@ -167,40 +167,6 @@ pub struct CostOfChapter {
     pub write: bool,
 }
 
-#[derive(Args, Clone)]
-pub struct ReportErrors {
-    /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
-    #[arg(value_name = "CHAPTER")]
-    pub subject: String,
-    /// Compare with this: sampler=NAME, filter=NAME, a chapter or a scene file; may be given several times
-    #[arg(long, value_name = "WHAT")]
-    pub against: Vec<String>,
-    /// Four sample counts of 8 seeds instead of five of 16
-    #[arg(long)]
-    pub quick: bool,
-    /// How many pixels the image has (default: the scene's shape, about 5,000 pixels)
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
-    pub size: Option<Resolution>,
-    /// How many workers render the timed runs (default: 1)
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
-    pub threads: Option<u16>,
-    /// Keep the report in the chapter's folder, as report.json
-    #[arg(long)]
-    pub write: bool,
-    /// Measure nothing: print what is kept in the chapter's folder
-    #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
-    pub kept: bool,
-    /// Measure nothing but what naive measurements give, beside what is right
-    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write", "kept"])]
-    pub naive: bool,
-    /// With --kept: draw the plot to this SVG instead
-    #[arg(short, long, value_name = "FILE", requires = "kept")]
-    pub output: Option<PathBuf>,
-    /// With --kept: against samples instead of time
-    #[arg(long, requires = "kept")]
-    pub samples_axis: bool,
-}
-
 #[derive(Args)]
 pub struct CompareConventions {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
@@ -385,7 +351,7 @@ impl SamplingOptions {
     }
 }
 
-fn resolution(text: &str) -> Result<Resolution, String> {
+pub fn resolution(text: &str) -> Result<Resolution, String> {
     let (width, height) =
         pair(text, 'x').ok_or("a size is two whole numbers of pixels with an x between, such as 960x540")?;
     Ok(Resolution { width, height })
@@ -396,7 +362,7 @@ fn pixel(text: &str) -> Result<TracePixel, String> {
     Ok(TracePixel { x, y })
 }
 
-fn workers(text: &str) -> Result<u16, String> {
+pub fn workers(text: &str) -> Result<u16, String> {
     let number = text.trim().parse().ok().filter(|number| (1..=1024).contains(number));
     number.ok_or("a number of workers is a whole number from 1 to 1024".into())
 }

@@ -183,7 +183,7 @@ pub fn timers(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress
             logs.push(libm::log(on / off));
         }
     }
-    Ok(mean_of(&logs).map(|mean| mean.interval(LEVEL).exp()))
+    Ok(mean_of(&logs).map(|mean| mean.interval(LEVEL).of_logarithm()))
 }
 
 /// The fingerprint of all that decides the images of these variants: their scenes, stages, sampling and ladder.
