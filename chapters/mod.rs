@@ -81,7 +81,7 @@ pub fn all() -> Vec<Chapter> {
         shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter(),
         reflection::chapter(),
-        textures::chapter(),
+        textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter(),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]

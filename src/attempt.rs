@@ -32,6 +32,8 @@ pub enum Attempt {
     NearestBoxT(fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Option<f64>),
     /// Chapter 18: a pixel's values in runs of different seeds, the truth.
     VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
+    /// Chapter 16: the middle of a range, its width.
+    MeanOfStripes(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -52,6 +54,7 @@ impl Attempt {
             Self::Kept(_) => "kept",
             Self::NearestBoxT(_) => "nearest_box_t",
             Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
+            Self::MeanOfStripes(_) => "mean_of_stripes",
         }
     }
 }

@@ -57,6 +57,11 @@ fn transforms_hold() {
 }
 
 #[test]
+fn textures_hold() {
+    holds(Group::Texture, 1024);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

@@ -1,4 +1,4 @@
-use super::arguments::{resolution, workers};
+use super::options::{resolution, workers};
 use crate::scene::Resolution;
 use clap::Args;
 use std::path::PathBuf;

@@ -26,6 +26,7 @@ mod report;
 mod screen;
 mod shapes;
 mod shown;
+mod textures;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -55,5 +56,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
+        Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
     }
 }

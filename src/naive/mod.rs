@@ -18,4 +18,5 @@ pub mod plane;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;
+pub mod texture;
 pub mod triangle;

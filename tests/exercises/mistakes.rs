@@ -109,9 +109,28 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
+    ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| (zigzag(x + w / 2.0) - zigzag(x - w / 2.0)) / w), "without width"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w / 2.0, x + w / 2.0, 1.0)), "the area"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "other way round"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
+
+fn stripe(x: f64) -> f64 {
+    if x.floor().rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }
+}
+
+fn zigzag(x: f64) -> f64 {
+    1.0 - (x.rem_euclid(2.0) - 1.0).abs()
+}
+
+/// The area under the stripes over a number, or the stripe itself where there is no area.
+fn stripes_between(low: f64, high: f64, over: f64) -> f64 {
+    if low == high { stripe(low) } else { (zigzag(high) - zigzag(low)) / over }
+}
 
 fn fractional_row(index: u64, width: u32) -> [f64; 2] {
     [(index % u64::from(width)) as f64 + 0.5, index as f64 / f64::from(width) + 0.5]

@@ -23,6 +23,7 @@ mod shadow;
 mod shadow_stages;
 mod sphere;
 mod sphere_limits;
+mod texture;
 mod transform;
 mod transform_aim;
 mod transform_placement;
@@ -49,6 +50,8 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Textures and environments: what a pixel covers, its mean, edges of images.
+    Texture,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -61,7 +64,7 @@ pub enum Group {
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: &[Self] = &[
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
@@ -71,6 +74,7 @@ impl Group {
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
+        Self::Texture,
     ];
 
     /// Its cases.
@@ -84,6 +88,7 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
+            Self::Texture => texture::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
@@ -100,6 +105,7 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Texture => "texture",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
@@ -112,8 +118,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
-        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
+        let names = || Self::ALL.iter().map(Self::to_string).collect::<Vec<_>>().join(", ");
+        Self::ALL.iter().copied().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 

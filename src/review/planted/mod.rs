@@ -8,6 +8,7 @@ mod light;
 mod pieces;
 mod rays;
 mod table;
+mod textures;
 
 pub use table::PLANTED;
 
