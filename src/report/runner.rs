@@ -68,10 +68,11 @@ impl Variant<'_> {
 }
 
 fn timed(world: &World, stages: &[Stage], execution: &Execution, watch: &dyn Progress) -> Result<(Rendered, Times)> {
-    let (started, cpu_started) = (Instant::now(), ProcessTime::now());
-    let rendered = render(world, stages, execution, watch)?;
-    let (wall, cpu) = (started.elapsed().as_secs_f64(), cpu_started.elapsed().as_secs_f64());
-    let build = wall - rendered.time.as_secs_f64();
+    let first_tile = FirstTile { watch, started: ProcessTime::now(), built: OnceLock::new() };
+    let started = Instant::now();
+    let rendered = render(world, stages, execution, &first_tile)?;
+    let (wall, cpu) = (started.elapsed().as_secs_f64(), first_tile.started.elapsed().as_secs_f64());
+    let build = first_tile.built.get().copied().unwrap_or(0.0);
     Ok((rendered, Times { wall, cpu, build }))
 }
 
