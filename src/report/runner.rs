@@ -11,6 +11,7 @@ use crate::scene::{Sampler, Sampling, Statistics};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Pairs of runs with and without timers.
@@ -64,6 +65,24 @@ impl Variant<'_> {
         let world = self.world(sampling)?;
         let (rendered, times) = timed(&world, &self.stages, execution, watch)?;
         Ok(Run { image: numbers(&rendered.film), times, rejected: rendered.film.rejected().0 })
+    }
+}
+
+/// Takes the CPU time up to the first tile, before which a worker asks whether to stop.
+struct FirstTile<'a> {
+    watch: &'a dyn Progress,
+    started: ProcessTime,
+    built: OnceLock<f64>,
+}
+
+impl Watch for FirstTile<'_> {
+    fn tile_done(&self) {
+        self.watch.tile_done();
+    }
+
+    fn stopped(&self) -> bool {
+        self.built.get_or_init(|| self.started.elapsed().as_secs_f64());
+        self.watch.stopped()
     }
 }
 

@@ -82,8 +82,11 @@ fn summary(variant: &Variant<'_>, own: usize, runs: &Runs, measured: &Measured, 
     let Measured { curve, deviations, reference } = measured;
     let levels = curve.levels.iter().zip(deviations).zip(&runs.levels[own]).enumerate();
     let stages = &runs.stages[own];
-    let rows_of = |name: &str| stages.iter().find(|(stage, _)| *stage == name).map_or(0, |(_, lap)| lap.rows) as f64;
-    let rays = [rows_of("Turn rays into the world"), rows_of("Aim at lights")];
+    let rows_of = |name: &str| {
+        let named = stages.iter().filter(|(stage, _)| stage.starts_with(name));
+        named.map(|(_, lap)| lap.rows).sum::<u64>() as f64
+    };
+    let rays = [rows_of("Turn rays into the world"), rows_of("Aim at ")];
     let samples = rows_of("Place samples").max(1.0);
     VariantSummary {
         name: variant.name.clone(),
