@@ -80,7 +80,7 @@ pub fn all() -> Vec<Chapter> {
         how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
         shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter(),
-        reflection::chapter(),
+        reflection::chapter().exercise(exercises::REFLECTION),
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter(),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),

@@ -34,6 +34,8 @@ pub enum Attempt {
     VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
     /// Chapter 16: the middle of a range, its width.
     MeanOfStripes(fn(f64, f64) -> f64),
+    /// Chapter 15: colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
+    PhongRadiance(fn([f64; 3], f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
 }
 
 impl Attempt {
@@ -55,6 +57,7 @@ impl Attempt {
             Self::NearestBoxT(_) => "nearest_box_t",
             Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
             Self::MeanOfStripes(_) => "mean_of_stripes",
+            Self::PhongRadiance(_) => "phong_radiance",
         }
     }
 }

@@ -82,6 +82,11 @@ fn cuboids_hold() {
 }
 
 #[test]
+fn lights_hold() {
+    holds(Group::Light, 2048);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

@@ -22,6 +22,7 @@ mod pinhole;
 mod progress;
 mod question;
 mod ray;
+mod reflection;
 mod report;
 mod screen;
 mod shapes;
@@ -57,5 +58,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
+        Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
     }
 }

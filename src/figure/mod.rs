@@ -15,6 +15,7 @@ mod gallery;
 mod grid;
 mod hit;
 mod label;
+mod lobes;
 mod look_at;
 mod ndc;
 mod normals;
@@ -172,6 +173,12 @@ pub fn figures() -> Vec<Figure> {
             chapter: "16_textures",
             about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
             draw: aliasing::draw,
+        },
+        Figure {
+            name: "15_reflection",
+            chapter: "15_reflection",
+            about: "how much each reflection model sends which way",
+            draw: lobes::draw,
         },
     ]
 }

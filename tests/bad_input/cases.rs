@@ -17,6 +17,11 @@ pub fn good(eye: Eye) -> World {
     world.spawn((Name::new("ball"), Sphere::default(), Matte::default(), Placement::at(0.0, 1.0, 0.0)));
     world.spawn((Name::new("floor"), Plane::default(), Matte::default()));
     world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(2.0, 4.0, 2.0)));
+    world.spawn((Name::new("glossy"), Sphere { radius: 0.5 }, Phong::default(), Placement::at(-2.0, 1.0, 0.0)));
+    world.spawn((Name::new("satin"), Sphere { radius: 0.5 }, BlinnPhong::default(), Placement::at(2.0, 1.0, 0.0)));
+    world.spawn((Name::new("glow"), Sphere { radius: 0.25 }, Emissive::default(), Placement::at(0.0, 2.5, 0.0)));
+    world.spawn((Name::new("sun"), DirectionalLight::default()));
+    world.spawn((Name::new("spot"), SpotLight::default(), Placement::at(0.0, 1.0, 4.0)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::grey(0.5) }));
     world
 }
@@ -276,6 +281,56 @@ pub const MATTER: &[Case] = &[
     ("intensity 1e300", &["\"lamp\"", "intensity", "1e300"], |w| {
         edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::grey(1e300));
     }),
+    ("two kinds of material", &["\"ball\"", "Matte and BlinnPhong at once", "one material only"], |w| {
+        put(w, "ball", BlinnPhong::default());
+    }),
+    ("a Phong of its own and one that is used", &["\"glossy\"", "material", "twice", "\"floor\""], |w| {
+        let floor = named(w, "floor");
+        put(w, "glossy", UsesMaterial(floor));
+    }),
+    ("more than all the light", &["\"glossy\"", "specular", "(0, 0.5, 0)", "(0.4, 0.6, 0.4)", "at most 1"], |w| {
+        edit::<Phong>(w, "glossy", |p| (p.colour.g, p.specular) = (0.6, Rgb::new(0.0, 0.5, 0.0)));
+    }),
+    ("more than all the light, Blinn–Phong", &["\"satin\"", "specular", "(1, 1, 1)", "at most 1"], |w| {
+        edit::<BlinnPhong>(w, "satin", |p| p.specular = Rgb::grey(1.0));
+    }),
+    ("specular 1.5", &["\"glossy\"", "specular", "(1.5, 0, 0)", "from 0 to 1"], |w| {
+        edit::<Phong>(w, "glossy", |p| p.specular = Rgb::new(1.5, 0.0, 0.0));
+    }),
+    ("exponent −1", &["\"glossy\"", "exponent", "is -1,", "from 0 to 1e9"], |w| {
+        edit::<Phong>(w, "glossy", |p| p.exponent = -1.0);
+    }),
+    ("exponent 1e10", &["\"satin\"", "exponent", "is 1e10,", "from 0 to 1e9"], |w| {
+        edit::<BlinnPhong>(w, "satin", |p| p.exponent = 1e10);
+    }),
+    ("radiance −1", &["\"glow\"", "radiance", "(-1, 0, 0)"], |w| {
+        edit::<Emissive>(w, "glow", |e| e.radiance = Rgb::new(-1.0, 0.0, 0.0));
+    }),
+    ("a used Emissive that is disabled", &["\"coal\"", "material", "\"ember\"", "disabled"], |w| {
+        let ember = w.spawn((Name::new("ember"), Emissive::default(), Disabled)).id();
+        w.spawn((Name::new("coal"), Sphere::default(), UsesMaterial(ember)));
+    }),
+    ("irradiance −1", &["\"sun\"", "irradiance", "(0, -1, 0)"], |w| {
+        edit::<DirectionalLight>(w, "sun", |l| l.irradiance = Rgb::new(0.0, -1.0, 0.0));
+    }),
+    ("a spot's intensity 1e300", &["\"spot\"", "intensity", "1e300"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.intensity = Rgb::grey(1e300));
+    }),
+    ("outer angle 180.1°", &["\"spot\"", "outer_angle", "180.1°", "up to 180°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(180.1));
+    }),
+    ("outer angle 0°", &["\"spot\"", "outer_angle", "is 0°", "above 0°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(0.0));
+    }),
+    ("inner angle beyond the outer", &["\"spot\"", "inner_angle", "is 61°", "60°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(61.0));
+    }),
+    ("inner angle −1°", &["\"spot\"", "inner_angle", "is -1°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(-1.0));
+    }),
+    ("a flattened sun", &["\"sun\"", "scale", "(1, 1, 0)", "invertible"], |w| {
+        put(w, "sun", Placement { scale: DVec3::new(1.0, 1.0, 0.0), ..Placement::default() });
+    }),
     ("background −1", &["\"sky\"", "colour", "(-1, 0, 0)"], |w| {
         edit::<Background>(w, "sky", |b| b.colour = Rgb::new(-1.0, 0.0, 0.0));
     }),
@@ -343,6 +398,20 @@ pub const FIELDS: &[Field] = &[
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.r = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.g = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.b = v)),
+    ("colour", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.colour.r = v)),
+    ("specular", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.specular.g = v)),
+    ("exponent", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.exponent = v)),
+    ("colour", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.colour.b = v)),
+    ("specular", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.specular.r = v)),
+    ("exponent", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.exponent = v)),
+    ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.r = v)),
+    ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.b = v)),
+    ("irradiance", "sun", |w, v| edit::<DirectionalLight>(w, "sun", |l| l.irradiance.g = v)),
+    ("orientation", "sun", |w, v| edit::<Placement>(w, "sun", |p| p.orientation.x = v)),
+    ("intensity", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.intensity.r = v)),
+    ("inner_angle", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(v))),
+    ("outer_angle", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(v))),
+    ("position", "spot", |w, v| edit::<Placement>(w, "spot", |p| p.position.z = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.r = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.g = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.b = v)),

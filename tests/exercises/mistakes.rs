@@ -2,6 +2,7 @@
 
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
+use std::f64::consts::PI;
 
 /// The chapter, the wrong function, words of the remark that it must get.
 pub const ALL: &[(&str, Attempt, &str)] = &[
@@ -115,6 +116,14 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("16_textures", Attempt::MeanOfStripes(|x, w| (zigzag(x + w / 2.0) - zigzag(x - w / 2.0)) / w), "without width"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w / 2.0, x + w / 2.0, 1.0)), "the area"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "other way round"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, dot(n, l))), "faces away"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 1.0, lit(n, l))), "n + 2"),
+    (
+        "15_reflection",
+        Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, step(n, l))),
+        "cosine of the light's slant",
+    ),
+    ("15_reflection", Attempt::PhongRadiance(even_behind), "even"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
@@ -393,4 +402,25 @@ fn squares_less_square(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
     let squares = runs.iter().map(|run| run * run).sum::<f64>() / n;
     let variance = (squares - squared_mean(runs)) * n / (n - 1.0);
     (runs.len() > 1).then(|| [variance, of_pairs(&less_truth(runs, truth))])
+}
+
+/// Chapter 15 as it should be, but for the number beside n in the factor and for what arrives.
+fn phong(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3], beside: f64, arrives: f64) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = if alpha > 0.0 { (m[2] + beside) / (2.0 * PI) * alpha.min(1.0).powf(m[2]) } else { 0.0 };
+    (m[0] / PI + m[1] * lobe) * e * arrives
+}
+
+fn lit(n: [f64; 3], l: [f64; 3]) -> f64 {
+    dot(n, l).max(0.0)
+}
+
+fn step(n: [f64; 3], l: [f64; 3]) -> f64 {
+    if dot(n, l) > 0.0 { 1.0 } else { 0.0 }
+}
+
+fn even_behind(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3]) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = (m[2] + 2.0) / (2.0 * PI) * alpha.abs().min(1.0).powf(m[2]);
+    (m[0] / PI + m[1] * lobe) * e * lit(n, l)
 }

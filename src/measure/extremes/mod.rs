@@ -17,6 +17,8 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod light;
+mod light_albedo;
 mod plane;
 mod print;
 mod shadow;
@@ -60,6 +62,8 @@ pub enum Group {
     Rectangle,
     /// Rays against cuboids, and shadow rays off them.
     Cuboid,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
 }
 
 impl Group {
@@ -75,6 +79,7 @@ impl Group {
         Self::Rectangle,
         Self::Cuboid,
         Self::Texture,
+        Self::Light,
     ];
 
     /// Its cases.
@@ -93,6 +98,7 @@ impl Group {
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
+            Self::Light => light::trials(),
         }
     }
 }
@@ -110,6 +116,7 @@ impl fmt::Display for Group {
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
+            Self::Light => "light",
         })
     }
 }
