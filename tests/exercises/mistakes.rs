@@ -98,11 +98,6 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("13_shapes", Attempt::NearestBoxT(first_entered), "last slab"),
     (
         "18_error_and_time",
-        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, squared_mean)),
-        "part of the variance",
-    ),
-    (
-        "18_error_and_time",
         Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, squared_mean)),
         "part of the variance",
     ),
