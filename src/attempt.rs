@@ -36,6 +36,10 @@ pub enum Attempt {
     MeanOfStripes(fn(f64, f64) -> f64),
     /// Chapter 15: colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
     PhongRadiance(fn([f64; 3], f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
+    FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 17: a number from 0 to below 1, the tent's radius.
+    TentOffset(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -58,6 +62,8 @@ impl Attempt {
             Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
             Self::MeanOfStripes(_) => "mean_of_stripes",
             Self::PhongRadiance(_) => "phong_radiance",
+            Self::FallingCosine(_) => "falling_cosine",
+            Self::TentOffset(_) => "tent_offset",
         }
     }
 }

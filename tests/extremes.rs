@@ -62,6 +62,16 @@ fn textures_hold() {
 }
 
 #[test]
+fn triangles_hold() {
+    holds(Group::Triangle, 2048);
+}
+
+#[test]
+fn samples_hold() {
+    holds(Group::Sampling, 4096);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

@@ -122,9 +122,11 @@ fn rows_systems_columns_and_tables_are_one_list() {
         for column in &columns {
             assert_eq!((column.present)(&tile), of_plan.contains(column.name), "{on:?}: column {}", column.name);
         }
+        // Where samples are taken: which one, and of which pixels.
+        let sampled = if on.contains(&Toggle::Samples) { 2 } else { 0 };
         assert_eq!(
             tile.archetype().components().len(),
-            plan.columns.len() + 1,
+            plan.columns.len() + 1 + sampled,
             "{on:?}: columns and the tile, no more"
         );
 
@@ -233,6 +235,7 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a disk", add::<(Disk, Matte)>, take::<(Disk, Matte)>),
         ("a rectangle", add::<(Rectangle, Matte)>, take::<(Rectangle, Matte)>),
         ("a cuboid", add::<(Cuboid, Matte)>, take::<(Cuboid, Matte)>),
+        ("a triangle", add::<(Triangle, Matte)>, take::<(Triangle, Matte)>),
         ("a background", add::<Background>, take::<Background>),
         ("a view", add_view, take::<View>),
         ("statistics", add::<Statistics>, take::<Statistics>),
@@ -281,13 +284,14 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 8] = [
+    let kinds: [(&str, &[&str]); 9] = [
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
         ("coin", &["Intersect disks", "Describe disk surfaces", "Look for disks in the way"]),
         ("mat", &["Intersect rectangles", "Describe rectangle surfaces", "Look for rectangles in the way"]),
         ("brick", &["Intersect cuboids", "Describe cuboid surfaces", "Look for cuboids in the way"]),
+        ("sail", &["Intersect triangles", "Describe triangle surfaces", "Look for triangles in the way"]),
         ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
@@ -351,7 +355,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
-    eprintln!("disabled: 9 entities, 23 stages; unused: 1 matte in 2 scenes");
+    eprintln!("disabled: 10 entities, 26 stages; unused: 1 matte in 2 scenes");
 }
 
 fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {
@@ -367,20 +371,24 @@ fn reasons_name_the_first_three() {
         let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..at };
         scene.spawn((Name::new(format!("egg {number}")), Sphere { radius: 0.125 }, Matte::default(), egg));
         scene.spawn((Name::new(format!("pane {number}")), Plane::default(), Matte::default(), at));
+        scene.spawn((Name::new(format!("sail {number}")), scenes::leaning_triangle(1.0), Matte::default(), at));
         let at = Placement::at(f64::from(number), 3.0, 1.0);
         scene.spawn((Name::new(format!("lamp {number}")), PointLight::default(), at));
     }
-    let (balls, eggs, panes, lamps) = (three("ball"), three("egg"), three("pane"), three("lamp"));
+    let (balls, eggs, panes, sails, lamps) = (three("ball"), three("egg"), three("pane"), three("sail"), three("lamp"));
     let mattes = "\"ball 1\", \"egg 1\", \"pane 1\", …".to_string();
     let spheres = "\"ball 1\", \"egg 1\", \"ball 2\", …".to_string();
-    let expected: [(&str, Vec<&String>); 16] = [
-        ("Start with nothing met", vec![&spheres, &panes]),
+    let expected: [(&str, Vec<&String>); 19] = [
+        ("Start with nothing met", vec![&spheres, &panes, &sails]),
+        ("Intersect triangles", vec![&sails]),
+        ("Describe triangle surfaces", vec![&sails]),
+        ("Look for triangles in the way", vec![&sails, &lamps]),
         ("Intersect ellipsoids", vec![&eggs]),
         ("Describe ellipsoid surfaces", vec![&eggs]),
         ("Look for ellipsoids in the way", vec![&eggs, &lamps]),
         ("Intersect spheres", vec![&balls]),
         ("Intersect planes", vec![&panes]),
-        ("Classify hits", vec![&spheres, &panes]),
+        ("Classify hits", vec![&spheres, &panes, &sails]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
         ("Aim at point lights", vec![&lamps, &mattes]),

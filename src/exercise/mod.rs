@@ -24,10 +24,12 @@ mod question;
 mod ray;
 mod reflection;
 mod report;
+mod sampling;
 mod screen;
 mod shapes;
 mod shown;
 mod textures;
+mod transforms;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -59,5 +61,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
+        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
+        Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

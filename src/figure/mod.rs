@@ -11,6 +11,7 @@ mod acne;
 mod aliasing;
 mod drawn_image;
 mod field_of_view;
+mod filters;
 mod gallery;
 mod grid;
 mod hit;
@@ -29,6 +30,8 @@ mod pinhole;
 mod pixel_ray;
 mod props;
 mod ray;
+mod rings;
+mod samples;
 mod scenery;
 mod screen;
 mod section;
@@ -179,6 +182,30 @@ pub fn figures() -> Vec<Figure> {
             chapter: "15_reflection",
             about: "how much each reflection model sends which way",
             draw: lobes::draw,
+        },
+        Figure {
+            name: "17_rings",
+            chapter: "17_sampling",
+            about: "rings that become finer than a pixel, through three ways of placing samples",
+            draw: rings::draw,
+        },
+        Figure {
+            name: "17_points",
+            chapter: "17_sampling",
+            about: "64 points of each sampler in one pixel",
+            draw: samples::draw_points,
+        },
+        Figure {
+            name: "17_filters",
+            chapter: "17_sampling",
+            about: "five filters, from the pixel's centre outward",
+            draw: filters::draw,
+        },
+        Figure {
+            name: "17_variance",
+            chapter: "17_sampling",
+            about: "the variance of a mean over the number of its samples",
+            draw: samples::draw_variance,
         },
     ]
 }

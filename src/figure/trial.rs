@@ -23,7 +23,14 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "16_textures", "15_reflection"])
+        .chain([
+            "09_camera_to_world",
+            "10_light_and_shadow",
+            "13_shapes",
+            "16_textures",
+            "15_reflection",
+            "17_sampling",
+        ])
         .map(chapter)
         .collect()
 }

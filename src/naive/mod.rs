@@ -16,6 +16,7 @@ pub mod flat;
 pub mod light;
 pub mod ndc;
 pub mod plane;
+pub mod sampling;
 pub mod screen;
 pub mod shadow;
 pub mod sphere;

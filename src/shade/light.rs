@@ -1,6 +1,8 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{MaterialTable, material_evidence};
-use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, offset_origin};
+use crate::intersect::{
+    NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+};
 use crate::plan::{Carried, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
@@ -96,8 +98,7 @@ pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> Aimed {
 /// The cosine by the shading normal, or 0 where the light is behind the surface itself.
 #[inline(always)]
 pub(super) fn cosine_of(surface: &Surface, normal: DVec3, direction: Vec3) -> f64 {
-    let direction = direction.as_dvec3();
-    if surface.normal.as_dvec3().dot(direction) > 0.0 { normal.dot(direction) } else { 0.0 }
+    falling_cosine(surface.normal.as_dvec3(), normal, direction.as_dvec3())
 }
 
 // ANCHOR: shadow_reach
@@ -122,17 +123,9 @@ pub(super) struct LitRows<'a> {
     pub rows: &'a [u32],
 }
 
-impl LitRows<'_> {
-    /// The normal to shade by.
-    #[inline(always)]
-    fn normal(&self, surface: &Surface, row: usize) -> DVec3 {
-        self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row))
-    }
-}
-
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
-/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+/// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
     lit: &LitRows<'_>,
@@ -140,12 +133,26 @@ pub(super) fn append_rays(
     casts_shadows: bool,
     ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
+    let surfaces = lit.surfaces;
+    match lit.shading {
+        None => append(lit.rows, rays, casts_shadows, |row| {
+            let surface = surfaces.get(row);
+            ray_of(&surface, surface.normal.as_dvec3())
+        }),
+        Some(normals) => {
+            append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
+        }
+    }
+}
+
+/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+#[inline(always)]
+fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
     let length = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + lit.rows.len());
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
-    for &row in lit.rows {
-        let surface = lit.surfaces.get(row as usize);
-        let ray = ray_of(&surface, lit.normal(&surface, row as usize));
+    for &row in rows {
+        let ray = ray_of(row as usize);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();

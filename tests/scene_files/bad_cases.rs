@@ -77,6 +77,19 @@ pub const WORDS: &[Case] = &[
         &["casts_shadows is maybe", "true or false"],
     ),
     ("a column without quotes", "[(view: (column: ^hit))]", &["column is hit", "double quotes"]),
+    (
+        "two corners",
+        "[(triangle: (vertices: ((0, 0, 0), (1, 0, 0)^)))]",
+        &["vertices is ((0, 0, 0), (1, 0, 0))", "three"],
+    ),
+    ("corners of two numbers", "[(triangle: (vertices: ((0, 0^), (1, 0), (0, 1))))]", &["vertices", "three numbers"]),
+    (
+        "corners in square brackets",
+        "[(triangle: (vertices: ^[(0, 0, 0), (1, 0, 0), (0, 1, 0)]))]",
+        &["vertices", "three"],
+    ),
+    ("one normal for all", "[(triangle: (normals: (^0, 0, 1)))]", &["normals is (0, 0, 1)"]),
+    ("uvs of three numbers", "[(triangle: (uvs: ((0, 0, ^0), (1, 0, 0), (0, 1, 0))))]", &["uvs"]),
     ("a name without quotes", "[(name: ^ball)]", &["name is ball", "double quotes"]),
     ("a name on two lines", "[(name: ^\"a\\nb\")]", &["name is \"a\\nb\"", "one line"]),
     ("disabled in quotes", "[(name: \"a\", disabled: ^\"yes\")]", &["disabled is \"yes\"", "true or false"]),
@@ -183,6 +196,16 @@ pub const MEANING: &[Case] = &[
         "a spot's cones the wrong way round",
         "[@, (name: \"a\", spot_light: (inner_angle: ^50, outer_angle: 40))]",
         &["inner_angle is 50°", "to the outer angle, 40°"],
+    ),
+    (
+        "corners on one line",
+        "[@, (name: \"a\", triangle: (vertices: ^((0, 0, 0), (1, 0, 0), (2, 0, 0))), matte: ())]",
+        &["triangle \"a\"", "vertices is (0, 0, 0), (1, 0, 0), (2, 0, 0)", "one line"],
+    ),
+    (
+        "normals to both sides",
+        "[@, (name: \"a\", triangle: (normals: ^((0, 0, 1), (0, 0, 1), (0, 0, -1))), matte: ())]",
+        &["triangle \"a\"", "normals is", "one side"],
     ),
     ("two shapes on one entity", "[@, ^(name: \"a\", sphere: (), plane: (), matte: ())]", &["one shape only"]),
 ];

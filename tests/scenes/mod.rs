@@ -123,6 +123,11 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
     let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
     world.spawn((Name::new("wall"), wall, at(-3.03, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    let sail = (leaning_triangle(setup.scale), at(-0.5, 1.75, 0.5));
+    world.spawn((Name::new("sail"), sail, Matte { colour: Rgb::new(0.4, 0.7, 0.9) }));
+    let flag = Triangle { normals: None, ..leaning_triangle(setup.scale) };
+    let stretched = Placement { scale: DVec3::new(0.5, -0.75, 2.0), ..at(1.03, 2.26, -0.25) };
+    world.spawn((Name::new("flag"), flag, stretched, UsesMaterial(gold)));
     world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
@@ -252,6 +257,13 @@ pub fn shining(setup: Setup) -> World {
     world
 }
 
+/// A triangle of about this size that faces the viewer, with normals of its own.
+pub fn leaning_triangle(size: f64) -> Triangle {
+    let corners = [[0.0, 0.0, 0.0], [0.875, 0.125, 0.25], [0.25, 0.9375, -0.125]];
+    let normals = [[-0.5, -0.25, 1.0], [0.5, 0.0, 1.0], [0.0, 0.5, 1.0]].map(DVec3::from);
+    Triangle { vertices: corners.map(|corner| DVec3::from(corner) * size), normals: Some(normals), uvs: None }
+}
+
 /// How many pixels of [`ties`] see a ball and the pane at the very same distance.
 pub const TIED_PIXELS: usize = 8;
 
@@ -287,7 +299,7 @@ pub enum Toggle {
     Plane,
     Sphere,
     Ellipsoid,
-    /// A disk, a rectangle and a cuboid.
+    /// A disk, a rectangle, a cuboid and a triangle.
     Pieces,
     Shadow,
     Orthographic,
@@ -300,6 +312,7 @@ pub enum Toggle {
     Phong,
     BlinnPhong,
     Emissive,
+    Samples,
 }
 
 /// All of them.
@@ -316,6 +329,7 @@ pub const TOGGLES: &[Toggle] = &[
     Toggle::View,
     Toggle::Statistics,
     Toggle::Layers,
+    Toggle::Samples,
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
@@ -362,6 +376,8 @@ pub fn toggled(on: &[Toggle]) -> World {
         world.spawn((Name::new("mat"), mat, matte(0.3, 0.2, 0.7)));
         let brick = (Cuboid { size: DVec3::new(0.6, 0.4, 0.5) }, Placement::at(-0.4, 1.6, 0.0));
         world.spawn((Name::new("brick"), brick, matte(0.6, 0.2, 0.1)));
+        let sail = (leaning_triangle(1.0), Placement::at(-1.2, 0.3, 0.4));
+        world.spawn((Name::new("sail"), sail, matte(0.4, 0.7, 0.9)));
     }
     if has(Toggle::Sun) {
         let sun = DirectionalLight { irradiance: Rgb::grey(0.8), casts_shadows: has(Toggle::Shadow) };
@@ -395,6 +411,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Layers) {
         world.entity_mut(camera).insert(Layers::all());
+    }
+    if has(Toggle::Samples) {
+        world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
     }
     world
 }

@@ -21,6 +21,7 @@ mod light;
 mod light_albedo;
 mod plane;
 mod print;
+mod sampling;
 mod shadow;
 mod shadow_stages;
 mod sphere;
@@ -30,6 +31,11 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -54,6 +60,10 @@ pub enum Group {
     Transform,
     /// Textures and environments: what a pixel covers, its mean, edges of images.
     Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -69,11 +79,14 @@ pub enum Group {
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
+        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
+        Self::Triangle,
+        Self::Sampling,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
@@ -94,6 +107,8 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
+            Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
@@ -112,6 +127,8 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Texture => "texture",
+            Self::Triangle => "triangle",
+            Self::Sampling => "sampling",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
