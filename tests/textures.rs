@@ -40,8 +40,8 @@ fn shape(world: &mut World, number: usize, checker: Checker) {
         3 => world.spawn((Disk::default(), placed)),
         4 => world.spawn((Rectangle::default(), placed)),
         5 => {
-            let vertices = [DVec3::new(-1.0, -0.5, -1.0), DVec3::new(1.0, 0.2, -1.5), DVec3::new(0.3, -0.3, 1.8)];
-            let uvs = Some([DVec2::new(0.1, 0.2), DVec2::new(0.9, 0.3), DVec2::new(0.4, 1.3)]);
+            let vertices = [DVec3::new(-8.0, -0.5, -8.0), DVec3::new(8.0, 0.2, -9.0), DVec3::new(0.3, -0.3, 9.0)];
+            let uvs = Some([DVec2::new(0.1, 0.2), DVec2::new(9.0, 0.3), DVec2::new(0.4, 13.0)]);
             world.spawn((Triangle { vertices, uvs, ..Triangle::default() }, placed))
         }
         _ => world.spawn((Cuboid::default(), placed)),
@@ -79,7 +79,7 @@ fn a_step_ends_where_the_neighbour_s_point_is() {
         }
     }
     eprintln!("footprints: {tried} steps to neighbours, the worst off by {worst:.4} of itself");
-    assert!(worst < 0.03, "{worst}");
+    assert!(worst < 0.05, "{worst}");
 }
 
 /// A floor to the horizon, all of whose light is its texture's.

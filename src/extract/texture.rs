@@ -155,7 +155,7 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
             across.z = 0.0;
         }
         let longest = across.abs().max_element();
-        if !(longest > 0.0 && longest.is_finite()) {
+        if !(longest > 0.0 && across.is_finite()) {
             let accepted = match stripes.by {
                 TextureBy::Uv => "its x and y, along u and v, must be a finite direction other than 0",
                 TextureBy::Space => "it must be a finite direction other than 0",
