@@ -44,6 +44,12 @@ pub mod shapes;
 #[path = "14_transforms/exercise.rs"]
 pub mod transforms;
 
+#[path = "18_error_and_time/exercise.rs"]
+pub mod error_and_time;
+
+#[path = "16_textures/exercise.rs"]
+pub mod textures;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -85,3 +91,9 @@ pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
 
 /// Chapter 14.
 pub const TRANSFORMS: Attempt = Attempt::FallingCosine(transforms::falling_cosine);
+
+/// Chapter 18.
+pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 16.
+pub const TEXTURES: Attempt = Attempt::MeanOfStripes(textures::mean_of_stripes);

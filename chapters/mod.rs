@@ -81,8 +81,8 @@ pub fn all() -> Vec<Chapter> {
         shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter().exercise(exercises::TRANSFORMS),
         reflection::chapter(),
-        textures::chapter(),
+        textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter(),
-        error_and_time::chapter(),
+        error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]
 }

@@ -32,6 +32,10 @@ pub enum Attempt {
     NearestBoxT(fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Option<f64>),
     /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 18: a pixel's values in runs of different seeds, the truth.
+    VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
+    /// Chapter 16: the middle of a range, its width.
+    MeanOfStripes(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -52,6 +56,8 @@ impl Attempt {
             Self::Kept(_) => "kept",
             Self::NearestBoxT(_) => "nearest_box_t",
             Self::FallingCosine(_) => "falling_cosine",
+            Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
+            Self::MeanOfStripes(_) => "mean_of_stripes",
         }
     }
 }

@@ -6,6 +6,8 @@ mod scenes;
 
 #[path = "bad_input/cases.rs"]
 mod cases;
+#[path = "bad_input/textures.rs"]
+mod textures;
 
 use bevy_ecs::prelude::*;
 use cases::*;
@@ -67,6 +69,35 @@ fn bad_scenes() {
     }
     kept("bad_scenes", &lines);
     eprintln!("bad scenes: {} refused", lines.len());
+}
+
+#[test]
+fn bad_textures() {
+    let mut lines = Vec::new();
+    prepare(&textures::good_textures(), &offer()).map(|_| ()).expect("the good scene is good");
+    for (what, words, spoil) in textures::TEXTURES {
+        let mut scene = textures::good_textures();
+        spoil(&mut scene);
+        let message = refusal(&scene, what);
+        for word in *words {
+            assert!(message.contains(word), "{what}: no {word} in: {message}");
+        }
+        lines.push(format!("{what:<34} {message}"));
+    }
+    for (field, name, set) in textures::TEXTURE_FIELDS {
+        for (value, shown) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (f64::NEG_INFINITY, "-inf")] {
+            let mut scene = textures::good_textures();
+            set(&mut scene, value);
+            let what = format!("{field} of \"{name}\" {shown}");
+            let message = refusal(&scene, &what);
+            for word in [&format!("\"{name}\": "), &format!("{field} is "), shown] {
+                assert!(message.contains(word), "{what}: no {word} in: {message}");
+            }
+            lines.push(message);
+        }
+    }
+    kept("bad_textures", &lines);
+    eprintln!("bad textures: {} refused", lines.len());
 }
 
 #[test]

@@ -91,11 +91,14 @@ fn every_stub_is_wrong() {
     eprintln!("stubs: {stubs} wrong, of {asking} exercises");
 }
 
+/// The chapters that ask for a function.
+fn that_ask(chapters: &[Chapter]) -> impl Iterator<Item = &Chapter> {
+    chapters.iter().filter(|chapter| chapter.exercise.is_some())
+}
+
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    let chapters = chapters::all();
-    for (name, solution) in &solutions::ALL {
-        let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("a chapter of this name");
+    for ((name, solution), chapter) in solutions::ALL.iter().zip(that_ask(&chapters::all())) {
         let attempt = chapter.exercise.expect("an exercise");
         assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
         let signature = format!("pub fn {}(", attempt.function());

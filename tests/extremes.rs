@@ -62,6 +62,11 @@ fn triangles_hold() {
 }
 
 #[test]
+fn textures_hold() {
+    holds(Group::Texture, 1024);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }

@@ -4,6 +4,8 @@ mod scenes;
 
 #[path = "plan/forced.rs"]
 mod forced;
+#[path = "plan/textures.rs"]
+mod textures;
 #[path = "plan/views.rs"]
 mod views;
 
@@ -23,7 +25,7 @@ use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
-    singles_and_pairs, stretched, toggled,
+    singles_and_pairs, stretched, textured, toggled,
 };
 use std::collections::BTreeSet;
 
@@ -43,7 +45,8 @@ fn registry(offer: &[Stage]) -> (Vec<ColumnKind>, Vec<TableKind>) {
     for stage in offer {
         columns.extend(stage.writes.iter().filter(|column| !columns.contains(*column)).copied().collect::<Vec<_>>());
         let beside = stage.tables_with.iter().map(|(table, _)| table);
-        let known = stage.tables.iter().chain(beside).filter(|table| !tables.contains(*table));
+        let asked = stage.tables_where.iter().map(|(table, _)| table);
+        let known = stage.tables.iter().chain(asked).chain(beside).filter(|table| !tables.contains(*table));
         tables.extend(known.copied().collect::<Vec<_>>());
     }
     (columns, tables)

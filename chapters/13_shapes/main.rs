@@ -38,7 +38,7 @@ fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.4, 2.4, 6.2].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
+        LookAt { eye: [0.4, 2.375, 6.2].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
     ));
     let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
     let wood = world.spawn((Name::new("wood"), matte(0.62, 0.42, 0.25))).id();
@@ -52,11 +52,11 @@ fn scene(world: &mut World) {
     world.spawn((Name::new("crate"), Cuboid { size: [1.4, 1.2, 1.0].into() }, crate_at, matte(0.75, 0.3, 0.2)));
     world.spawn((Name::new("ball"), Sphere { radius: 0.45 }, Placement::at(-1.6, 1.65, 0.2), matte(0.85, 0.7, 0.3)));
     // The leg ends in the very plane of the table top.
-    world.spawn((Name::new("table top"), Disk { radius: 1.0 }, Placement::at(1.2, 0.9, 0.0), UsesMaterial(wood)));
-    let leg = Cuboid { size: [0.14, 0.9, 0.14].into() };
-    world.spawn((Name::new("leg"), leg, Placement::at(1.2, 0.45, 0.0), UsesMaterial(wood)));
-    let top = [1.2, 1.6, 0.0].into();
-    let foot = [[0.8, 0.9, 0.35], [1.6, 0.9, 0.35], [1.2, 0.9, -0.5]];
+    world.spawn((Name::new("table top"), Disk { radius: 1.0 }, Placement::at(1.2, 0.875, 0.0), UsesMaterial(wood)));
+    let leg = Cuboid { size: [0.14, 0.875, 0.14].into() };
+    world.spawn((Name::new("leg"), leg, Placement::at(1.2, 0.4375, 0.0), UsesMaterial(wood)));
+    let top = [1.45, 1.5, -0.4].into();
+    let foot = [[1.1, 0.875, -0.15], [1.85, 0.875, -0.15], [1.5, 0.875, -0.8]];
     for side in 0..3 {
         let vertices = [top, foot[side].into(), foot[(side + 1) % 3].into()];
         world.spawn((Name::new("pyramid"), Triangle { vertices, ..Triangle::default() }, matte(0.5, 0.35, 0.65)));

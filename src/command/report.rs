@@ -10,6 +10,7 @@ use crate::report::kept::{keep, kept, made_from};
 use crate::report::ladder::Ladder;
 use crate::report::page::page;
 use crate::report::pictures::pictures;
+use crate::report::pitfalls::pitfalls;
 use crate::report::plot::{Against, plot};
 use crate::report::provenance::{Provenance, load};
 use crate::report::run::Shelf;
@@ -31,6 +32,11 @@ const FIRST_CHAPTER: u32 = 13;
 pub fn report(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
     if asked.kept {
         return show_kept(chapters, asked, out);
+    }
+    if asked.naive {
+        let subject = Subject::find(chapters, &asked.subject)?;
+        let variants = variants(&subject, &[], size(&subject, asked.size)?)?;
+        return variants.iter().try_for_each(|variant| Ok(write!(out, "{}", pitfalls(variant)?)?));
     }
     if asked.subject == "all" {
         return chapters.iter().filter(|chapter| has_report(chapter)).try_for_each(|chapter| {

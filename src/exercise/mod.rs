@@ -9,6 +9,7 @@ mod answers;
 mod apart;
 mod camera_to_world;
 mod conventions;
+mod error_and_time;
 mod field_of_view;
 mod hit;
 mod how_it_is_built;
@@ -25,6 +26,7 @@ mod report;
 mod screen;
 mod shapes;
 mod shown;
+mod textures;
 mod transforms;
 mod turn;
 
@@ -55,5 +57,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
+        Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
+        Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
     }
 }

@@ -51,7 +51,6 @@ impl Table for UvSpaceTable {
     }
 }
 
-// ANCHOR: plane_axes
 /// The two unit vectors, in a plane's own space, along which its u and v grow.
 ///
 /// They are those of the face of a cuboid that looks the same way as the normal, or nearly, laid onto the plane.
@@ -78,7 +77,6 @@ pub fn face_axes(axis: usize, negative: bool) -> [DVec3; 2] {
     let u = if axis == 1 { DVec3::X } else { DVec3::Y.cross(outward) };
     [u, u.cross(outward)]
 }
-// ANCHOR_END: plane_axes
 
 #[cfg(test)]
 mod tests {

@@ -8,6 +8,7 @@
 //! Beside them, the [images](DRAWN_IMAGES) that chapters read from files are drawn here.
 
 mod acne;
+mod aliasing;
 mod drawn_image;
 mod field_of_view;
 mod gallery;
@@ -70,9 +71,9 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 18] {
+pub fn figures() -> Vec<Figure> {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
-    [
+    vec![
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
         Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
@@ -165,6 +166,12 @@ pub fn figures() -> [Figure; 18] {
             chapter: "13_shapes",
             about: "where a ray is inside each slab of a cuboid, and inside all three",
             draw: slabs::draw,
+        },
+        Figure {
+            name: "16_aliasing",
+            chapter: "16_textures",
+            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+            draw: aliasing::draw,
         },
     ]
 }

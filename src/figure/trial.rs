@@ -2,15 +2,19 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight,
-    Rgb, Sphere,
+    Checker, Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane,
+    PointLight, Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
 use bevy_ecs::prelude::*;
 
 /// A chapter of this name with a scene that suits its figure.
 pub fn chapter(name: &'static str) -> Chapter {
-    let scene = if name == "04_orthographic" { parallel } else { central };
+    let scene = match name {
+        "04_orthographic" => parallel,
+        "16_textures" => checkered,
+        _ => central,
+    };
     Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
 }
 
@@ -18,7 +22,7 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes"])
+        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "16_textures"])
         .map(chapter)
         .collect()
 }
@@ -29,6 +33,11 @@ fn central(world: &mut World) {
     things(world);
     let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
+}
+
+fn checkered(world: &mut World) {
+    central(world);
+    world.spawn((Plane::default(), Placement::at(0.0, 0.1, 0.0), Matte::default(), Checker::default()));
 }
 
 fn parallel(world: &mut World) {

@@ -11,6 +11,7 @@ use glam::DVec3;
 ///
 /// A sample that meets nothing adds nothing, so that a pixel at an edge tells of the surface alone; how much of the pixel
 /// that is stands in the layer of coverage.
+/// All samples count alike, whatever the filter makes of their light.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmLayers {
     /// The kinds, each once, in the order of a file.

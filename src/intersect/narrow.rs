@@ -1,6 +1,7 @@
 use super::sphere::{LANES, RayBlock, Verdict, vector};
 use glam::DVec3;
 
+// ANCHOR: narrow
 /// Narrows the hits of a block of rays by one shape: all by the quick verdict, and those in doubt by the wide one.
 ///
 /// Among equal distances the lower shape number stays.
@@ -27,3 +28,4 @@ pub fn narrow(
         }
     }
 }
+// ANCHOR_END: narrow

@@ -14,7 +14,6 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-// ANCHOR: rectangle_verdict
 /// Where O + tR meets a rectangle, in f64: where it crosses the plane, if both coordinates there lie from −1 to 1.
 #[inline(always)]
 pub fn rectangle_verdict(origin: DVec3, direction: DVec3, flat: &Flat) -> Verdict {
@@ -35,7 +34,6 @@ pub fn rectangle_t(origin: DVec3, direction: DVec3, flat: &Flat) -> f64 {
     let verdict = rectangle_verdict(origin, direction, flat);
     if verdict.doubtful { wide_rectangle_t(origin, direction, flat) } else { verdict.t }
 }
-// ANCHOR_END: rectangle_verdict
 
 /// Narrows hits by all rectangles, for any column of rays.
 pub fn intersect_rectangles<R: RayColumn, H: HitColumn>(

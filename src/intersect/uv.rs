@@ -4,7 +4,6 @@ use crate::extract::{Slabs, face_axes};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-// ANCHOR: sphere_uv
 /// Of a point of a sphere, in the sphere's own space, at any distance from its centre.
 ///
 /// u is the longitude over 2π, 0 and 1 at −z and ½ at +z, through −x and back through +x; v the angle from the top over π.
@@ -17,7 +16,6 @@ pub fn sphere_uv(own: DVec3) -> [f64; 2] {
     let from_top = libm::atan2(across, own.y) * FRAC_1_PI;
     [if longitude < 0.0 { longitude + 1.0 } else { longitude }, if from_top < 1.0 { from_top } else { 1.0 }]
 }
-// ANCHOR_END: sphere_uv
 
 /// Of a point of a disk or a rectangle by its two coordinates: 0 to 1 from edge to edge, each way.
 ///

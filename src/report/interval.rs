@@ -11,7 +11,10 @@ const REPLICATES: usize = 1000;
 const BOOTSTRAP_SEED: u64 = 0x00b0_0757_0a95;
 
 /// A value with the interval that holds the truth at its level, if what is assumed holds.
+///
+/// In JSON it is the three numbers in this order.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(from = "[f64; 3]", into = "[f64; 3]")]
 pub struct Interval {
     /// The lower end.
     pub low: f64,
@@ -19,6 +22,18 @@ pub struct Interval {
     pub value: f64,
     /// The upper end.
     pub high: f64,
+}
+
+impl From<[f64; 3]> for Interval {
+    fn from([low, value, high]: [f64; 3]) -> Self {
+        Self { low, value, high }
+    }
+}
+
+impl From<Interval> for [f64; 3] {
+    fn from(Interval { low, value, high }: Interval) -> Self {
+        [low, value, high]
+    }
 }
 
 impl Interval {

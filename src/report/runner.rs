@@ -4,6 +4,7 @@ use super::interval::{Interval, LEVEL, mean_of};
 use super::ladder::Ladder;
 use super::run::{Run, Shelf, Times, numbers};
 use crate::extract::camera_entity;
+use crate::measure::image_error::Numbers;
 use crate::plan::Stage;
 use crate::render::{Execution, Lap, Rendered, Watch, render};
 use crate::scene::{Sampler, Sampling, Statistics};
@@ -154,6 +155,13 @@ fn with_timers(mut world: World) -> Result<World> {
     let camera = camera_entity(&world)?;
     world.entity_mut(camera).insert(Statistics);
     Ok(world)
+}
+
+/// The image of a variant under this sampling, on all cores.
+///
+/// Errors: what a render would be refused for.
+pub fn image_of(variant: &Variant<'_>, sampling: Sampling) -> Result<Numbers> {
+    variant.run(sampling, &Execution::default(), &()).map(|run| run.image)
 }
 
 /// CPU time with timers over that without, by pairs in turn.

@@ -112,9 +112,47 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
     ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, squared_mean)),
+        "part of the variance",
+    ),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, squared_mean)),
+        "part of the variance",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, of_pairs)), "one less is right"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, |x| of_pairs(x).max(0.0))),
+        "cut off",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
+    ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| (zigzag(x + w / 2.0) - zigzag(x - w / 2.0)) / w), "without width"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w / 2.0, x + w / 2.0, 1.0)), "the area"),
+    ("16_textures", Attempt::MeanOfStripes(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "other way round"),
 ];
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
+
+fn stripe(x: f64) -> f64 {
+    if x.floor().rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }
+}
+
+fn zigzag(x: f64) -> f64 {
+    1.0 - (x.rem_euclid(2.0) - 1.0).abs()
+}
+
+/// The area under the stripes over a number, or the stripe itself where there is no area.
+fn stripes_between(low: f64, high: f64, over: f64) -> f64 {
+    if low == high { stripe(low) } else { (zigzag(high) - zigzag(low)) / over }
+}
 
 fn fractional_row(index: u64, width: u32) -> [f64; 2] {
     [(index % u64::from(width)) as f64 + 0.5, index as f64 / f64::from(width) + 0.5]
@@ -364,4 +402,48 @@ fn not_unit(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]
 
 fn below_too(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
     cosine(turned(g, mixed(n, s), e), l).max(0.0)
+}
+
+fn less_truth(runs: &[f64], truth: f64) -> Vec<f64> {
+    runs.iter().map(|run| run - truth).collect()
+}
+
+fn squared_mean(off: &[f64]) -> f64 {
+    (off.iter().sum::<f64>() / off.len() as f64).powi(2)
+}
+
+fn of_pairs(off: &[f64]) -> f64 {
+    let (n, sum) = (off.len() as f64, off.iter().sum::<f64>());
+    (sum * sum - off.iter().map(|off| off * off).sum::<f64>()) / (n * (n - 1.0))
+}
+
+fn spread(off: &[f64], fewer: f64) -> f64 {
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    off.iter().map(|off| (off - mean).powi(2)).sum::<f64>() / (off.len() as f64 - fewer)
+}
+
+fn split(runs: &[f64], truth: f64, fewer: f64, bias: fn(&[f64]) -> f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [spread(&off, fewer), bias(&off)])
+}
+
+fn one_run_has_no_variance(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    match runs.len() {
+        0 => Some([0.0, 0.0]),
+        1 => Some([0.0, off[0] * off[0]]),
+        _ => Some([spread(&off, 1.0), of_pairs(&off)]),
+    }
+}
+
+fn about_the_truth(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [off.iter().map(|off| off * off).sum::<f64>() / (off.len() as f64 - 1.0), of_pairs(&off)])
+}
+
+fn squares_less_square(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let n = runs.len() as f64;
+    let squares = runs.iter().map(|run| run * run).sum::<f64>() / n;
+    let variance = (squares - squared_mean(runs)) * n / (n - 1.0);
+    (runs.len() > 1).then(|| [variance, of_pairs(&less_truth(runs, truth))])
 }

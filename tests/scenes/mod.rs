@@ -1,6 +1,8 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+mod textured;
+
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::film::{film_stage, layers_stage, moments_stage};
@@ -10,6 +12,7 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::{intersect, rays, shade};
+pub use textured::{TextureToggle, textured, textured_by};
 
 /// Which camera a scene gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -260,7 +263,7 @@ pub enum Toggle {
 }
 
 /// All of them.
-pub const TOGGLES: [Toggle; 11] = [
+pub const TOGGLES: &[Toggle] = &[
     Toggle::Light,
     Toggle::SecondLight,
     Toggle::Plane,

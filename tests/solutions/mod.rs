@@ -44,8 +44,14 @@ pub mod shapes;
 #[path = "14_transforms.rs"]
 pub mod transforms;
 
+#[path = "16_textures.rs"]
+pub mod textures;
+
+#[path = "18_error_and_time.rs"]
+pub mod error_and_time;
+
 /// By the chapter's name.
-pub const ALL: [(&str, Attempt); 14] = [
+pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
     ("02_ray", Attempt::Unit(ray::unit)),
     ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
@@ -60,4 +66,6 @@ pub const ALL: [(&str, Attempt); 14] = [
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
     ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
     ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
+    ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
 ];

@@ -102,9 +102,9 @@ impl Kind {
 pub fn trials(kind: Kind) -> Vec<Trial> {
     let (edge, seed) = (kind.edge(), 200 + 50 * kind as u64);
     let hits = [
-        ("edges from 1e3 sizes, slope from 1e-1", edge, 0.0, 1.0, [3.0, 3.0], true),
-        ("edges from 1e5 sizes, slope from 1e-1", edge, 0.0, 1.0, [5.0, 5.0], true),
-        ("edges from 1e7 sizes, slope from 1e-1", edge, 0.0, 1.0, [7.0, 7.0], true),
+        ("far edges, 1e3 sizes away", edge, 0.0, 1.0, [3.0, 3.0], true),
+        ("far edges, 1e5 sizes away", edge, 0.0, 1.0, [5.0, 5.0], true),
+        ("far edges, 1e7 sizes away", edge, 0.0, 1.0, [7.0, 7.0], true),
         ("edges from 1e3 sizes, slope from 1e-8", edge, 0.0, 8.0, [3.0, 3.0], true),
         ("corners of the square from 1e5 sizes", At::Corner, 0.0, 1.0, [5.0, 5.0], true),
         ("anywhere, any size and place 1e-8 to 1e8", At::Inside, 8.0, 1.0, [-2.0, 4.0], false),

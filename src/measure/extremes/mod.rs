@@ -23,6 +23,7 @@ mod shadow;
 mod shadow_stages;
 mod sphere;
 mod sphere_limits;
+mod texture;
 mod transform;
 mod transform_aim;
 mod transform_placement;
@@ -56,6 +57,8 @@ pub enum Group {
     Transform,
     /// Rays against triangles and meshes of them, and their surfaces.
     Triangle,
+    /// Textures and environments: what a pixel covers, its mean, edges of images.
+    Texture,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -68,7 +71,7 @@ pub enum Group {
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: &[Self] = &[
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
@@ -79,6 +82,7 @@ impl Group {
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
+        Self::Texture,
     ];
 
     /// Its cases.
@@ -93,6 +97,7 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Triangle => triangle::trials(),
+            Self::Texture => texture::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
@@ -110,6 +115,7 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Triangle => "triangle",
+            Self::Texture => "texture",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
@@ -122,8 +128,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
-        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
+        let names = || Self::ALL.iter().map(Self::to_string).collect::<Vec<_>>().join(", ");
+        Self::ALL.iter().copied().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 

@@ -13,6 +13,7 @@ impl Group {
             Self::Camera => ["rays of cameras", "taken", "wrong"],
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
+            Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
             Self::Disk => ["disks", "to judge", "wrong"],
             Self::Rectangle => ["rectangles", "to judge", "wrong"],

@@ -1,4 +1,4 @@
-use super::{Bug, Planted, hits, light, pieces, rays, triangles};
+use super::{Bug, Planted, hits, light, pieces, rays, textures, triangles};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
@@ -17,12 +17,14 @@ const SCALED: &str = "09_camera_to_world";
 const PIECES: &str = "13_shapes";
 /// Triangles, with normals of their own and without.
 const FACETS: &str = "14_transforms";
+/// Surfaces with more than one colour, and an environment.
+const TEXTURED: &str = "16_textures";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 43] = [
+pub static PLANTED: &[Planted] = &[
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
@@ -51,6 +53,13 @@ pub static PLANTED: [Planted; 43] = [
     bug("disk-inward", "Describe disk surfaces", "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
     bug("rectangle-epsilon", "Describe rectangle surfaces", "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
     bug("round-cuboid", "Describe cuboid surfaces", "normal as a sphere's", PIECES, Bug::After(|| pieces::round_cuboid.into_configs())),
+    bug("two-pixels", "Measure footprints", "two pixels for one", TEXTURED, Bug::After(|| textures::two_pixels.into_configs())),
+    bug("half-colour", "Colour surfaces", "half of red", TEXTURED, Bug::After(|| textures::half_colour.into_configs())),
+    bug("half-cell", "Lay textures", "corner for middle", TEXTURED, Bug::After(|| textures::half_cell.into_configs())),
+    bug("colours-exchanged", "Colour checkers", "colours exchanged", TEXTURED, Bug::After(|| textures::colours_exchanged.into_configs())),
+    bug("stripes-at-a-point", "Colour stripes", "a point for the mean", TEXTURED, Bug::After(|| textures::stripes_at_a_point.into_configs())),
+    bug("bytes-for-light", "Colour images", "bytes taken for light", TEXTURED, Bug::After(|| textures::bytes_for_light.into_configs())),
+    bug("mirrored", "Add the environment", "left for right", TEXTURED, Bug::Instead(|| textures::mirrored.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
