@@ -80,9 +80,9 @@ pub fn all() -> Vec<Chapter> {
         how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
         shapes::chapter().exercise(exercises::SHAPES),
         transforms::chapter().exercise(exercises::TRANSFORMS),
-        reflection::chapter(),
+        reflection::chapter().exercise(exercises::REFLECTION),
         textures::chapter().exercise(exercises::TEXTURES),
-        sampling::chapter(),
+        sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]
 }

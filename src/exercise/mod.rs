@@ -22,7 +22,9 @@ mod pinhole;
 mod progress;
 mod question;
 mod ray;
+mod reflection;
 mod report;
+mod sampling;
 mod screen;
 mod shapes;
 mod shown;
@@ -56,8 +58,10 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
-        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
+        Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
+        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
+        Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -11,10 +11,12 @@ mod acne;
 mod aliasing;
 mod drawn_image;
 mod field_of_view;
+mod filters;
 mod gallery;
 mod grid;
 mod hit;
 mod label;
+mod lobes;
 mod look_at;
 mod ndc;
 mod normals;
@@ -28,6 +30,8 @@ mod pinhole;
 mod pixel_ray;
 mod props;
 mod ray;
+mod rings;
+mod samples;
 mod scenery;
 mod screen;
 mod section;
@@ -172,6 +176,36 @@ pub fn figures() -> Vec<Figure> {
             chapter: "16_textures",
             about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
             draw: aliasing::draw,
+        },
+        Figure {
+            name: "15_reflection",
+            chapter: "15_reflection",
+            about: "how much each reflection model sends which way",
+            draw: lobes::draw,
+        },
+        Figure {
+            name: "17_rings",
+            chapter: "17_sampling",
+            about: "rings that become finer than a pixel, through three ways of placing samples",
+            draw: rings::draw,
+        },
+        Figure {
+            name: "17_points",
+            chapter: "17_sampling",
+            about: "64 points of each sampler in one pixel",
+            draw: samples::draw_points,
+        },
+        Figure {
+            name: "17_filters",
+            chapter: "17_sampling",
+            about: "five filters, from the pixel's centre outward",
+            draw: filters::draw,
+        },
+        Figure {
+            name: "17_variance",
+            chapter: "17_sampling",
+            about: "the variance of a mean over the number of its samples",
+            draw: samples::draw_variance,
         },
     ]
 }

@@ -42,8 +42,8 @@ impl Interval {
         self.low <= truth && truth <= self.high
     }
 
-    /// The same of e to the power of it.
-    pub fn exp(self) -> Self {
+    /// Of a number whose logarithm this is the interval of.
+    pub fn of_logarithm(self) -> Self {
         let [low, value, high] = [self.low, self.value, self.high].map(libm::exp);
         Self { low, value, high }
     }
@@ -71,11 +71,11 @@ impl Estimate {
     ///
     /// None for a value that has no logarithm.
     pub fn log_interval(&self, level: f64) -> Option<Interval> {
-        self.log().map(|log| log.interval(level).exp())
+        self.logarithm().map(|log| log.interval(level).of_logarithm())
     }
 
     /// Its logarithm, the variance to first order.
-    pub fn log(&self) -> Option<Self> {
+    pub fn logarithm(&self) -> Option<Self> {
         let positive = self.value > 0.0;
         positive.then(|| Self {
             value: libm::log(self.value),

@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::{Aimed, LightRay, append_rays, cosine_of};
+use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
 use crate::extract::{DirectionalLightTable, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -17,11 +17,10 @@ pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] 
 
 /// Aims along parallel rays; nothing is beyond such a light.
 #[inline(always)]
-fn aim_along(surface: &Surface, shading: Option<DVec3>, to_light: DVec3) -> Aimed {
+fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let direction = to_light.as_vec3();
-    let cosine = cosine_of(surface, shading, direction);
-    Aimed { origin, direction, distance: f64::INFINITY, cosine }
+    Aimed { origin, direction, distance: f64::INFINITY, cosine: cosine_of(surface, normal, direction) }
 }
 
 /// Appends a tile's rays to directional lights, light after light; each looks without end.
@@ -30,9 +29,10 @@ pub fn aim_at_directional_lights(
     mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
 ) {
     for (surfaces, shading, list, mut rays) in &mut tiles {
+        let lit = LitRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
-            append_rays(surfaces, shading, &list.row, &mut rays, lights.casts_shadows[light], |surface, shading| {
-                let aimed = aim_along(surface, shading, lights.to_light[light]);
+            append_rays(&lit, &mut rays, lights.casts_shadows[light], |surface, normal| {
+                let aimed = aim_along(surface, normal, lights.to_light[light]);
                 let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
                 LightRay { aimed, reach: f32::INFINITY, irradiance }
             });

@@ -80,30 +80,26 @@ pub(super) struct Aimed {
     pub origin: Vec3,
     pub direction: Vec3,
     pub distance: f64,
-    /// Of the angle between the normal and the direction; not above 0 where the surface faces away.
+    /// Of the angle between the shading normal and the direction; not above 0 where the surface faces away.
     pub cosine: f64,
 }
 
-/// The ray from a surface to a light; `shading` is the normal by which light falls, where it is not the surface's own.
+/// Aims at a point; `normal` is the one to shade by, which is the surface's own where it has no other.
 #[inline(always)]
-pub(super) fn aim(surface: &Surface, shading: Option<DVec3>, light: DVec3) -> Aimed {
+pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
-    Aimed { origin, direction, distance, cosine: cosine_of(surface, shading, direction) }
-}
-
-/// The cosine of a ray to a light; not above 0 where it brings nothing.
-#[inline(always)]
-pub(super) fn cosine_of(surface: &Surface, shading: Option<DVec3>, direction: Vec3) -> f64 {
-    let (geometric, to_light) = (surface.normal.as_dvec3(), direction.as_dvec3());
-    match shading {
-        None => geometric.dot(to_light),
-        Some(shading) => falling_cosine(geometric, shading, to_light),
-    }
+    Aimed { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
 }
 // ANCHOR_END: aim
+
+/// The cosine by the shading normal, or 0 where the light is behind the surface itself.
+#[inline(always)]
+pub(super) fn cosine_of(surface: &Surface, normal: DVec3, direction: Vec3) -> f64 {
+    falling_cosine(surface.normal.as_dvec3(), normal, direction.as_dvec3())
+}
 
 // ANCHOR: shadow_reach
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
@@ -120,22 +116,31 @@ pub(super) struct LightRay {
     pub irradiance: [f64; 3],
 }
 
+/// The surfaces that light may fall on.
+pub(super) struct LitRows<'a> {
+    pub surfaces: &'a Surfaces,
+    pub shading: Option<&'a ShadingNormals>,
+    pub rows: &'a [u32],
+}
+
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
 /// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
-    surfaces: &Surfaces,
-    shading: Option<&ShadingNormals>,
-    rows: &[u32],
+    lit: &LitRows<'_>,
     rays: &mut LightRays,
     casts_shadows: bool,
-    ray_of: impl Fn(&Surface, Option<DVec3>) -> LightRay,
+    ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
-    match shading {
-        None => append(rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), None)),
+    let surfaces = lit.surfaces;
+    match lit.shading {
+        None => append(lit.rows, rays, casts_shadows, |row| {
+            let surface = surfaces.get(row);
+            ray_of(&surface, surface.normal.as_dvec3())
+        }),
         Some(normals) => {
-            append(rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), Some(normals.get(row))));
+            append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
     }
 }

@@ -24,9 +24,12 @@ pub fn mirror_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
 pub fn add_phong(
     materials: Res<Shared<MaterialTable>>,
     highlights: Res<Shared<PhongTable>>,
-    mut tiles: Query<(&WorldRays, &Surfaces, Option<&ShadingNormals>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
+    mut tiles: Query<(
+        (&WorldRays, &Surfaces, Option<&ShadingNormals>),
+        (&LightRays, Option<&ShadowHits>, &mut Radiance),
+    )>,
 ) {
-    for (eye, surfaces, shading, light, shadow, mut radiance) in &mut tiles {
+    for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
         let lit = Lit { eye, surfaces, shading, light, shadow };
         lit.add_highlights(&materials, MaterialKind::Phong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = mirror_cosine(normal, to_light, to_eye);

@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::{LightRay, aim, append_rays, shadow_reach};
+use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
 use crate::extract::{PointLightTable, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -24,24 +24,18 @@ pub fn aim_at_point_lights(
     mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
 ) {
     for (surfaces, shading, list, mut rays) in &mut tiles {
+        let lit = LitRows { surfaces, shading, rows: &list.row };
         for light in 0..lights.position.len() {
-            aim_rows(surfaces, shading, &list.row, &lights, light, &mut rays);
+            aim_rows(&lit, &lights, light, &mut rays);
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn aim_rows(
-    surfaces: &Surfaces,
-    shading: Option<&ShadingNormals>,
-    rows: &[u32],
-    lights: &PointLightTable,
-    light: usize,
-    rays: &mut LightRays,
-) {
+fn aim_rows(lit: &LitRows<'_>, lights: &PointLightTable, light: usize, rays: &mut LightRays) {
     let (position, intensity) = (lights.position[light], lights.intensity[light]);
-    append_rays(surfaces, shading, rows, rays, lights.casts_shadows[light], |surface, shading| {
-        let aimed = aim(surface, shading, position);
+    append_rays(lit, rays, lights.casts_shadows[light], |surface, normal| {
+        let aimed = aim(surface, normal, position);
         let irradiance = irradiance_from_point(intensity, aimed.cosine, aimed.distance * aimed.distance);
         LightRay { aimed, reach: shadow_reach(aimed.distance), irradiance }
     });

@@ -44,8 +44,14 @@ pub mod shapes;
 #[path = "14_transforms.rs"]
 pub mod transforms;
 
+#[path = "15_reflection.rs"]
+pub mod reflection;
+
 #[path = "16_textures.rs"]
 pub mod textures;
+
+#[path = "17_sampling.rs"]
+pub mod sampling;
 
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
@@ -66,6 +72,8 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
     ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
     ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
+    ("15_reflection", Attempt::PhongRadiance(reflection::phong_radiance)),
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
+    ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
 ];

@@ -17,8 +17,11 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod light;
+mod light_albedo;
 mod plane;
 mod print;
+mod sampling;
 mod shadow;
 mod shadow_stages;
 mod sphere;
@@ -55,10 +58,12 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
-    /// Rays against triangles and meshes of them, and their surfaces.
-    Triangle,
     /// Textures and environments: what a pixel covers, its mean, edges of images.
     Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -67,22 +72,27 @@ pub enum Group {
     Rectangle,
     /// Rays against cuboids, and shadow rays off them.
     Cuboid,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
 }
 
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
+        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
         Self::Triangle,
+        Self::Sampling,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
         Self::Texture,
+        Self::Light,
     ];
 
     /// Its cases.
@@ -96,12 +106,14 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
-            Self::Triangle => triangle::trials(),
             Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
+            Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
+            Self::Light => light::trials(),
         }
     }
 }
@@ -114,12 +126,14 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
-            Self::Triangle => "triangle",
             Self::Texture => "texture",
+            Self::Triangle => "triangle",
+            Self::Sampling => "sampling",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
+            Self::Light => "light",
         })
     }
 }

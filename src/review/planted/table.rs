@@ -15,10 +15,14 @@ const PARALLEL: &str = "04_orthographic";
 const SCALED: &str = "09_camera_to_world";
 /// Disks, rectangles and cuboids.
 const PIECES: &str = "13_shapes";
-/// Triangles, with normals of their own and without.
-const FACETS: &str = "14_transforms";
 /// Surfaces with more than one colour, and an environment.
 const TEXTURED: &str = "16_textures";
+/// Three reflection models under three kinds of light.
+const REFLECTION: &str = "15_reflection";
+/// Triangles, with normals of their own and without.
+const FACETS: &str = "14_transforms";
+/// Several samples a pixel.
+const SAMPLED: &str = "17_sampling";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
@@ -26,6 +30,8 @@ const PAINTED: &str = "02_ray";
 #[rustfmt::skip]
 pub static PLANTED: &[Planted] = &[
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
+    bug("one-pattern", "Place samples", "every pixel alike", SAMPLED, Bug::After(|| rays::one_pattern.into_configs())),
+    bug("radius-doubled", "Place samples", "twice as far from the centre", SAMPLED, Bug::After(|| rays::radius_doubled.into_configs())),
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
     bug("no-aspect", "Centre points on the screen", "aspect left out", MOST, Bug::After(|| rays::no_aspect.into_configs())),
@@ -62,6 +68,8 @@ pub static PLANTED: &[Planted] = &[
     bug("mirrored", "Add the environment", "left for right", TEXTURED, Bug::Instead(|| textures::mirrored.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
+    bug("sun-without-slant", "Aim at directional lights", "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
+    bug("spot-without-fading", "Aim at spot lights", "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
@@ -72,6 +80,9 @@ pub static PLANTED: &[Planted] = &[
     bug("cuboids-ignored", "Look for cuboids in the way", "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
+    bug("phong-forgotten", "Add Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
+    bug("blinn-phong-forgotten", "Add Blinn–Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
+    bug("emitted-twice", "Add what surfaces emit", "added twice", REFLECTION, Bug::Instead(|| light::emitted_twice.into_configs())),
     bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
     bug("added-twice", "Add to the film", "added twice, counted once", MOST, Bug::After(|| light::added_twice.into_configs())),
     bug("gamma-twice", DEVELOP, "the curve taken twice", MOST, Bug::Develop(light::gamma_twice)),
