@@ -183,7 +183,10 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedNamedStructLike("DVec2") => TWO_NUMBERS.into(),
         Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
         Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 4") => FOUR_NUMBERS.into(),
-        Error::ExpectedDifferentLength { expected, .. } if expected.contains("array") => THREE_OF_THEM.into(),
+        // A colour is an array of three too, of numbers.
+        Error::ExpectedDifferentLength { expected, .. } if word == "triangle" && expected.contains("array") => {
+            THREE_OF_THEM.into()
+        }
         Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 2") => TWO_NUMBERS.into(),
         Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
         Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
