@@ -6,6 +6,8 @@ mod scenes;
 
 #[path = "bad_input/cases.rs"]
 mod cases;
+#[path = "bad_input/textures.rs"]
+mod textures;
 
 use bevy_ecs::prelude::*;
 use cases::*;
@@ -70,6 +72,35 @@ fn bad_scenes() {
 }
 
 #[test]
+fn bad_textures() {
+    let mut lines = Vec::new();
+    prepare(&textures::good_textures(), &offer()).map(|_| ()).expect("the good scene is good");
+    for (what, words, spoil) in textures::TEXTURES {
+        let mut scene = textures::good_textures();
+        spoil(&mut scene);
+        let message = refusal(&scene, what);
+        for word in *words {
+            assert!(message.contains(word), "{what}: no {word} in: {message}");
+        }
+        lines.push(format!("{what:<34} {message}"));
+    }
+    for (field, name, set) in textures::TEXTURE_FIELDS {
+        for (value, shown) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (f64::NEG_INFINITY, "-inf")] {
+            let mut scene = textures::good_textures();
+            set(&mut scene, value);
+            let what = format!("{field} of \"{name}\" {shown}");
+            let message = refusal(&scene, &what);
+            for word in [&format!("\"{name}\": "), &format!("{field} is "), shown] {
+                assert!(message.contains(word), "{what}: no {word} in: {message}");
+            }
+            lines.push(message);
+        }
+    }
+    kept("bad_textures", &lines);
+    eprintln!("bad textures: {} refused", lines.len());
+}
+
+#[test]
 fn bad_numbers() {
     let mut lines = Vec::new();
     let height: Field = ("view_height", "main", |w, v| edit::<OrthographicCamera>(w, "main", |c| c.view_height = v));
@@ -94,7 +125,7 @@ fn bad_numbers() {
 #[test]
 fn scenes_at_the_edge_are_accepted() {
     type Edge = (&'static str, fn(&mut World));
-    let edges: [Edge; 16] = [
+    let edges: [Edge; 21] = [
         ("fov 179.99", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(179.99))),
         ("fov 0.01", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(0.01))),
         ("1 × 1", |w| put(w, "main", Resolution { width: 1, height: 1 })),
@@ -111,6 +142,16 @@ fn scenes_at_the_edge_are_accepted() {
         ("a needle", |w| edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1e-3, 9e3, 1e-3))),
         ("a plane stretched unevenly", |w| edit::<Placement>(w, "floor", |p| p.scale = DVec3::new(1.0, 2.0, 3.0))),
         ("a long normal", |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::new(0.0, 1e300, 1e299))),
+        ("a mirrored triangle", |w| edit::<Placement>(w, "sail", |p| p.scale = DVec3::new(-1.0, 2.0, 3.0))),
+        ("a sliver", |w| edit::<Triangle>(w, "sail", |t| t.vertices[2] = DVec3::new(0.5, 1e-13, 0.0))),
+        ("a small triangle", |w| edit::<Triangle>(w, "sail", |t| t.vertices = t.vertices.map(|v| v * 1e-30))),
+        ("a triangle lost to rounding", |w| {
+            edit::<Triangle>(w, "sail", |t| t.vertices = t.vertices.map(|v| v * 1e-9));
+            edit::<Placement>(w, "sail", |p| p.position = DVec3::splat(1e10));
+        }),
+        ("long and inward normals", |w| {
+            edit::<Triangle>(w, "sail", |t| t.normals = Some([DVec3::NEG_Z * 1e300, -DVec3::ONE, DVec3::NEG_Z]));
+        }),
         ("black and white", |w| edit::<Matte>(w, "ball", |m| m.colour = Rgb::new(0.0, 1.0, 0.0))),
         ("a light of no light", |w| edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::BLACK)),
         ("up almost along the view", |w| {

@@ -66,7 +66,7 @@ const WRONG: Attempt = Attempt::PerspectiveDirection(|[x, y], _| [x, y, -1.0]);
 #[test]
 fn every_kept_solution_is_right() {
     let mut inputs = 0;
-    for (chapter, solution) in solutions::ALL {
+    for (chapter, solution) in solutions::ALL.iter().copied() {
         let report = check(solution, PATIENCE);
         assert!(matches!(report.outcome, Outcome::Right(_)), "{chapter}: {}", told(&report));
         inputs += report.inputs;
@@ -91,9 +91,14 @@ fn every_stub_is_wrong() {
     eprintln!("stubs: {stubs} wrong, of {asking} exercises");
 }
 
+/// The chapters that ask for a function.
+fn that_ask(chapters: &[Chapter]) -> impl Iterator<Item = &Chapter> {
+    chapters.iter().filter(|chapter| chapter.exercise.is_some())
+}
+
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solution), chapter) in solutions::ALL.iter().zip(&chapters::all()[1..]) {
+    for ((name, solution), chapter) in solutions::ALL.iter().zip(that_ask(&chapters::all())) {
         let attempt = chapter.exercise.expect("an exercise");
         assert_eq!((*name, solution.function()), (chapter.name, attempt.function()));
         let signature = format!("pub fn {}(", attempt.function());
@@ -121,7 +126,7 @@ fn every_planted_mistake_is_called_by_its_name() {
         }
     }
     assert!(unnamed.is_empty(), "{} of {}:\n{}", unnamed.len(), mistakes::ALL.len(), unnamed.join("\n"));
-    for (chapter, _) in solutions::ALL {
+    for (chapter, _) in solutions::ALL.iter().copied() {
         assert!(mistakes::ALL.iter().any(|(of, ..)| of == &chapter), "no mistake is planted in {chapter}");
     }
     eprintln!("mistakes: {} planted, all recognised", mistakes::ALL.len());

@@ -57,6 +57,21 @@ fn transforms_hold() {
 }
 
 #[test]
+fn textures_hold() {
+    holds(Group::Texture, 1024);
+}
+
+#[test]
+fn triangles_hold() {
+    holds(Group::Triangle, 2048);
+}
+
+#[test]
+fn samples_hold() {
+    holds(Group::Sampling, 4096);
+}
+
+#[test]
 fn films_hold() {
     holds(Group::Film, 1024);
 }
@@ -74,6 +89,11 @@ fn rectangles_hold() {
 #[test]
 fn cuboids_hold() {
     holds(Group::Cuboid, 2048);
+}
+
+#[test]
+fn lights_hold() {
+    holds(Group::Light, 2048);
 }
 
 #[test]

@@ -32,9 +32,10 @@ const ORDER: &[&str] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 5] = [
+const REEXPORTED: [(&str, &str); 6] = [
     ("Chapter", "chapter"),
     ("Asked", "chapter"),
+    ("AskedSampling", "chapter"),
     ("Attempt", "attempt"),
     ("StageWords", "attempt"),
     ("run", "command"),

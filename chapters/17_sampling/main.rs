@@ -1,4 +1,6 @@
-//! Sampling a pixel.
+//! Sampling a pixel: many rays through each, at well-chosen places, each counted as a filter weighs it.
+//! The rings become finer than a pixel; what is wrong with the samples shows as rings that are not there.
+//! New here: the `Sampling` on the camera, and the stage "Place samples" in place of "Place raster points".
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -19,22 +21,24 @@ pub fn chapter() -> Chapter {
 // ANCHOR_END: chapter
 
 // ANCHOR: scene
+/// Rings around a mast: disks on one another, black and white in turns, each ring of the same area as the last.
+const DISKS: u32 = 96;
+
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 4.6, 6.6].into(), target: [0.0, -0.2, 0.2].into(), ..LookAt::default() },
+        Sampling { samples: 16, seed: 17, sampler: Sampler::Sobol, filter: Filter::GAUSSIAN },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
+    for disk in 0..DISKS {
+        let radius = 4.0 * (f64::from(DISKS - disk) / f64::from(DISKS)).sqrt();
+        let colour = Rgb::grey(if disk % 2 == 0 { 0.02 } else { 0.9 });
+        let placement = Placement::at(0.0, 0.001 * f64::from(disk), 0.0);
+        world.spawn((Name::new(format!("disk {disk}")), Disk { radius }, placement, Matte { colour }));
     }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
-    world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
+    let red = Matte { colour: Rgb::new(0.8, 0.15, 0.1) };
+    world.spawn((Name::new("mast"), Sphere { radius: 0.25 }, Placement::at(0.0, 0.35, 0.0), red));
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.25, 0.35, 0.5) }));
 }
 // ANCHOR_END: scene

@@ -1,4 +1,4 @@
-use super::arguments::SceneOptions;
+use super::options::SceneOptions;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
 use crate::plan::Table;

@@ -1,5 +1,5 @@
-use super::arguments::RenderOptions;
 use super::interrupt::Waiting;
+use super::options::RenderOptions;
 use super::span::told;
 use crate::extract::{ShapeTable, adaptive_of};
 use crate::film::{

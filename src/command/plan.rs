@@ -1,4 +1,4 @@
-use super::arguments::SceneOptions;
+use super::options::SceneOptions;
 use super::subject::Subject;
 use crate::Result;
 use crate::review::plan_text;

@@ -1,8 +1,8 @@
-use super::arguments::RenderOptions;
 use super::find;
 use super::hints::try_next;
 use super::interrupt::{Waiting, interrupted};
 use super::long_render::{Files, render_long, tell_outcome, warn_of_empty_layers};
+use super::options::RenderOptions;
 use super::subject::Subject;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, LayerTable, PinholeLens, SMALLEST_PIXEL, adaptive_of, camera_entity, validate};

@@ -65,7 +65,7 @@ impl Numbers {
 ///
 /// Errors: another ending, a file that is not there, cannot be read or is too large, a texel that is out of range.
 pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers) -> Result<Texels, Refusal> {
-    let refused = |accepted: String| Refusal::new(who, "file", format!("{file:?}"), accepted);
+    let refused = |accepted: String| Refusal::new(who, "file", shortened(&format!("{file:?}")), accepted);
     let path = SceneFolder::path_of(scene, file);
     let (endings, accepted) = numbers.endings();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
@@ -85,7 +85,7 @@ pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers
 }
 
 fn decoded(path: &Path, ending: &str) -> Result<Texels, String> {
-    let shown = one_line(&path.display());
+    let shown = shortened(&path.display().to_string());
     let metadata = fs::metadata(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => format!("there is no file {shown}"),
         _ => format!("{shown} cannot be read: {}", one_line(&error)),
@@ -101,9 +101,20 @@ fn decoded(path: &Path, ending: &str) -> Result<Texels, String> {
     read.map_err(|problem| format!("{shown} cannot be read: {problem}"))
 }
 
+/// What a library says, as a part of one sentence.
 fn one_line(what: &dyn std::fmt::Display) -> String {
     let what = what.to_string();
-    what.lines().next().unwrap_or_default().trim_end_matches('.').to_string()
+    let line = what.lines().next().unwrap_or_default().trim_end_matches('.').replace(". ", ", ");
+    shortened(&line)
+}
+
+/// The end of a long text, where a path is told from another.
+fn shortened(text: &str) -> String {
+    const MOST_LETTERS: usize = 80;
+    let letters = text.chars().count();
+    let end = text.chars().skip(letters.saturating_sub(MOST_LETTERS));
+    let end: String = end.map(|letter| if letter.is_control() { '?' } else { letter }).collect();
+    if letters > MOST_LETTERS { format!("…{end}") } else { end }
 }
 
 fn check_size(width: u64, height: u64) -> Result<(), String> {

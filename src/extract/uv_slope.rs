@@ -1,16 +1,16 @@
-use super::{CuboidTable, DiskTable, RectangleTable, UvSpaceTable, shape_entities};
+use super::{CuboidTable, DiskTable, RectangleTable, TriangleTable, UvSpaceTable, face_axes, shape_entities};
 use crate::plan::Table;
 use crate::scene::{Plane, Refusal, Sphere};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// How u and v change along a shape's surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum UvSlope {
-    /// They do not, as far as this table knows.
+    /// They do not.
     #[default]
-    Unknown,
+    Nowhere,
     /// By the same everywhere: by these a step of the world.
     Flat([DVec3; 2]),
     /// As longitude and latitude do about the origin of the shape's own space.
@@ -40,24 +40,19 @@ impl UvSlope {
     #[inline(always)]
     pub fn step(&self, own: DVec3, normal: DVec3, step: DVec3, own_step: DVec3) -> DVec3 {
         match self {
-            Self::Unknown => DVec3::ZERO,
+            Self::Nowhere => DVec3::ZERO,
             Self::Flat([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
             Self::Round => round_step(own, own_step),
             Self::Faces(slopes) => {
-                let facing = slopes.map(|slope| normal.dot(slope) / slope.length());
-                let axis = most_of(DVec3::from(facing));
-                let along = |axis: usize| 0.5 * slopes[axis].dot(step);
-                match axis {
-                    0 => DVec3::new(along(2), along(1), 0.0),
-                    1 => DVec3::new(along(0), along(2), 0.0),
-                    _ => DVec3::new(along(0), along(1), 0.0),
-                }
+                let axis = most_of(DVec3::from(slopes.map(|slope| normal.dot(slope) / slope.length())));
+                let [u, v] = face_axes(axis, own[axis] < 0.0);
+                let moved = DVec3::from(slopes.map(|slope| 0.5 * slope.dot(step)));
+                DVec3::new(u.dot(moved), v.dot(moved), 0.0)
             }
         }
     }
 }
 
-// ANCHOR: round_step
 /// How much longitude over 2π and the angle from the top over π change along a step from a point.
 ///
 /// The derivatives of the two arc tangents that they are.
@@ -70,7 +65,16 @@ fn round_step(own: DVec3, step: DVec3) -> DVec3 {
     let from_top = (own.y * outward - across * step.y) / (across_squared + own.y * own.y);
     DVec3::new(longitude / TAU, from_top / PI, 0.0)
 }
-// ANCHOR_END: round_step
+
+/// That of a triangle with these two edges from its first corner, by u and v of its corners.
+fn flat_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {
+    let across = one.cross(other);
+    let area_squared = across.length_squared();
+    // Along the one edge the first changes by 1 and the second by 0, along the other the other way round.
+    let (first, second) = (other.cross(across) / area_squared, across.cross(one) / area_squared);
+    let (along_one, along_other) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+    UvSlope::Flat([0, 1].map(|part| first * along_one[part] + second * along_other[part]))
+}
 
 /// How u and v change along each shape, in the order of the shapes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,7 +89,7 @@ impl Table for UvSlopes {
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let shapes = shape_entities(scene);
         let spaces = UvSpaceTable::extract(scene)?;
-        let mut slope = vec![UvSlope::Unknown; shapes.len()];
+        let mut slope = vec![UvSlope::Nowhere; shapes.len()];
         for (shape, entity) in shapes.into_iter().enumerate() {
             if scene.get::<Plane>(entity).is_some() {
                 let matrix = spaces.uv_from_world[shape];
@@ -103,6 +107,11 @@ impl Table for UvSlopes {
         let cuboids = CuboidTable::extract(scene)?;
         for (slabs, &shape) in cuboids.slabs.iter().zip(&cuboids.shape) {
             slope[shape as usize] = UvSlope::Faces([0, 1, 2].map(|axis| slabs.normal[axis] / slabs.half[axis]));
+        }
+        let triangles = TriangleTable::extract(scene)?;
+        for (triangle, &shape) in triangles.shape.iter().enumerate() {
+            let [a, b, c] = triangles.facet[triangle].corners;
+            slope[shape as usize] = flat_slope([b - a, c - a], triangles.uvs[triangle]);
         }
         Ok(Self { slope })
     }

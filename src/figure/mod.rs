@@ -8,12 +8,15 @@
 //! Beside them, the [images](DRAWN_IMAGES) that chapters read from files are drawn here.
 
 mod acne;
+mod aliasing;
 mod drawn_image;
 mod field_of_view;
+mod filters;
 mod gallery;
 mod grid;
 mod hit;
 mod label;
+mod lobes;
 mod look_at;
 mod ndc;
 mod normals;
@@ -27,6 +30,8 @@ mod pinhole;
 mod pixel_ray;
 mod props;
 mod ray;
+mod rings;
+mod samples;
 mod scenery;
 mod screen;
 mod section;
@@ -70,9 +75,9 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 18] {
+pub fn figures() -> Vec<Figure> {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
-    [
+    vec![
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
         Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
@@ -165,6 +170,42 @@ pub fn figures() -> [Figure; 18] {
             chapter: "13_shapes",
             about: "where a ray is inside each slab of a cuboid, and inside all three",
             draw: slabs::draw,
+        },
+        Figure {
+            name: "16_aliasing",
+            chapter: "16_textures",
+            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+            draw: aliasing::draw,
+        },
+        Figure {
+            name: "15_reflection",
+            chapter: "15_reflection",
+            about: "how much each reflection model sends which way",
+            draw: lobes::draw,
+        },
+        Figure {
+            name: "17_rings",
+            chapter: "17_sampling",
+            about: "rings that become finer than a pixel, through three ways of placing samples",
+            draw: rings::draw,
+        },
+        Figure {
+            name: "17_points",
+            chapter: "17_sampling",
+            about: "64 points of each sampler in one pixel",
+            draw: samples::draw_points,
+        },
+        Figure {
+            name: "17_filters",
+            chapter: "17_sampling",
+            about: "five filters, from the pixel's centre outward",
+            draw: filters::draw,
+        },
+        Figure {
+            name: "17_variance",
+            chapter: "17_sampling",
+            about: "the variance of a mean over the number of its samples",
+            draw: samples::draw_variance,
         },
     ]
 }

@@ -3,6 +3,9 @@ use crate::plan::{Column, Lane, LaneValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 
+/// How many steps of a render the first sample of all pixels takes: one for every eighth, fourth, second and every pixel.
+pub const FIRST_SAMPLE_STEPS: u32 = 4;
+
 /// How many rejected samples a tile remembers by their address; all are counted.
 const REMEMBERED: usize = 4;
 
@@ -233,7 +236,8 @@ impl Film {
     /// While the first samples are under way, a pixel that has none yet shows the nearest one up and to the left that has.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
         let (tile, row) = self.place(x, y);
-        let waits = self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < 4);
+        let waits =
+            self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS);
         if !waits {
             return self.tiles[tile].mean(row);
         }

@@ -20,7 +20,7 @@ pub use accumulate::{add_to_film, film_stage};
 pub use checkpoint::{read_checkpoint, write_checkpoint};
 pub use develop::{Curve, byte_from_linear, srgb_from_linear};
 pub use exr::write_exr;
-pub use film_tile::{Film, FilmTile, Rejected};
+pub use film_tile::{FIRST_SAMPLE_STEPS, Film, FilmTile, Rejected};
 pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};

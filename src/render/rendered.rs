@@ -1,8 +1,9 @@
 use super::clock::Lap;
-use super::{Execution, RenderUnderWay, Watch};
-use crate::Result;
+use super::{Execution, Limits, RenderUnderWay, Watch, render_in_passes};
+use crate::extract::adaptive_of;
 use crate::film::{Curve, Film};
 use crate::plan::{Plan, Stage};
+use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::time::Duration;
 
@@ -34,6 +35,14 @@ impl Rendered {
 /// Errors: a refused scene, no plan, or a stop by the one who watches.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
     let mut under_way = RenderUnderWay::begin(scene, offer, execution)?;
-    under_way.advance(under_way.steps(), watch)?;
+    match adaptive_of(scene)? {
+        None => under_way.advance(under_way.steps(), watch)?,
+        adaptive => {
+            let limits = Limits { adaptive, ..Limits::default() };
+            if render_in_passes(&mut under_way, &limits, watch, &mut |_| Ok(()))?.stopped {
+                return Err(Error::Interrupted);
+            }
+        }
+    }
     Ok(under_way.finish())
 }

@@ -1,10 +1,11 @@
+use crate::film::FIRST_SAMPLE_STEPS;
 use crate::rays::Tile;
 
 /// The lattices of a picture's first sample, by the distance of their pixels: low resolution first.
-pub const LATTICES: [u32; 4] = [8, 4, 2, 1];
+pub const LATTICES: [u32; FIRST_SAMPLE_STEPS as usize] = [8, 4, 2, 1];
 
 /// The step after which every pixel has its first sample.
-pub const WHOLE: u32 = LATTICES.len() as u32;
+pub const WHOLE: u32 = FIRST_SAMPLE_STEPS;
 
 /// How many steps bring every pixel to this many samples: the first sample takes four, each further one.
 pub fn steps_of(samples: u32) -> u32 {
@@ -25,6 +26,7 @@ pub struct Run {
     lattices: [usize; 2],
 }
 
+// ANCHOR: runs
 /// The runs that bring a tile from `done` steps to `to`.
 ///
 /// Lattices that follow each other are run at once, since a pixel's sums do not depend on its neighbours'.
@@ -35,6 +37,7 @@ pub fn runs(done: u32, to: u32) -> Vec<Run> {
     let later = later.map(|step| Run { sample: step - (WHOLE - 1), lattices: [0, LATTICES.len()] });
     first.into_iter().chain(later).collect()
 }
+// ANCHOR_END: runs
 
 impl Run {
     /// The first sample of all pixels.

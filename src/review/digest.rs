@@ -93,7 +93,7 @@ impl DigestTable {
             let [block_x, block_y] = [x, y].map(|pixels| (pixels / BLOCK_SIDE) as usize);
             let block = &mut self.blocks[block_y * self.across + block_x];
             let mut state = fnv(block.unwrap_or(FNV_START), u64::from(x) << 32 | u64::from(y));
-            for lane in lanes.iter().filter(|lane| !matches!(lane.name, "path" | "row")) {
+            for lane in lanes.iter().filter(|lane| !matches!(lane.name, "path" | "row" | "pixel")) {
                 state = fnv(state, lane.values.bits(row));
             }
             *block = Some(state);

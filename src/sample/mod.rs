@@ -11,6 +11,7 @@
 mod filter;
 mod hash;
 mod independent;
+mod mean_error;
 mod owen;
 mod purpose;
 mod sobol;
@@ -19,6 +20,7 @@ mod stratified;
 pub use filter::{box_offset, table_offset, tent_offset};
 pub use hash::{PixelKey, unit};
 pub use independent::{Independent, uniform};
+pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
 pub use owen::owen_scrambled;
 pub use purpose::{DIMENSIONS, Purpose};
 pub use sobol::{Sobol, sobol_bits};

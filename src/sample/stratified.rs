@@ -88,7 +88,7 @@ pub fn permuted(number: u32, count: u32, key: u64) -> u32 {
             state = mixed(state);
             let [factor, flips] = halves(state);
             at = ((at ^ flips) & mask).wrapping_mul(factor | 1) & mask;
-            at ^= at >> (1 + ((factor >> 16) * bits >> 16)).min(31);
+            at ^= at >> (1 + (((factor >> 16) * bits) >> 16)).min(31);
         }
         if at < count {
             break;
@@ -134,7 +134,8 @@ mod tests {
                 }
                 let expected = KEYS as f64 / pairs as f64;
                 let occurring = (0..count * count).filter(|pair| pair / count != pair % count);
-                let square = |pair: u32| (f64::from(times[pair as usize]) - expected).powi(2) / expected;
+                let off = |pair: u32| f64::from(times[pair as usize]) - expected;
+                let square = |pair: u32| off(pair) * off(pair) / expected;
                 let freedom = (pairs - 1) as f64;
                 let chi = occurring.map(square).sum::<f64>();
                 worst = worst.max((chi - freedom) / (2.0 * freedom).sqrt());

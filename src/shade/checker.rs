@@ -131,3 +131,90 @@ pub fn stripes_stage() -> Stage {
         .table::<StripesTable>()
         .when(|scene| texture_of_kind::<Stripes>(scene, "striped material", |_| true))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// Numbers from 0 to 1 that look like chance.
+    fn chance(index: u64, purpose: u64) -> f64 {
+        let mixed = (index * 31 + purpose + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        ((mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 40) as f64 / (1 << 24) as f64
+    }
+
+    /// The mean of the wave by counting whole and cut cells one after the other.
+    fn counted_mean(low: f64, high: f64) -> f64 {
+        let mut sum = 0.0;
+        let mut at = low;
+        while at < high {
+            let end = (at.floor() + 1.0).min(high);
+            sum += wave(at) * (end - at);
+            at = end;
+        }
+        sum / (high - low)
+    }
+
+    #[test]
+    fn the_mean_is_that_of_its_cells() {
+        let (mut worst, mut tried) = (0.0_f64, 0);
+        for index in 0..20_000 {
+            let x = 40.0 * chance(index, 0) - 20.0;
+            let width = libm::exp2(14.0 * chance(index, 1) - 7.0);
+            worst = worst.max((wave_mean(x, width) - counted_mean(x - 0.5 * width, x + 0.5 * width)).abs());
+            tried += 1;
+        }
+        eprintln!("mean of a wave: {tried} ranges, worst {worst:.1e}");
+        assert!(worst < 1e-12, "{worst}");
+    }
+
+    #[test]
+    fn a_range_without_width_is_its_point_and_one_without_end_is_the_mean() {
+        for x in [-3.5, -1.0, -0.0, 0.0, 0.25, 1.0, 7.5, 1e7, 1e15, 1e300] {
+            assert_eq!(wave_mean(x, 0.0), wave(x), "{x}");
+            assert_eq!(wave_mean(x, f64::INFINITY), 0.0);
+            assert!(wave_mean(x, 1e300).abs() < 1e-280 && (x > 1e15 || wave_mean(x, 1e9).abs() <= 1e-9), "{x}");
+        }
+        assert_eq!((wave(0.5), wave(1.5), wave(-0.5), wave(-1.5)), (1.0, -1.0, -1.0, 1.0));
+        // Far away a range may be shorter than the step from one number to the next.
+        for step in 0..1000 {
+            let mean = wave_mean(1e7 + f64::from(step) * 1e-3, 1e-10);
+            assert!(mean == 1.0 || mean == -1.0 || step % 1000 == 0);
+        }
+    }
+
+    #[test]
+    fn a_checker_s_mean_is_the_mean_of_many_points() {
+        const POINTS: u64 = 20_000;
+        let mut worst = 0.0_f64;
+        for index in 0..20 {
+            let point = DVec3::new(chance(index, 2) * 6.0, chance(index, 3) * 6.0, chance(index, 4) * 6.0);
+            let width = DVec3::new(chance(index, 5), chance(index, 6), chance(index, 7)) * 3.0;
+            let steps = [DVec3::new(width.x, 0.0, 0.6 * width.z), DVec3::new(0.0, width.y, 0.8 * width.z)];
+            let share = checker_share(&TexturePoint { point, steps });
+            let inside = (0..POINTS)
+                .map(|number| {
+                    let within = |axis: u64| chance(number, 10 + axis + 3 * index) - 0.5;
+                    let at = point + width * DVec3::new(within(0), within(1), within(2));
+                    checker_share(&TexturePoint { point: at, ..TexturePoint::default() })
+                })
+                .sum::<f64>();
+            worst = worst.max((share - inside / POINTS as f64).abs());
+        }
+        eprintln!("mean of a checker: 20 boxes of {POINTS} points, worst {worst:.4}");
+        // Four standard errors of a share near a half.
+        assert!(worst < 4.0 * 0.5 / (POINTS as f64).sqrt(), "{worst}");
+    }
+
+    #[test]
+    fn a_range_spreads_as_a_pixel_does() {
+        for (right, down) in [(1.0, 0.0), (0.3, 0.4), (-2.0, 1.0)] {
+            let side = 400;
+            let within = |number: i32| (f64::from(number) + 0.5) / f64::from(side) - 0.5;
+            let numbers = (0..side).flat_map(|i| (0..side).map(move |j| within(i) * right + within(j) * down));
+            let variance = numbers.map(|number| number * number).sum::<f64>() / f64::from(side * side);
+            let width: f64 = box_width(right, down);
+            assert!((variance / (width * width / 12.0) - 1.0).abs() < 1e-4);
+        }
+    }
+}

@@ -95,3 +95,128 @@ pub fn environment_stage() -> Stage {
             })
         })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A smooth radiance of every direction.
+    fn smooth(direction: DVec3) -> [f64; 3] {
+        [0.5 + 0.4 * direction.x, 1.0 + 0.5 * direction.y * direction.z, 2.0 + direction.z]
+    }
+
+    fn image(width: usize, height: usize, of: impl Fn(DVec3) -> [f64; 3]) -> Texels {
+        let at = |at: usize| DVec2::new((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
+        let size = DVec2::new(width as f64, height as f64);
+        let rgb = (0..width * height).map(|number| of(direction_of(at(number) / size)).map(|part| part as f32));
+        Texels { width, height, rgb: rgb.collect() }
+    }
+
+    fn directions() -> impl Iterator<Item = DVec3> {
+        (0..40).flat_map(|i| (0..81).map(move |j| direction_of(DVec2::new(f64::from(j) / 80.0, f64::from(i) / 39.0))))
+    }
+
+    #[test]
+    fn directions_have_their_places() {
+        let close = |direction: DVec3, x: f64, y: f64| {
+            let at = equirectangular(direction);
+            assert!((at - DVec2::new(x, y)).length() < 1e-15, "{direction}: {at}");
+        };
+        close(DVec3::NEG_Z, 0.5, 0.5);
+        close(DVec3::X * 7.0, 0.75, 0.5);
+        close(DVec3::NEG_X, 0.25, 0.5);
+        close(DVec3::new(1e-300, 0.0, 1.0), 1.0, 0.5);
+        close(DVec3::new(-1e-300, 0.0, 1.0), 0.0, 0.5);
+        close(DVec3::new(0.0, 1.0, -1.0), 0.5, 0.25);
+        assert!(equirectangular(DVec3::Y).y == 0.0 && equirectangular(DVec3::NEG_Y).y == 1.0);
+        // Where an arc cosine gives 0 or 6.7e-8 for all of them.
+        for small in [1e-8, 1e-12, 1e-200] {
+            let y = equirectangular(DVec3::new(0.0, 1.0, -small)).y * PI;
+            assert!((y / small - 1.0).abs() < 1e-15, "{y} for {small}");
+        }
+        for direction in directions() {
+            let back = direction_of(equirectangular(direction));
+            assert!((back - direction).length() < 1e-14, "{direction}: {back}");
+        }
+    }
+
+    #[test]
+    fn a_known_function_comes_back_to_within_the_error_of_blending() {
+        let mut worsts = Vec::new();
+        for (width, height) in [(64, 32), (128, 64), (256, 128), (101, 51)] {
+            let image = image(width, height, smooth);
+            let mut worst = 0.0_f64;
+            for direction in directions() {
+                let told = around(&image, equirectangular(direction));
+                for (told, truth) in told.into_iter().zip(smooth(direction)) {
+                    worst = worst.max((told - truth).abs());
+                }
+            }
+            // Linear blending is off by h²/8 of each second derivative, which here are at most 1.5 in either angle.
+            let step = PI / height as f64;
+            assert!(worst < 2.0 * 1.5 * step * step / 8.0 * 4.0, "{width} × {height}: {worst}");
+            worsts.push(worst);
+        }
+        eprintln!("environments: worst errors {worsts:.5?} at 64, 128, 256 and 101 texels across");
+        assert!(worsts[0] / worsts[1] > 3.5 && worsts[1] / worsts[2] > 3.5, "the error falls with the square");
+    }
+
+    #[test]
+    fn poles_and_seam_are_whole() {
+        for (width, height) in [(1, 1), (1, 2), (2, 1), (3, 5), (64, 32)] {
+            let image = image(width, height, smooth);
+            for y in [1.0, -1.0] {
+                for (x, z) in [(0.0, 0.0), (-0.0, -0.0), (1e-300, 0.0), (0.0, -1e-30), (-1e-9, 1e-9)] {
+                    let told = around(&image, equirectangular(DVec3::new(x, y, z)));
+                    assert!(told.iter().all(|part| part.is_finite()), "{width} × {height} at {x} {y} {z}");
+                }
+            }
+            for y in [-0.9, 0.0, 0.7] {
+                let side = |x: f64| around(&image, equirectangular(DVec3::new(x, y, 1.0)));
+                for (left, right) in side(-1e-12).into_iter().zip(side(1e-12)) {
+                    assert!((left - right).abs() < 1e-9, "{width} × {height}: the seam shows");
+                }
+            }
+        }
+        // Over the pole: from one side and from the other the same.
+        let image = image(64, 32, smooth);
+        let near = |x: f64| around(&image, equirectangular(DVec3::new(x, 1.0, 0.0)));
+        for (one, other) in near(1e-9).into_iter().zip(near(-1e-9)) {
+            assert!((one - other).abs() < 1e-6, "{one} {other}");
+        }
+    }
+
+    #[test]
+    fn a_constant_sphere_shines_4_pi() {
+        for (width, height) in [(1, 1), (7, 3), (64, 32), (512, 256)] {
+            let image = image(width, height, |_| [2.0, 0.5, 1.0]);
+            let mut power = [0.0; 3];
+            for row in 0..height {
+                let angle = texel_solid_angle(&image, row);
+                for texel in &image.rgb[row * width..(row + 1) * width] {
+                    (0..3).for_each(|part| power[part] += f64::from(texel[part]) * angle);
+                }
+            }
+            for (power, radiance) in power.into_iter().zip([2.0, 0.5, 1.0]) {
+                assert!((power / (4.0 * PI * radiance) - 1.0).abs() < 1e-11, "{width} × {height}: {power}");
+            }
+            for direction in directions() {
+                assert_eq!(around(&image, equirectangular(direction)), [2.0, 0.5, 1.0]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_turn_goes_by_the_right_hand() {
+        let image = image(64, 32, smooth);
+        let (sine, cosine) = libm::sincos(PI / 2.0);
+        let straight = EnvironmentTable { image: image.clone(), turn: [0.0, 1.0] };
+        let turned = EnvironmentTable { image, turn: [sine, cosine] };
+        for (there, here) in [(DVec3::NEG_Z, DVec3::NEG_X), (DVec3::NEG_X, DVec3::Z), (DVec3::X, DVec3::NEG_Z)] {
+            let (expected, told) = (environment_radiance(&straight, there), environment_radiance(&turned, here));
+            for (expected, told) in expected.into_iter().zip(told) {
+                assert!((expected - told).abs() < 1e-12, "what was at {there} is at {here}");
+            }
+        }
+    }
+}

@@ -52,7 +52,6 @@ pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
 }
 // ANCHOR_END: bilinear
 
-// ANCHOR: trilinear
 /// The colour about a point of the unit square over this many texels' width, blended from the two levels whose texels are
 /// nearest in size.
 pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 3] {
@@ -63,7 +62,6 @@ pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 
     let share = level - level.floor();
     if share == 0.0 { below } else { between(below, bilinear(&pyramid.levels[lower + 1], at, wrap), share) }
 }
-// ANCHOR_END: trilinear
 
 /// The most lookups that a long footprint gets.
 const MOST_LOOKUPS: f64 = 16.0;
@@ -99,3 +97,129 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] 
     sum.map_or([0.0; 3], |(first, sum)| [0, 1, 2].map(|part| first[part] + sum[part] / lookups))
 }
 // ANCHOR_END: image_mean
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn image(width: usize, height: usize) -> Texels {
+        let texel = |at: usize| [1, 2, 3].map(|salt| ((at * 7919 + salt * 104_729) % 1009) as f32 / 1009.0);
+        Texels { width, height, rgb: (0..width * height).map(texel).collect() }
+    }
+
+    const SIZES: [(usize, usize); 7] = [(1, 1), (1, 7), (2, 2), (3, 5), (64, 32), (101, 37), (256, 3)];
+
+    #[test]
+    fn at_a_texel_s_centre_its_colour_comes_back() {
+        let (mut tried, mut exact) = (0, 0);
+        for (width, height) in SIZES {
+            let image = image(width, height);
+            for (at, &texel) in image.rgb.iter().enumerate() {
+                let (x, y) = ((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
+                let centre = DVec2::new(x / width as f64, y / height as f64);
+                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                    let told = bilinear(&image, centre, wrap);
+                    let there = centre * DVec2::new(width as f64, height as f64);
+                    // A third of an image has no binary fraction: then the point is next to the centre.
+                    if there == DVec2::new(x, y) {
+                        assert_eq!(told, texel.map(f64::from), "{width} × {height} at {at}");
+                        exact += 1;
+                    }
+                    assert!(told.iter().zip(texel).all(|(told, texel)| (told - f64::from(texel)).abs() < 1e-12));
+                    assert_eq!(nearest_texel(&image, centre, wrap), texel.map(f64::from));
+                    tried += 1;
+                }
+            }
+        }
+        eprintln!("texel centres: {tried} lookups, {exact} of them at the very centre, give the texel");
+        assert!(exact > tried / 2);
+    }
+
+    #[test]
+    fn a_constant_image_is_that_constant_however_it_is_looked_up() {
+        let constant = [0.1_f32, 0.7, 1.0 / 3.0];
+        let mut tried = 0;
+        for (width, height) in SIZES {
+            let pyramid = Pyramid::on(Texels { width, height, rgb: vec![constant; width * height] });
+            for number in 0..200 {
+                let part = |salt: u32| f64::from((number * 7919 + salt * 104_729) % 1009) / 1009.0;
+                let point = DVec3::new(40.0 * part(1) - 20.0, 40.0 * part(2) - 20.0, 0.0);
+                let long = libm::exp2(20.0 * part(3) - 14.0);
+                let steps = [DVec3::new(long, part(4), 0.0), DVec3::new(part(5) * 0.01, part(6) * long, 0.0)];
+                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                    let at = TexturePoint { point, steps };
+                    assert_eq!(image_mean(&pyramid, &at, wrap), constant.map(f64::from), "{width} × {height}, {at:?}");
+                    tried += 1;
+                }
+            }
+        }
+        eprintln!("constant images: {tried} lookups give the constant");
+    }
+
+    #[test]
+    fn a_pixel_that_covers_everything_gets_the_mean() {
+        for (width, height) in SIZES {
+            let pyramid = Pyramid::on(image(width, height));
+            let mean = pyramid.levels.last().expect("a level").rgb[0].map(f64::from);
+            for step in [DVec3::INFINITY, DVec3::splat(1e9), DVec3::new(1e4, 0.0, 0.0), DVec3::NAN] {
+                let at = TexturePoint { point: DVec3::new(0.3, 0.8, 0.0), steps: [step, DVec3::INFINITY] };
+                assert_eq!(image_mean(&pyramid, &at, Wrap::Repeat), mean);
+            }
+        }
+    }
+
+    #[test]
+    fn seams_and_places_far_away_are_looked_up_like_any_other() {
+        let image = image(8, 4);
+        // On both sides of an edge the same colour, blended half and half.
+        let below = bilinear(&image, DVec2::new(-1e-12, 0.125), Wrap::Repeat);
+        let above = bilinear(&image, DVec2::new(1e-12, 0.125), Wrap::Repeat);
+        for part in 0..3 {
+            assert!((below[part] - above[part]).abs() < 1e-10);
+            let half = 0.5 * (f64::from(image.rgb[0][part]) + f64::from(image.rgb[7][part]));
+            assert!((above[part] - half).abs() < 1e-10);
+        }
+        for turns in [1.0, -3.0, 1e6, -1e7] {
+            let near = bilinear(&image, DVec2::new(0.3125, 0.625), Wrap::Repeat);
+            assert_eq!(bilinear(&image, DVec2::new(0.3125 + turns, 0.625 - turns), Wrap::Repeat), near);
+        }
+        let corner = image.rgb[0].map(f64::from);
+        assert_eq!(bilinear(&image, DVec2::new(-1e300, -0.5), Wrap::Clamp), corner);
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e-300, 1e300] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                let _ = nearest_texel(&image, DVec2::splat(odd), wrap);
+                let _ = image_mean(&Pyramid::on(image.clone()), &TexturePoint::default(), wrap);
+            }
+        }
+    }
+
+    #[test]
+    fn a_footprint_s_mean_is_near_that_of_many_points() {
+        // A smooth image, so that how the footprint is weighted matters little.
+        let (width, height) = (128, 128);
+        let texel = |at: usize| {
+            let (x, y) = ((at % width) as f64 / width as f64, (at / width) as f64 / height as f64);
+            let wave =
+                0.5 + 0.25 * libm::sin(x * std::f64::consts::TAU) + 0.2 * libm::cos(y * std::f64::consts::TAU * 2.0);
+            [wave as f32; 3]
+        };
+        let pyramid = Pyramid::on(Texels { width, height, rgb: (0..width * height).map(texel).collect() });
+        let mut worst = 0.0_f64;
+        for (right, down) in [((0.1, 0.0), (0.0, 0.1)), ((0.02, 0.0), (0.0, 0.2)), ((0.1, 0.1), (0.01, -0.01))] {
+            let steps = [DVec3::new(right.0, right.1, 0.0), DVec3::new(down.0, down.1, 0.0)];
+            let point = DVec3::new(0.4, 0.9, 0.0);
+            let told = image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0];
+            let side = 64;
+            let within = |number: usize| (number as f64 + 0.5) / side as f64 - 0.5;
+            let mut sum = 0.0;
+            for number in 0..side * side {
+                let at = point + steps[0] * within(number % side) + steps[1] * within(number / side);
+                sum += bilinear(&pyramid.levels[0], at.truncate(), Wrap::Repeat)[0];
+            }
+            worst = worst.max((told - sum / (side * side) as f64).abs());
+        }
+        eprintln!("footprints on an image: worst {worst:.4}");
+        assert!(worst < 0.02, "{worst}");
+    }
+}

@@ -4,7 +4,6 @@ use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
 
-// ANCHOR: colour_surfaces
 /// Gives every row that sends on light the colour of its material, and black to the others.
 pub fn colour_surfaces(
     materials: Res<Shared<MaterialTable>>,
@@ -21,7 +20,6 @@ pub fn colour_surfaces(
         }
     }
 }
-// ANCHOR_END: colour_surfaces
 
 impl SurfaceColours {
     /// Writes a row.

@@ -43,7 +43,15 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
     let mut tried = 0;
     for eye in scenes::EYES {
         let setup = Setup { eye, scale: 1.0 / 3.0, shift: DVec3::new(0.1, -0.0, 1e-7), ..Setup::default() };
-        for before in [scenes::full(setup), scenes::turned(setup), scenes::ties(), scenes::pieces(setup)] {
+        let scenes = [
+            scenes::full(setup),
+            scenes::turned(setup),
+            scenes::ties(),
+            scenes::shining(setup),
+            scenes::pieces(setup),
+            scenes::textured(setup),
+        ];
+        for before in scenes {
             let mut before = before;
             if before.query::<&Name>().iter(&before).any(|name| name.as_str() == "ground") {
                 let ground = scenes::named(&mut before, "ground");

@@ -17,16 +17,25 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod light;
+mod light_albedo;
 mod plane;
 mod print;
+mod sampling;
 mod shadow;
 mod shadow_stages;
 mod sphere;
 mod sphere_limits;
+mod texture;
 mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -49,6 +58,12 @@ pub enum Group {
     Camera,
     /// Scaled spheres, their normals, placements through parents.
     Transform,
+    /// Textures and environments: what a pixel covers, its mean, edges of images.
+    Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
     /// Films: sums of samples, bytes of pictures.
     Film,
     /// Rays against disks, and shadow rays off them.
@@ -57,20 +72,27 @@ pub enum Group {
     Rectangle,
     /// Rays against cuboids, and shadow rays off them.
     Cuboid,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
 }
 
 impl Group {
     /// All groups in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: &[Self] = &[
+        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
+        Self::Triangle,
+        Self::Sampling,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
+        Self::Texture,
+        Self::Light,
     ];
 
     /// Its cases.
@@ -84,10 +106,14 @@ impl Group {
                 .flatten()
                 .collect(),
             Self::Transform => transform::trials(),
+            Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
+            Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
+            Self::Light => light::trials(),
         }
     }
 }
@@ -100,10 +126,14 @@ impl fmt::Display for Group {
             Self::Shadow => "shadow",
             Self::Camera => "camera",
             Self::Transform => "transform",
+            Self::Texture => "texture",
+            Self::Triangle => "triangle",
+            Self::Sampling => "sampling",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
+            Self::Light => "light",
         })
     }
 }
@@ -112,8 +142,8 @@ impl FromStr for Group {
     type Err = String;
     fn from_str(word: &str) -> Result<Self, String> {
         let known = |group: &Self| group.to_string() == word;
-        let names = || Self::ALL.map(|group| group.to_string()).join(", ");
-        Self::ALL.into_iter().find(known).ok_or_else(|| format!("it must be one of {}", names()))
+        let names = || Self::ALL.iter().map(Self::to_string).collect::<Vec<_>>().join(", ");
+        Self::ALL.iter().copied().find(known).ok_or_else(|| format!("it must be one of {}", names()))
     }
 }
 

@@ -21,6 +21,15 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut sphere) = entity.get_mut::<Sphere>() {
             sphere.radius *= scale;
         }
+        if let Some(mut checker) = entity.get_mut::<Checker>().filter(|texture| texture.by == TextureBy::Space) {
+            checker.size *= scale;
+        }
+        if let Some(mut stripes) = entity.get_mut::<Stripes>().filter(|texture| texture.by == TextureBy::Space) {
+            stripes.size *= scale;
+        }
+        if let Some(mut image) = entity.get_mut::<ImageTexture>().filter(|texture| texture.by == TextureBy::Space) {
+            image.size *= scale;
+        }
         if let Some(mut camera) = entity.get_mut::<OrthographicCamera>() {
             camera.view_height *= scale;
         }

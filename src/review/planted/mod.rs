@@ -8,6 +8,8 @@ mod light;
 mod pieces;
 mod rays;
 mod table;
+mod textures;
+mod triangles;
 
 pub use table::PLANTED;
 

@@ -2,7 +2,10 @@
 
 use crate::extract::{CameraAxes, ImageShape, PinholeLens};
 use crate::plan::{Column, Shared};
-use crate::rays::{CameraRays, NdcPoints, RasterPoints, ScreenPoints, WorldRays, camera_ray_perspective};
+use crate::rays::{
+    CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays, camera_ray_perspective,
+    raster_from_pixel,
+};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
@@ -11,6 +14,29 @@ pub fn half_pixel(mut tiles: Query<&mut RasterPoints>) {
     for mut raster in &mut tiles {
         let raster = &mut *raster;
         raster.x.iter_mut().chain(&mut raster.y).for_each(|along| *along -= 0.5);
+    }
+}
+
+/// The first pixel's point for all pixels of the tile.
+pub fn one_pattern(mut tiles: Query<&mut RasterPoints>) {
+    for mut raster in &mut tiles {
+        let raster = &mut *raster;
+        for lane in [&mut raster.x, &mut raster.y] {
+            let first = lane.first().map_or(0.0, |first| first - first.floor());
+            lane.iter_mut().for_each(|along| *along = along.floor() + first);
+        }
+    }
+}
+
+/// Offsets from the centre doubled: a radius taken for a diameter.
+pub fn radius_doubled(mut tiles: Query<(&Tile, &PixelSamples, &mut RasterPoints)>) {
+    for (tile, samples, mut raster) in &mut tiles {
+        for (row, &pixel) in samples.pixel.iter().enumerate() {
+            let [x, y] = tile.pixel_of(pixel as usize);
+            let centre = raster_from_pixel(x, y);
+            raster.x[row] = 2.0 * raster.x[row] - centre.x;
+            raster.y[row] = 2.0 * raster.y[row] - centre.y;
+        }
     }
 }
 

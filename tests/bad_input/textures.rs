@@ -1,0 +1,110 @@
+//! Textures and backgrounds that are refused.
+
+use crate::cases::{Case, Field, edit, good, put};
+use crate::scenes::{Eye, named};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use pinhole::scene::*;
+
+/// A scene with one of each texture, all well.
+pub fn good_textures() -> World {
+    let mut world = good(Eye::Perspective);
+    put(&mut world, "ball", ImageTexture { file: "chapters/16_textures/card.png".into(), ..ImageTexture::default() });
+    put(&mut world, "floor", Checker::default());
+    world.spawn((Name::new("wall"), Plane { normal: DVec3::Z }, Matte::default(), Stripes::default()));
+    world
+}
+
+fn behind(world: &mut World, bundle: impl Bundle) {
+    let sky = named(world, "sky");
+    world.entity_mut(sky).remove::<Background>().insert(bundle);
+}
+
+fn environment(file: &str) -> Environment {
+    Environment { file: file.into(), ..Environment::default() }
+}
+
+const EVENING: &str = "chapters/16_textures/evening.hdr";
+
+pub const TEXTURES: &[Case] = &[
+    ("a checker without a material", &["checker \"cloth\"", "material", "Matte"], |w| {
+        w.spawn((Name::new("cloth"), Checker::default()));
+    }),
+    ("a checker on a lamp", &["checker \"lamp\"", "material"], |w| put(w, "lamp", Checker::default())),
+    ("two textures on one", &["\"floor\"", "texture", "checker and as stripes", "one texture only"], |w| {
+        put(w, "floor", Stripes::default());
+    }),
+    ("a checker's size 0", &["checker \"floor\"", "size", "0"], |w| edit::<Checker>(w, "floor", |c| c.size = 0.0)),
+    ("a checker's size −1", &["checker \"floor\"", "size", "-1"], |w| edit::<Checker>(w, "floor", |c| c.size = -1.0)),
+    ("a checker that gives back more", &["checker \"floor\"", "first", "(2, 0, 0)"], |w| {
+        edit::<Checker>(w, "floor", |c| c.first = Rgb::new(2.0, 0.0, 0.0));
+    }),
+    ("stripes of negative light", &["stripes \"wall\"", "second", "(0, -1, 0)"], |w| {
+        edit::<Stripes>(w, "wall", |s| s.second = Rgb::new(0.0, -1.0, 0.0));
+    }),
+    ("stripes across nothing", &["stripes \"wall\"", "across", "(0, 0, 0)"], |w| {
+        edit::<Stripes>(w, "wall", |s| s.across = DVec3::ZERO);
+    }),
+    ("stripes by uv across z", &["stripes \"wall\"", "across", "(0, 0, 1)", "u and v"], |w| {
+        edit::<Stripes>(w, "wall", |s| (s.across, s.by) = (DVec3::Z, TextureBy::Uv));
+    }),
+    ("an image's size 0", &["image texture \"ball\"", "size"], |w| edit::<ImageTexture>(w, "ball", |i| i.size = 0.0)),
+    ("an image without a file", &["image texture \"ball\"", "file is \"\"", ".png"], |w| {
+        put(w, "ball", ImageTexture::default());
+    }),
+    ("an image that is not there", &["\"ball\"", "file is \"nowhere.png\"", "there is no file nowhere.png"], |w| {
+        edit::<ImageTexture>(w, "ball", |i| i.file = "nowhere.png".into());
+    }),
+    ("an image of another kind", &["\"ball\"", "file is \"Cargo.toml\"", ".png, .hdr or .exr"], |w| {
+        edit::<ImageTexture>(w, "ball", |i| i.file = "Cargo.toml".into());
+    }),
+    ("a file with a long name", &["\"ball\"", "file is …", "there is no file …"], |w| {
+        edit::<ImageTexture>(w, "ball", |i| i.file = format!("{}.png", "long/".repeat(200)));
+    }),
+    ("an image too bright for a surface", &["\"ball\"", EVENING, "other texels", "from 0 to 1"], |w| {
+        edit::<ImageTexture>(w, "ball", |i| i.file = EVENING.into());
+    }),
+    ("a gradient and a background", &["the scene", "a Background by \"sky\" and a Gradient by \"dusk\""], |w| {
+        w.spawn((Name::new("dusk"), Gradient::default()));
+    }),
+    ("two gradients", &["gradient", "\"sky\" and (unnamed, entity "], |w| {
+        behind(w, Gradient::default());
+        w.spawn(Gradient::default());
+    }),
+    ("a gradient of negative light", &["gradient \"sky\"", "top", "(0, 0, -1)"], |w| {
+        behind(w, Gradient { top: Rgb::new(0.0, 0.0, -1.0), ..Gradient::default() });
+    }),
+    ("an environment and a background", &["the scene", "\"sky\"", "an Environment by \"dusk\""], |w| {
+        w.spawn((Name::new("dusk"), environment(EVENING)));
+    }),
+    ("an environment without a file", &["environment \"sky\"", "file is \"\"", ".hdr or .exr"], |w| {
+        behind(w, environment(""));
+    }),
+    ("an environment of bytes", &["environment \"sky\"", "card.png", ".hdr or .exr"], |w| {
+        behind(w, environment("chapters/16_textures/card.png"));
+    }),
+    ("an environment's scale −1", &["environment \"sky\"", "scale", "-1"], |w| {
+        behind(w, Environment { scale: -1.0, ..environment(EVENING) });
+    }),
+    ("an environment too bright for f32", &["environment \"sky\"", "scale", "1e300"], |w| {
+        behind(w, Environment { scale: 1e300, ..environment(EVENING) });
+    }),
+    ("an environment turned by no number", &["environment \"sky\"", "turn", "NaN°"], |w| {
+        behind(w, Environment { turn: Degrees(f64::NAN), ..environment(EVENING) });
+    }),
+];
+
+pub const TEXTURE_FIELDS: &[Field] = &[
+    ("first", "floor", |w, v| edit::<Checker>(w, "floor", |c| c.first.r = v)),
+    ("second", "floor", |w, v| edit::<Checker>(w, "floor", |c| c.second.g = v)),
+    ("size", "floor", |w, v| edit::<Checker>(w, "floor", |c| c.size = v)),
+    ("first", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.first.b = v)),
+    ("second", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.second.r = v)),
+    ("size", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.size = v)),
+    ("across", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.across.y = v)),
+    ("size", "ball", |w, v| edit::<ImageTexture>(w, "ball", |i| i.size = v)),
+    ("bottom", "sky", |w, v| behind(w, Gradient { bottom: Rgb::grey(v), ..Gradient::default() })),
+    ("top", "sky", |w, v| behind(w, Gradient { top: Rgb::grey(v), ..Gradient::default() })),
+    ("scale", "sky", |w, v| behind(w, Environment { scale: v, ..environment(EVENING) })),
+    ("turn", "sky", |w, v| behind(w, Environment { turn: Degrees(v), ..environment(EVENING) })),
+];
