@@ -117,7 +117,6 @@ pub fn triangle_surface_stage() -> Stage {
         .reads::<Hits>()
         .reads::<TriangleRows>()
         .reads::<Surfaces>()
-        .reads_if::<SurfaceUvs>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
         .table::<TriangleTable>()
