@@ -41,11 +41,20 @@ pub mod how_it_is_built;
 #[path = "13_shapes/exercise.rs"]
 pub mod shapes;
 
+#[path = "14_transforms/exercise.rs"]
+pub mod transforms;
+
+#[path = "15_reflection/exercise.rs"]
+pub mod reflection;
+
 #[path = "16_textures/exercise.rs"]
 pub mod textures;
 
 #[path = "17_sampling/exercise.rs"]
 pub mod sampling;
+
+#[path = "18_error_and_time/exercise.rs"]
+pub mod error_and_time;
 
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
@@ -86,8 +95,17 @@ pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
 /// Chapter 13.
 pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
 
+/// Chapter 14.
+pub const TRANSFORMS: Attempt = Attempt::FallingCosine(transforms::falling_cosine);
+
+/// Chapter 15.
+pub const REFLECTION: Attempt = Attempt::PhongRadiance(reflection::phong_radiance);
+
 /// Chapter 16.
 pub const TEXTURES: Attempt = Attempt::MeanOfStripes(textures::mean_of_stripes);
 
 /// Chapter 17.
 pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
+
+/// Chapter 18.
+pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);

@@ -79,10 +79,10 @@ pub fn all() -> Vec<Chapter> {
         conventions::chapter().exercise(exercises::CONVENTIONS),
         how_it_is_built::chapter().exercise(exercises::HOW_IT_IS_BUILT),
         shapes::chapter().exercise(exercises::SHAPES),
-        transforms::chapter(),
-        reflection::chapter(),
+        transforms::chapter().exercise(exercises::TRANSFORMS),
+        reflection::chapter().exercise(exercises::REFLECTION),
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
-        error_and_time::chapter(),
+        error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
     ]
 }

@@ -30,8 +30,14 @@ pub enum Attempt {
     Kept(fn(&[StageWords], &str) -> Vec<String>),
     /// Chapter 13: origin, direction, the box's corners of least and of most coordinates.
     NearestBoxT(fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Option<f64>),
+    /// Chapter 18: a pixel's values in runs of different seeds, the truth.
+    VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
     /// Chapter 16: the middle of a range, its width.
     MeanOfStripes(fn(f64, f64) -> f64),
+    /// Chapter 15: colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
+    PhongRadiance(fn([f64; 3], f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
+    /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
+    FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
 }
@@ -53,7 +59,10 @@ impl Attempt {
             Self::OursFromTheirs(_) => "ours_from_theirs",
             Self::Kept(_) => "kept",
             Self::NearestBoxT(_) => "nearest_box_t",
+            Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
             Self::MeanOfStripes(_) => "mean_of_stripes",
+            Self::PhongRadiance(_) => "phong_radiance",
+            Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
         }
     }

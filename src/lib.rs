@@ -18,8 +18,9 @@
 //! 12. [`figure`]: drawings of a scene and of what the stages wrote for it.
 //! 13. [`review`]: what a picture was made of, as text to compare with.
 //! 14. [`measure`]: exact arithmetic, oracles, extremes.
-//! 15. [`exercise`]: what a reader writes, beside the kit's own.
-//! 16. [`command`]: the command line.
+//! 15. [`report`]: error against run time.
+//! 16. [`exercise`]: what a reader writes, beside the kit's own.
+//! 17. [`command`]: the command line.
 
 pub mod scene;
 

@@ -125,7 +125,7 @@ fn bad_numbers() {
 #[test]
 fn scenes_at_the_edge_are_accepted() {
     type Edge = (&'static str, fn(&mut World));
-    let edges: [Edge; 16] = [
+    let edges: [Edge; 21] = [
         ("fov 179.99", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(179.99))),
         ("fov 0.01", |w| edit::<PerspectiveCamera>(w, "main", |c| c.fov = Degrees(0.01))),
         ("1 × 1", |w| put(w, "main", Resolution { width: 1, height: 1 })),
@@ -142,6 +142,16 @@ fn scenes_at_the_edge_are_accepted() {
         ("a needle", |w| edit::<Placement>(w, "ball", |p| p.scale = DVec3::new(1e-3, 9e3, 1e-3))),
         ("a plane stretched unevenly", |w| edit::<Placement>(w, "floor", |p| p.scale = DVec3::new(1.0, 2.0, 3.0))),
         ("a long normal", |w| edit::<Plane>(w, "floor", |p| p.normal = DVec3::new(0.0, 1e300, 1e299))),
+        ("a mirrored triangle", |w| edit::<Placement>(w, "sail", |p| p.scale = DVec3::new(-1.0, 2.0, 3.0))),
+        ("a sliver", |w| edit::<Triangle>(w, "sail", |t| t.vertices[2] = DVec3::new(0.5, 1e-13, 0.0))),
+        ("a small triangle", |w| edit::<Triangle>(w, "sail", |t| t.vertices = t.vertices.map(|v| v * 1e-30))),
+        ("a triangle lost to rounding", |w| {
+            edit::<Triangle>(w, "sail", |t| t.vertices = t.vertices.map(|v| v * 1e-9));
+            edit::<Placement>(w, "sail", |p| p.position = DVec3::splat(1e10));
+        }),
+        ("long and inward normals", |w| {
+            edit::<Triangle>(w, "sail", |t| t.normals = Some([DVec3::NEG_Z * 1e300, -DVec3::ONE, DVec3::NEG_Z]));
+        }),
         ("black and white", |w| edit::<Matte>(w, "ball", |m| m.colour = Rgb::new(0.0, 1.0, 0.0))),
         ("a light of no light", |w| edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::BLACK)),
         ("up almost along the view", |w| {

@@ -66,7 +66,7 @@ const WRONG: Attempt = Attempt::PerspectiveDirection(|[x, y], _| [x, y, -1.0]);
 #[test]
 fn every_kept_solution_is_right() {
     let mut inputs = 0;
-    for (chapter, solution) in solutions::ALL {
+    for (chapter, solution) in solutions::ALL.iter().copied() {
         let report = check(solution, PATIENCE);
         assert!(matches!(report.outcome, Outcome::Right(_)), "{chapter}: {}", told(&report));
         inputs += report.inputs;
@@ -126,7 +126,7 @@ fn every_planted_mistake_is_called_by_its_name() {
         }
     }
     assert!(unnamed.is_empty(), "{} of {}:\n{}", unnamed.len(), mistakes::ALL.len(), unnamed.join("\n"));
-    for (chapter, _) in solutions::ALL {
+    for (chapter, _) in solutions::ALL.iter().copied() {
         assert!(mistakes::ALL.iter().any(|(of, ..)| of == &chapter), "no mistake is planted in {chapter}");
     }
     eprintln!("mistakes: {} planted, all recognised", mistakes::ALL.len());

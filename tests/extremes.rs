@@ -62,6 +62,11 @@ fn textures_hold() {
 }
 
 #[test]
+fn triangles_hold() {
+    holds(Group::Triangle, 2048);
+}
+
+#[test]
 fn samples_hold() {
     holds(Group::Sampling, 4096);
 }
@@ -84,6 +89,11 @@ fn rectangles_hold() {
 #[test]
 fn cuboids_hold() {
     holds(Group::Cuboid, 2048);
+}
+
+#[test]
+fn lights_hold() {
+    holds(Group::Light, 2048);
 }
 
 #[test]

@@ -13,7 +13,8 @@ use pinhole::plan::{Stage, Table};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{Placement, PointLight, Statistics};
 use scenes::{
-    EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, pieces, stretched, textured, ties, turned,
+    EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, pieces, shining, stretched, textured,
+    ties, turned,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -31,6 +32,7 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("stretched", stretched(Setup::default())),
         ("pieces", pieces(Setup::default())),
         ("textured", textured(Setup::default())),
+        ("shining", shining(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -230,7 +232,7 @@ fn an_empty_bounce_and_statistics() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured] {
+        for scene in [full, turned, stretched, pieces, textured, shining] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -251,7 +253,7 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        for scene in [full, stretched, pieces, textured] {
+        for scene in [full, stretched, pieces, textured, shining] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {
                 for sign in [far, -far] {

@@ -25,13 +25,21 @@ use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
-    singles_and_pairs, stretched, textured, toggled,
+    shining, singles_and_pairs, stretched, textured, toggled,
 };
 use std::collections::BTreeSet;
 
 /// Whether a combination cannot make a picture: its view asks for what nothing in it writes.
 fn pictureless(on: &[Toggle]) -> bool {
-    let shapes = [Toggle::Sphere, Toggle::Ellipsoid, Toggle::Plane, Toggle::Pieces];
+    let shapes = [
+        Toggle::Sphere,
+        Toggle::Ellipsoid,
+        Toggle::Plane,
+        Toggle::Pieces,
+        Toggle::Phong,
+        Toggle::BlinnPhong,
+        Toggle::Emissive,
+    ];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
 
@@ -219,7 +227,7 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         }
     }
     type Change = fn(&mut EntityWorldMut<'_>);
-    let changes: [(&str, Change, Change); 11] = [
+    let changes: Vec<(&str, Change, Change)> = vec![
         ("a light", add::<PointLight>, take::<PointLight>),
         ("a sphere", add::<(Sphere, Matte)>, take::<(Sphere, Matte)>),
         ("an ellipsoid", add_ellipsoid, take::<(Sphere, Matte, Placement)>),
@@ -227,9 +235,15 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a disk", add::<(Disk, Matte)>, take::<(Disk, Matte)>),
         ("a rectangle", add::<(Rectangle, Matte)>, take::<(Rectangle, Matte)>),
         ("a cuboid", add::<(Cuboid, Matte)>, take::<(Cuboid, Matte)>),
+        ("a triangle", add::<(Triangle, Matte)>, take::<(Triangle, Matte)>),
         ("a background", add::<Background>, take::<Background>),
         ("a view", add_view, take::<View>),
         ("statistics", add::<Statistics>, take::<Statistics>),
+        ("a sun", add::<DirectionalLight>, take::<DirectionalLight>),
+        ("a spot", add::<SpotLight>, take::<SpotLight>),
+        ("a glossy ball", add::<(Sphere, Phong)>, take::<(Sphere, Phong)>),
+        ("a satin ball", add::<(Sphere, BlinnPhong)>, take::<(Sphere, BlinnPhong)>),
+        ("a glow", add::<(Sphere, Emissive)>, take::<(Sphere, Emissive)>),
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];
     let mut changed = 0;
@@ -270,13 +284,14 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 8] = [
+    let kinds: [(&str, &[&str]); 9] = [
         ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
         ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
         ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
         ("coin", &["Intersect disks", "Describe disk surfaces", "Look for disks in the way"]),
         ("mat", &["Intersect rectangles", "Describe rectangle surfaces", "Look for rectangles in the way"]),
         ("brick", &["Intersect cuboids", "Describe cuboid surfaces", "Look for cuboids in the way"]),
+        ("sail", &["Intersect triangles", "Describe triangle surfaces", "Look for triangles in the way"]),
         ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
         ("sky", &["Add the background"]),
     ];
@@ -302,6 +317,25 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         }
         film(&scene);
     }
+    let kinds: [(&str, &str); 5] = [
+        ("sun", "Aim at directional lights"),
+        ("spot", "Aim at spot lights"),
+        ("glossy ball", "Add Phong highlights"),
+        ("satin ball", "Add Blinn–Phong highlights"),
+        ("glow", "Add what surfaces emit"),
+    ];
+    for (name, stage) in kinds {
+        let mut scene = toggled(&[&on[..], &scenes::MORE].concat());
+        assert!(row(&plan_of(&scene), stage).kept, "{name}: kept while enabled");
+        let entity = named(&mut scene, name);
+        scene.entity_mut(entity).insert(Disabled);
+        let plan = plan_of(&scene);
+        let row = row(&plan, stage);
+        let named = row.reason.contains(&format!("\"{name}\"")) && row.reason.contains("disabled");
+        assert!(!row.kept && row.count == 0 && named, "{name} disabled: {row:?}");
+        film(&scene);
+    }
+
     let mut scene = toggled(&on);
     let second = (Name::new("second camera"), OrthographicCamera::default(), Disabled);
     scene.spawn(second);
@@ -317,11 +351,11 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Aim at point lights", "Start with light seen", "Add the light that arrives"] {
+    for stage in ["Start with no light on its way", "Aim at point lights", "Add the light that arrives"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
-    eprintln!("disabled: 9 entities, 23 stages; unused: 1 matte in 2 scenes");
+    eprintln!("disabled: 10 entities, 26 stages; unused: 1 matte in 2 scenes");
 }
 
 fn row<'p>(plan: &'p Plan, stage: &str) -> &'p pinhole::plan::PlanRow {
@@ -337,20 +371,24 @@ fn reasons_name_the_first_three() {
         let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..at };
         scene.spawn((Name::new(format!("egg {number}")), Sphere { radius: 0.125 }, Matte::default(), egg));
         scene.spawn((Name::new(format!("pane {number}")), Plane::default(), Matte::default(), at));
+        scene.spawn((Name::new(format!("sail {number}")), scenes::leaning_triangle(1.0), Matte::default(), at));
         let at = Placement::at(f64::from(number), 3.0, 1.0);
         scene.spawn((Name::new(format!("lamp {number}")), PointLight::default(), at));
     }
-    let (balls, eggs, panes, lamps) = (three("ball"), three("egg"), three("pane"), three("lamp"));
+    let (balls, eggs, panes, sails, lamps) = (three("ball"), three("egg"), three("pane"), three("sail"), three("lamp"));
     let mattes = "\"ball 1\", \"egg 1\", \"pane 1\", …".to_string();
     let spheres = "\"ball 1\", \"egg 1\", \"ball 2\", …".to_string();
-    let expected: [(&str, Vec<&String>); 16] = [
-        ("Start with nothing met", vec![&spheres, &panes]),
+    let expected: [(&str, Vec<&String>); 19] = [
+        ("Start with nothing met", vec![&spheres, &panes, &sails]),
+        ("Intersect triangles", vec![&sails]),
+        ("Describe triangle surfaces", vec![&sails]),
+        ("Look for triangles in the way", vec![&sails, &lamps]),
         ("Intersect ellipsoids", vec![&eggs]),
         ("Describe ellipsoid surfaces", vec![&eggs]),
         ("Look for ellipsoids in the way", vec![&eggs, &lamps]),
         ("Intersect spheres", vec![&balls]),
         ("Intersect planes", vec![&panes]),
-        ("Classify hits", vec![&spheres, &panes]),
+        ("Classify hits", vec![&spheres, &panes, &sails]),
         ("Describe sphere surfaces", vec![&balls]),
         ("Describe plane surfaces", vec![&panes]),
         ("Aim at point lights", vec![&lamps, &mattes]),
@@ -378,4 +416,16 @@ fn reasons_name_the_first_three() {
 
 fn three(noun: &str) -> String {
     format!("\"{noun} 1\", \"{noun} 2\", \"{noun} 3\", …")
+}
+
+/// What lights nothing says so, and a scene in which something shines is not shown unlit.
+#[test]
+fn an_emissive_surface_is_seen_and_lights_nothing() {
+    let plan = plan_of(&toggled(&[Toggle::Emissive, Toggle::Plane]));
+    let emission = row(&plan, "Add what surfaces emit");
+    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else yet");
+    assert!(emission.kept && !row(&plan, "Show surfaces unlit").kept && !row(&plan, "Add the light that arrives").kept);
+    let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
+    let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();
+    assert!(!columns.contains(&"surface") && !columns.contains(&"material rows"), "{columns:?}");
 }

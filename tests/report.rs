@@ -35,7 +35,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     for noise in [Noise::Gaussian, Noise::Uniform, Noise::Lognormal(0.5)] {
         for bias in [0.0, 0.1] {
             for row in coverage(noise, bias, REPETITIONS) {
-                assert_eq!(row.refused, 0, "{noise:?}, bias {bias}: {row:?}");
+                assert_eq!(row.refused, 0, "{noise:?}, bias {bias}: {}", row.what);
                 let (low, high) = (below(row.held + 1, row.of, 0.95), 1.0 - below(row.held, row.of, 0.97));
                 assert!(low > 1e-4 && high > 1e-4, "{noise:?}, bias {bias}: {row:?}");
                 tried += row.of;

@@ -61,7 +61,7 @@ fn scene(world: &mut World) {
         let vertices = [top, foot[side].into(), foot[(side + 1) % 3].into()];
         world.spawn((Name::new("pyramid"), Triangle { vertices, ..Triangle::default() }, matte(0.5, 0.35, 0.65)));
     }
-    let light = PointLight { intensity: Rgb::grey(110.0), ..PointLight::default() };
+    let light = PointLight { intensity: Rgb::grey(80.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(2.6, 4.6, 3.4)));
     world.spawn((Name::new("evening"), Background { colour: Rgb::new(0.02, 0.03, 0.05) }));
 }

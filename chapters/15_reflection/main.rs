@@ -1,4 +1,6 @@
-//! Reflection models.
+//! What does a surface make of the light that falls on it? Three models side by side: matte, Phong, Blinn–Phong.
+//! Three kinds of light shine on them, a sun, a spot and a lamp, and one ball shines by itself.
+//! New here: highlights, surfaces that emit, and lights that are no points.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -22,19 +24,32 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 2.6, 6.0].into(), target: [0.0, 0.8, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(34.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 1.9, 6.4].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
     ));
-    for (name, x, z, colour) in [
-        ("near ball", -1.9, 1.0, Rgb::new(0.85, 0.35, 0.2)),
-        ("middle ball", 0.2, -0.5, Rgb::new(0.9, 0.75, 0.3)),
-        ("far ball", 2.3, -2.0, Rgb::new(0.25, 0.5, 0.75)),
-    ] {
-        world.spawn((Name::new(name), Sphere { radius: 0.8 }, Placement::at(x, 0.8, z), Matte { colour }));
-    }
-    world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let light = PointLight { intensity: Rgb::grey(95.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), light, Placement::at(2.5, 5.0, 3.0)));
+    let (colour, specular) = (Rgb::new(0.55, 0.16, 0.1), Rgb::grey(0.3));
+    let ball = |x| (Sphere { radius: 0.9 }, Placement::at(x, 0.9, 0.0));
+    world.spawn((Name::new("matte ball"), ball(-2.0), Matte { colour }));
+    world.spawn((Name::new("phong ball"), ball(0.0), Phong { colour, specular, exponent: 20.0 }));
+    world.spawn((Name::new("blinn-phong ball"), ball(2.0), BlinnPhong { colour, specular, exponent: 80.0 }));
+    let glow = Emissive { radiance: Rgb::new(0.9, 0.7, 0.3) };
+    world.spawn((Name::new("glowing ball"), Sphere { radius: 0.22 }, Placement::at(-0.75, 0.22, 1.6), glow));
+    let floor = Phong { colour: Rgb::grey(0.35), specular: Rgb::grey(0.2), exponent: 400.0 };
+    world.spawn((Name::new("floor"), Plane::default(), floor));
+
+    let lamp = PointLight { intensity: Rgb::grey(26.0), ..PointLight::default() };
+    world.spawn((Name::new("lamp"), lamp, Placement::at(-3.6, 4.4, 3.6)));
+    let sun = DirectionalLight { irradiance: Rgb::new(0.5, 0.6, 0.8), ..DirectionalLight::default() };
+    let high = LookAt { eye: [5.0, 6.0, 1.5].into(), target: [0.0, 0.0, 0.0].into(), ..LookAt::default() };
+    world.spawn((Name::new("sun"), sun, high));
+    let spot = SpotLight {
+        intensity: Rgb::new(34.0, 30.0, 22.0),
+        inner_angle: Degrees(26.0),
+        outer_angle: Degrees(34.0),
+        casts_shadows: true,
+    };
+    let above = LookAt { eye: [1.2, 4.2, 3.4].into(), target: [1.0, 0.2, 0.4].into(), ..LookAt::default() };
+    world.spawn((Name::new("spot"), spot, above));
     world.spawn((Name::new("night"), Background { colour: Rgb::new(0.008, 0.012, 0.02) }));
 }
 // ANCHOR_END: scene

@@ -1,4 +1,5 @@
-use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution, workers};
+use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution};
+use super::report_arguments::ReportErrors;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
 use crate::scene::{Resolution, TracePixel};
@@ -20,6 +21,7 @@ use std::path::PathBuf;
     cargo run --release -- trace cover --pixel 480,300\n  \
     cargo run --release -- extremes sphere\n  \
     cargo run --release -- sweep 05_pinhole\n  \
+    cargo run --release -- report 18 --quick\n  \
     cargo run --release -- export 05_pinhole\n  \
     cargo run --release -- check"
 )]
@@ -161,37 +163,6 @@ pub struct CostOfChapter {
     /// Keep what was measured in the chapter's folder, as costs.txt
     #[arg(long)]
     pub write: bool,
-}
-
-#[derive(Args, Clone)]
-pub struct ReportErrors {
-    /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
-    #[arg(value_name = "CHAPTER")]
-    pub subject: String,
-    /// Compare with this: sampler=NAME, filter=NAME, a chapter or a scene file; may be given several times
-    #[arg(long, value_name = "WHAT")]
-    pub against: Vec<String>,
-    /// Four sample counts of 8 seeds instead of five of 16
-    #[arg(long)]
-    pub quick: bool,
-    /// How many pixels the image has (default: the scene's shape, about 5,000 pixels)
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
-    pub size: Option<Resolution>,
-    /// How many workers render the timed runs (default: 1)
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
-    pub threads: Option<u16>,
-    /// Keep the report in the chapter's folder, as report.json
-    #[arg(long)]
-    pub write: bool,
-    /// Measure nothing: print what is kept in the chapter's folder
-    #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
-    pub kept: bool,
-    /// With --kept: draw the plot to this SVG instead
-    #[arg(short, long, value_name = "FILE", requires = "kept")]
-    pub output: Option<PathBuf>,
-    /// With --kept: against samples instead of time
-    #[arg(long, requires = "kept")]
-    pub samples_axis: bool,
 }
 
 #[derive(Args)]

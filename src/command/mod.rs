@@ -23,6 +23,7 @@ mod planted;
 mod refused;
 mod render;
 mod report;
+mod report_arguments;
 mod review;
 mod span;
 mod subject;

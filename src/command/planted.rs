@@ -35,7 +35,7 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
     let (mut bugs, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
-    for planted in &PLANTED {
+    for planted in PLANTED {
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
         let before = match right.entry(chapter.name) {
             Entry::Occupied(known) => known.get().clone(),

@@ -1,5 +1,5 @@
-use super::arguments::ReportErrors;
 use super::interrupt::interrupted;
+use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::extract::{ImageShape, camera_entity, validate};
@@ -10,6 +10,7 @@ use crate::report::kept::{keep, kept, made_from};
 use crate::report::ladder::Ladder;
 use crate::report::page::page;
 use crate::report::pictures::pictures;
+use crate::report::pitfalls::pitfalls;
 use crate::report::plot::{Against, plot};
 use crate::report::provenance::{Provenance, load};
 use crate::report::run::Shelf;
@@ -31,6 +32,11 @@ const FIRST_CHAPTER: u32 = 13;
 pub fn report(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
     if asked.kept {
         return show_kept(chapters, asked, out);
+    }
+    if asked.naive {
+        let subject = Subject::find(chapters, &asked.subject)?;
+        let variants = variants(&subject, &[], size(&subject, asked.size)?)?;
+        return variants.iter().try_for_each(|variant| Ok(write!(out, "{}", pitfalls(variant)?)?));
     }
     if asked.subject == "all" {
         return chapters.iter().filter(|chapter| has_report(chapter)).try_for_each(|chapter| {
@@ -159,12 +165,12 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
     let asked = move || Asked { resolution: Some(size), view: None, ..Asked::default() };
     let of =
         |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
-            let world = subject.picture_world(&asked());
+            let world = subject.world(&asked());
             validate(&world).map_err(|refusal| subject.placed(refusal.into(), &asked()))?;
             let camera = camera_entity(&world)?;
             let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
             change(&mut sampling);
-            let scene = Box::new(move || subject.picture_world(&asked()));
+            let scene = Box::new(move || subject.world(&asked()));
             Ok(Variant { name, sampling, stages: subject.stages(), scene, reference })
         };
     let mut variants = vec![of(subject, String::new(), &|_| (), 0)?];
@@ -206,7 +212,7 @@ fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> 
     if let Some(size) = asked {
         return Ok(size);
     }
-    let world = subject.picture_world(&Asked::default());
+    let world = subject.world(&Asked::default());
     validate(&world).map_err(|refusal| subject.placed(refusal.into(), &Asked::default()))?;
     let ImageShape { width, height, .. } = ImageShape::extract(&world)?;
     let aspect = f64::from(width) / f64::from(height);

@@ -84,15 +84,6 @@ impl<'c> Subject<'c> {
         }
     }
 
-    /// The same scene without a view of a column: its picture.
-    pub fn picture_world(&self, asked: &Asked) -> World {
-        let mut world = self.world(asked);
-        if let Ok(camera) = camera_entity(&world) {
-            world.entity_mut(camera).remove::<View>();
-        }
-        world
-    }
-
     /// Takes away the view of a column that scene files are not offered, and names it.
     pub fn own_view(&self, world: &mut World) -> Option<String> {
         let camera = camera_entity(world).ok()?;

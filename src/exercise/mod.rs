@@ -9,6 +9,7 @@ mod answers;
 mod apart;
 mod camera_to_world;
 mod conventions;
+mod error_and_time;
 mod field_of_view;
 mod hit;
 mod how_it_is_built;
@@ -21,12 +22,14 @@ mod pinhole;
 mod progress;
 mod question;
 mod ray;
+mod reflection;
 mod report;
 mod sampling;
 mod screen;
 mod shapes;
 mod shown;
 mod textures;
+mod transforms;
 mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
@@ -55,7 +58,10 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
+        Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
         Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
+        Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
+        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
     }
 }

@@ -35,6 +35,7 @@ pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, Refusal>
         .ok_or_else(|| Refusal::new(who, "placement", format!("a map of −z to {}", triple(along)), accepted))
 }
 
+// ANCHOR: pose
 /// The same map with its inverse.
 pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
@@ -58,6 +59,7 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     }
     Ok(Pose { world_from_entity, entity_from_world })
 }
+// ANCHOR_END: pose
 
 /// The same up to the entity's parent only.
 fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {

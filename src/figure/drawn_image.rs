@@ -26,7 +26,7 @@ pub const DRAWN_IMAGES: [DrawnImage; 2] = [
     DrawnImage {
         file: "card.png",
         folder: "chapters/16_textures",
-        about: "a card that shows u by hue and v by brightness, a dot at (0, 0)",
+        about: "eight by eight fields: hue from left to right, brightness from below, a dot in the lower left",
         size: [128, 128],
         colour: card,
     },
@@ -72,11 +72,11 @@ fn mixed(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     [0, 1, 2].map(|part| a[part] + share * (b[part] - a[part]))
 }
 
-/// Eight by eight fields: the hue goes round with u, the brightness rises with v.
+/// Eight by eight fields: the hue goes round from left to right, the brightness rises from below.
 fn card(at: DVec2) -> [f64; 3] {
-    let uv = DVec2::new(at.x, 1.0 - at.y);
-    let field = (uv * 8.0).floor();
-    let inside = uv * 8.0 - field;
+    let from_below = DVec2::new(at.x, 1.0 - at.y);
+    let field = (from_below * 8.0).floor();
+    let inside = from_below * 8.0 - field;
     let line = inside.min_element().min(1.0 - inside.max_element());
     let turn = (field.x + 0.5) / 8.0 * std::f64::consts::TAU;
     let bright = 0.12 + 0.75 * (field.y + 0.5) / 8.0;

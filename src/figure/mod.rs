@@ -16,6 +16,7 @@ mod gallery;
 mod grid;
 mod hit;
 mod label;
+mod lobes;
 mod look_at;
 mod ndc;
 mod normals;
@@ -74,9 +75,9 @@ pub struct Figure {
 }
 
 /// All figures, in the order of the book.
-pub fn figures() -> [Figure; 23] {
+pub fn figures() -> Vec<Figure> {
     let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
-    [
+    vec![
         Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
         Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
@@ -175,6 +176,12 @@ pub fn figures() -> [Figure; 23] {
             chapter: "16_textures",
             about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
             draw: aliasing::draw,
+        },
+        Figure {
+            name: "15_reflection",
+            chapter: "15_reflection",
+            about: "how much each reflection model sends which way",
+            draw: lobes::draw,
         },
         Figure {
             name: "17_rings",

@@ -1,6 +1,6 @@
 use crate::Result;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable};
-use crate::intersect::{ellipsoid_t, plane_t, sphere_t};
+use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, TriangleTable};
+use crate::intersect::{ellipsoid_t, plane_t, sphere_t, triangle_t};
 use crate::plan::Table;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -10,6 +10,7 @@ pub struct Occluders {
     spheres: SphereTable,
     ellipsoids: EllipsoidTable,
     planes: PlaneTable,
+    triangles: TriangleTable,
 }
 
 impl Occluders {
@@ -19,6 +20,7 @@ impl Occluders {
             spheres: SphereTable::extract(scene)?,
             ellipsoids: EllipsoidTable::extract(scene)?,
             planes: PlaneTable::extract(scene)?,
+            triangles: TriangleTable::extract(scene)?,
         })
     }
 
@@ -29,6 +31,7 @@ impl Occluders {
         let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
-        spheres.chain(ellipsoids).chain(planes).any(|t| t < reach)
+        let triangles = self.triangles.facet.iter().map(|facet| triangle_t(origin, direction, facet));
+        spheres.chain(ellipsoids).chain(planes).chain(triangles).any(|t| t < reach)
     }
 }

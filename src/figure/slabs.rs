@@ -72,7 +72,8 @@ fn drawn_range(spans: &[[f64; 2]; 3]) -> (f64, f64) {
     (least - margin, most + margin)
 }
 
-/// Of the cuboid that most rays meet, the ray whose six ends stand farthest apart on the drawing.
+/// Of the cuboid that most rays meet, the ray whose six ends stand farthest apart on the drawing; first those that enter
+/// through one pair of faces and leave through another.
 fn telling<'s>(subject: &'s Subject, table: &CuboidTable) -> Option<(&'s PixelRay, [[f64; 2]; 3])> {
     let met = |shape: u32| subject.rays.iter().filter(move |ray| ray.hit.is_some_and(|(_, hit)| hit == shape));
     let row = (0..table.shape.len()).max_by_key(|&row| met(table.shape[row]).count())?;
@@ -83,7 +84,9 @@ fn telling<'s>(subject: &'s Subject, table: &CuboidTable) -> Option<(&'s PixelRa
         let mut ends: Vec<f64> = spans.iter().flatten().map(|&end| end.clamp(first, last)).collect();
         ends.sort_by(f64::total_cmp);
         let nearest = ends.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-        nearest / (last - first)
+        let last_entered = (0..3).max_by(|&a, &b| spans[a][0].total_cmp(&spans[b][0]));
+        let first_left = (0..3).min_by(|&a, &b| spans[a][1].total_cmp(&spans[b][1]));
+        f64::from(u8::from(last_entered != first_left)) + nearest / (last - first)
     };
     let ray = met(table.shape[row]).max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     Some((ray, spans(ray, slabs)))

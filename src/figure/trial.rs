@@ -2,8 +2,8 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    Checker, Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Placement, Plane,
-    PointLight, Rgb, Sphere,
+    BlinnPhong, Checker, Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Phong,
+    Placement, Plane, PointLight, Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
 use bevy_ecs::prelude::*;
@@ -13,6 +13,7 @@ pub fn chapter(name: &'static str) -> Chapter {
     let scene = match name {
         "04_orthographic" => parallel,
         "16_textures" => checkered,
+        "15_reflection" => glossy,
         _ => central,
     };
     Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
@@ -22,7 +23,14 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "16_textures", "17_sampling"])
+        .chain([
+            "09_camera_to_world",
+            "10_light_and_shadow",
+            "13_shapes",
+            "16_textures",
+            "15_reflection",
+            "17_sampling",
+        ])
         .map(chapter)
         .collect()
 }
@@ -38,6 +46,13 @@ fn central(world: &mut World) {
 fn checkered(world: &mut World) {
     central(world);
     world.spawn((Plane::default(), Placement::at(0.0, 0.1, 0.0), Matte::default(), Checker::default()));
+}
+
+fn glossy(world: &mut World) {
+    central(world);
+    world.spawn((Sphere { radius: 0.2 }, Placement::at(-0.5, 0.2, 2.0), Phong { exponent: 20.0, ..Phong::default() }));
+    let satin = BlinnPhong { exponent: 80.0, ..BlinnPhong::default() };
+    world.spawn((Sphere { radius: 0.2 }, Placement::at(0.0, 0.2, 2.0), satin));
 }
 
 fn parallel(world: &mut World) {

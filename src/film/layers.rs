@@ -143,7 +143,11 @@ impl Known<'_> {
     fn albedo(&self, row: usize) -> DVec3 {
         match (self.colours, self.materials, self.surfaces) {
             (Some(colours), _, _) => DVec3::new(colours.r[row], colours.g[row], colours.b[row]),
-            (None, Some(materials), Some(surfaces)) => DVec3::from(materials.colour[surfaces.material[row] as usize]),
+            // A surface that only emits light has no material, and gives back none.
+            (None, Some(materials), Some(surfaces)) => {
+                let colour = materials.colour.get(surfaces.material[row] as usize);
+                colour.map_or(DVec3::ZERO, |&colour| DVec3::from(colour))
+            }
             _ => DVec3::ZERO,
         }
     }

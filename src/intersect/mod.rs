@@ -44,7 +44,7 @@ pub use rectangle::{
     intersect_rectangles, rectangle_evidence, rectangle_stage, rectangle_surface_stage, rectangle_t, rectangle_verdict,
 };
 pub use shading_normal::{
-    ShadingNormals, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
+    ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
 };
 pub use sphere::{
     Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,

@@ -12,7 +12,7 @@ column! {
     /// The normal by which light falls on what each ray hit; all 0 where nothing is met.
     ///
     /// It is the surface's own but on triangles whose corners have normals; exists where there are such.
-    pub struct ShadingNormals("shading normal", "world", "unit vector", Ray) {
+    pub struct ShadingNormals("shading", "world", "unit vector", Ray) {
         /// On the side of the surface's own normal or nearly, x.
         nx: f32,
         /// y.
@@ -45,6 +45,16 @@ pub fn shading_normal(normals: &[DVec3; 3], meeting: &Meeting) -> DVec3 {
     meeting.mix(normals).normalize()
 }
 // ANCHOR_END: shading_normal
+
+// ANCHOR: falling_cosine
+/// The cosine of the angle at which light falls: by the shading normal; not above 0 where it comes from below the surface
+/// itself, whatever the shading normal says.
+#[inline(always)]
+pub fn falling_cosine(geometric: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
+    let above = geometric.dot(to_light) > 0.0;
+    if above { shading.dot(to_light) } else { 0.0 }
+}
+// ANCHOR_END: falling_cosine
 
 /// Fills a tile's shading normals.
 pub fn interpolate_normals(

@@ -13,6 +13,7 @@ pub mod extremes;
 pub mod extremes_page;
 pub mod film_bits;
 pub mod flat_aim;
+pub mod hemisphere;
 pub mod image_error;
 pub mod image_file;
 pub mod judge_camera;

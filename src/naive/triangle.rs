@@ -25,6 +25,36 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f3
 }
 // ANCHOR_END: naive_moller_trumbore
 
+// ANCHOR: naive_woop_f32
+/// The test of Woop, Benthin and Wald as published: sheared corners and edge functions in f32, an edge function that
+/// comes out 0 once more in f64.
+///
+/// No light leaks, for two triangles round their common corners alike.
+/// But what is watertight is the mesh of rounded corners, not the one that was asked for: near edges and far away the hit
+/// is another triangle's, and t loses as many digits as the distance is longer than the triangle.
+#[must_use]
+pub fn hit_woop_f32(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option<f32> {
+    let size = direction.abs();
+    let z = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y > size.x) };
+    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+    let (shear_x, shear_y, shear_z) = (direction[x] / direction[z], direction[y] / direction[z], 1.0 / direction[z]);
+    let [a, b, c] = corners.map(|corner| {
+        let from = corner - origin;
+        Vec3::new(from[x] - shear_x * from[z], from[y] - shear_y * from[z], shear_z * from[z])
+    });
+    let edge = |a: Vec3, b: Vec3| a.x * b.y - a.y * b.x;
+    let wide = |a: Vec3, b: Vec3| (f64::from(a.x) * f64::from(b.y) - f64::from(a.y) * f64::from(b.x)) as f32;
+    let (mut u, mut v, mut w) = (edge(b, c), edge(c, a), edge(a, b));
+    if u == 0.0 || v == 0.0 || w == 0.0 {
+        (u, v, w) = (wide(b, c), wide(c, a), wide(a, b));
+    }
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let whole = u + v + w;
+    let t = (u * a.z + v * b.z + w * c.z) / whole;
+    (!(least < 0.0 && most > 0.0) && whole != 0.0 && t > 0.0).then_some(t)
+}
+// ANCHOR_END: naive_woop_f32
+
 // ANCHOR: naive_inside_strictly
 /// The same test without the constant, and an edge counted to neither of its triangles.
 ///
@@ -64,6 +94,8 @@ mod tests {
     fn an_ordinary_triangle_hides_all_of_it() {
         let at = Vec3::new(-0.5, -0.25, 0.0);
         assert_eq!(hit_f32(at, Vec3::NEG_Z, HALF), Some(3.0));
+        assert_eq!(hit_woop_f32(at, Vec3::NEG_Z, HALF), Some(3.0));
+        assert_eq!(hit_woop_f32(Vec3::ZERO, Vec3::NEG_Z, HALF), Some(3.0));
         assert_eq!(hit_inside_strictly(at.as_dvec3(), DVec3::NEG_Z, HALF.map(|corner| corner.as_dvec3())), Some(3.0));
         assert_eq!(normal_by_winding(HALF.map(|corner| corner.as_dvec3())), DVec3::Z);
     }

@@ -207,6 +207,7 @@ fn width(interval: Interval) -> f64 {
     interval.high - interval.low
 }
 
+// ANCHOR: least_squares
 /// The slope of the straight line through points by least squares; none where all have one x.
 fn least_squares(points: &[[f64; 2]]) -> Option<f64> {
     let n = points.len() as f64;
@@ -216,6 +217,7 @@ fn least_squares(points: &[[f64; 2]]) -> Option<f64> {
     let squares: f64 = points.iter().map(|point| (point[0] - x) * (point[0] - x)).sum();
     (squares > 0.0).then(|| products / squares)
 }
+// ANCHOR_END: least_squares
 
 #[cfg(test)]
 mod tests {

@@ -112,11 +112,13 @@ impl Ensemble {
         (m > 1.0).then(|| squares / (m - 1.0) / m)
     }
 
+    // ANCHOR: mse_of_runs
     /// The MSE of each run; V_ref is subtracted where it is known.
     pub fn mse_of_runs(&self) -> Vec<f64> {
         let reference = self.reference_variance().unwrap_or(0.0);
         (0..self.runs.len()).map(|run| self.runs[run][run] - reference).collect()
     }
+    // ANCHOR_END: mse_of_runs
 
     /// The MSE of runs so weighed, without one piece of the reference where that is asked.
     ///

@@ -11,7 +11,10 @@ const REPLICATES: usize = 1000;
 const BOOTSTRAP_SEED: u64 = 0x00b0_0757_0a95;
 
 /// A value with the interval that holds the truth at its level, if what is assumed holds.
+///
+/// In JSON it is the three numbers in this order.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(from = "[f64; 3]", into = "[f64; 3]")]
 pub struct Interval {
     /// The lower end.
     pub low: f64,
@@ -21,14 +24,26 @@ pub struct Interval {
     pub high: f64,
 }
 
+impl From<[f64; 3]> for Interval {
+    fn from([low, value, high]: [f64; 3]) -> Self {
+        Self { low, value, high }
+    }
+}
+
+impl From<Interval> for [f64; 3] {
+    fn from(Interval { low, value, high }: Interval) -> Self {
+        [low, value, high]
+    }
+}
+
 impl Interval {
     /// Whether it holds a number.
     pub fn holds(&self, truth: f64) -> bool {
         self.low <= truth && truth <= self.high
     }
 
-    /// The same of e to the power of it.
-    pub fn exp(self) -> Self {
+    /// Of a number whose logarithm this is the interval of.
+    pub fn of_logarithm(self) -> Self {
         let [low, value, high] = [self.low, self.value, self.high].map(libm::exp);
         Self { low, value, high }
     }
@@ -56,11 +71,11 @@ impl Estimate {
     ///
     /// None for a value that has no logarithm.
     pub fn log_interval(&self, level: f64) -> Option<Interval> {
-        self.log().map(|log| log.interval(level).exp())
+        self.logarithm().map(|log| log.interval(level).of_logarithm())
     }
 
     /// Its logarithm, the variance to first order.
-    pub fn log(&self) -> Option<Self> {
+    pub fn logarithm(&self) -> Option<Self> {
         let positive = self.value > 0.0;
         positive.then(|| Self {
             value: libm::log(self.value),

@@ -40,7 +40,10 @@ pub fn place(chapter: &str) -> PathBuf {
 ///
 /// Errors: a report of more than 20 KiB, or a file that cannot be written.
 pub fn keep(report: &Report) -> Result {
-    let mut value = serde_json::to_value(report).map_err(std::io::Error::from)?;
+    let mut curves = report.clone();
+    // What the stages cost stands in costs.txt already.
+    curves.variants.iter_mut().for_each(|variant| variant.stages.clear());
+    let mut value = serde_json::to_value(curves).map_err(std::io::Error::from)?;
     round(&mut value);
     let text = value.to_string();
     if text.len() > LARGEST {

@@ -15,6 +15,7 @@ pub mod kept;
 pub mod ladder;
 pub mod page;
 pub mod pictures;
+pub mod pitfalls;
 pub mod plot;
 pub mod provenance;
 pub mod refusal;

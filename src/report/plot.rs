@@ -77,7 +77,7 @@ pub fn plot(report: &Report, against: Against) -> Drawing {
     if let Some(([_, x, _], [_, mse, _])) = all().next() {
         guide(&mut svg, &at, (*x, *mse), xs, ys);
     }
-    let mut last_y = f64::NEG_INFINITY;
+    let mut names = Vec::new();
     for (number, (variant, points)) in series.iter().enumerate() {
         let colour = COLOURS[number % COLOURS.len()];
         for pair in points.windows(2) {
@@ -88,11 +88,14 @@ pub fn plot(report: &Report, against: Against) -> Drawing {
             svg.quiet_line(at(x[0], mse[1]), at(x[2], mse[1]), Pen::new(colour, 1.4));
             svg.circle(at(x[1], mse[1]), 3.2, Some(&Fill::new(colour, 1.0)), None);
         }
-        // The names stand at the right, each as high as its line ends, and never on one another.
-        let end = points.last().map_or(top, |(x, mse)| at(x[1], mse[1]).y);
-        let y = end.max(last_y + 17.0);
-        last_y = y;
-        words(&mut svg, DVec2::new(right + 10.0, y), "start", 13.0, colour, &variant.name);
+        names.push((points.last().map_or(top, |(x, mse)| at(x[1], mse[1]).y), colour, &variant.name));
+    }
+    // The names stand at the right, each as high as its line ends, and never on one another.
+    names.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut last_y = f64::NEG_INFINITY;
+    for (end, colour, name) in names {
+        last_y = end.max(last_y + 17.0);
+        words(&mut svg, DVec2::new(right + 10.0, last_y), "start", 13.0, colour, name);
     }
     let [width, height] = report.size;
     let (seeds, samples) = (report.ladder.seeds, report.ladder.reference_samples());

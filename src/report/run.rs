@@ -15,7 +15,7 @@ pub struct Times {
     pub wall: f64,
     /// CPU time of the process in that time.
     pub cpu: f64,
-    /// Wall time before the first tile: checking, planning, building tables; it runs on one thread.
+    /// CPU time before the first tile: checking, planning, building tables and the workers' worlds.
     pub build: f64,
 }
 

@@ -4,12 +4,14 @@ use super::interval::{Interval, LEVEL, mean_of};
 use super::ladder::Ladder;
 use super::run::{Run, Shelf, Times, numbers};
 use crate::extract::camera_entity;
+use crate::measure::image_error::Numbers;
 use crate::plan::Stage;
 use crate::render::{Execution, Lap, Rendered, Watch, render};
 use crate::scene::{Sampler, Sampling, Statistics};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Pairs of runs with and without timers.
@@ -66,11 +68,30 @@ impl Variant<'_> {
     }
 }
 
+/// Takes the CPU time up to the first tile, before which a worker asks whether to stop.
+struct FirstTile<'a> {
+    watch: &'a dyn Progress,
+    started: ProcessTime,
+    built: OnceLock<f64>,
+}
+
+impl Watch for FirstTile<'_> {
+    fn tile_done(&self) {
+        self.watch.tile_done();
+    }
+
+    fn stopped(&self) -> bool {
+        self.built.get_or_init(|| self.started.elapsed().as_secs_f64());
+        self.watch.stopped()
+    }
+}
+
 fn timed(world: &World, stages: &[Stage], execution: &Execution, watch: &dyn Progress) -> Result<(Rendered, Times)> {
-    let (started, cpu_started) = (Instant::now(), ProcessTime::now());
-    let rendered = render(world, stages, execution, watch)?;
-    let (wall, cpu) = (started.elapsed().as_secs_f64(), cpu_started.elapsed().as_secs_f64());
-    let build = wall - rendered.time.as_secs_f64();
+    let first_tile = FirstTile { watch, started: ProcessTime::now(), built: OnceLock::new() };
+    let started = Instant::now();
+    let rendered = render(world, stages, execution, &first_tile)?;
+    let (wall, cpu) = (started.elapsed().as_secs_f64(), first_tile.started.elapsed().as_secs_f64());
+    let build = first_tile.built.get().copied().unwrap_or(0.0);
     Ok((rendered, Times { wall, cpu, build }))
 }
 
@@ -156,6 +177,13 @@ fn with_timers(mut world: World) -> Result<World> {
     Ok(world)
 }
 
+/// The image of a variant under this sampling, on all cores.
+///
+/// Errors: what a render would be refused for.
+pub fn image_of(variant: &Variant<'_>, sampling: Sampling) -> Result<Numbers> {
+    variant.run(sampling, &Execution::default(), &()).map(|run| run.image)
+}
+
 /// CPU time with timers over that without, by pairs in turn.
 pub fn timers(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress) -> Result<Option<Interval>> {
     let sampling = Sampling { samples: 16, ..variant.sampling };
@@ -175,7 +203,7 @@ pub fn timers(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress
             logs.push(libm::log(on / off));
         }
     }
-    Ok(mean_of(&logs).map(|mean| mean.interval(LEVEL).exp()))
+    Ok(mean_of(&logs).map(|mean| mean.interval(LEVEL).of_logarithm()))
 }
 
 /// The fingerprint of all that decides the images of these variants: their scenes, stages, sampling and ladder.

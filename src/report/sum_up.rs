@@ -82,8 +82,11 @@ fn summary(variant: &Variant<'_>, own: usize, runs: &Runs, measured: &Measured, 
     let Measured { curve, deviations, reference } = measured;
     let levels = curve.levels.iter().zip(deviations).zip(&runs.levels[own]).enumerate();
     let stages = &runs.stages[own];
-    let rows_of = |name: &str| stages.iter().find(|(stage, _)| *stage == name).map_or(0, |(_, lap)| lap.rows) as f64;
-    let rays = [rows_of("Turn rays into the world"), rows_of("Aim at lights")];
+    let rows_of = |name: &str| {
+        let named = stages.iter().filter(|(stage, _)| stage.starts_with(name));
+        named.map(|(_, lap)| lap.rows).sum::<u64>() as f64
+    };
+    let rays = [rows_of("Turn rays into the world"), rows_of("Aim at ")];
     let samples = rows_of("Place samples").max(1.0);
     VariantSummary {
         name: variant.name.clone(),
@@ -119,7 +122,7 @@ fn level_summary(
     let mean = |of: &dyn Fn(&Deviation) -> f64| each.iter().map(of).sum::<f64>() / each.len().max(1) as f64;
     let times = |of: fn(&Times) -> f64| runs.iter().map(|run| of(&run.times)).collect::<Vec<f64>>();
     let no_error = || "no efficiency: there is no error to divide by".to_string();
-    let efficiency = curve.log_efficiency(at).map(|log| log.interval(LEVEL).exp()).ok_or_else(no_error);
+    let efficiency = curve.log_efficiency(at).map(|log| log.interval(LEVEL).of_logarithm()).ok_or_else(no_error);
     let mse = level.told_mse(LEVEL).map(|mse| mse.interval(LEVEL));
     LevelSummary {
         samples: level.samples as u32,
@@ -161,7 +164,7 @@ fn compare(report: &mut Report, name: &str, curve: &Curve, first: &Curve) {
     let level = report.family_level;
     let ratio = |log: Option<Estimate>| {
         let none = || "one of the two has no error that its reference can tell".to_string();
-        Told::of(log.map(|log| log.interval(level).exp()).ok_or_else(none))
+        Told::of(log.map(|log| log.interval(level).of_logarithm()).ok_or_else(none))
     };
     for (at, &samples) in report.ladder.samples.iter().enumerate() {
         report.comparisons.push(Comparison {
@@ -176,7 +179,7 @@ fn compare(report: &mut Report, name: &str, curve: &Curve, first: &Curve) {
         report.comparisons.push(Comparison {
             variant: name.into(),
             at: At::Seconds(seconds),
-            mse: Told::of(log.map(|log| log.interval(level).exp())),
+            mse: Told::of(log.map(|log| log.interval(level).of_logarithm())),
             efficiency: None,
         });
     }

@@ -27,7 +27,10 @@ impl Told {
     /// A number, or what it is refused for.
     pub fn of<R: ToString>(told: Result<Interval, R>) -> Self {
         match told {
-            Ok(interval) => Self::Value(interval),
+            Ok(interval) if <[f64; 3]>::from(interval).iter().all(|end| end.is_finite()) => Self::Value(interval),
+            Ok(interval) => {
+                Self::Refused(format!("no number: {} is so uncertain that its interval has no end", interval.value))
+            }
             Err(refused) => Self::Refused(refused.to_string()),
         }
     }

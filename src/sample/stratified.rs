@@ -88,7 +88,7 @@ pub fn permuted(number: u32, count: u32, key: u64) -> u32 {
             state = mixed(state);
             let [factor, flips] = halves(state);
             at = ((at ^ flips) & mask).wrapping_mul(factor | 1) & mask;
-            at ^= at >> (1 + ((factor >> 16) * bits >> 16)).min(31);
+            at ^= at >> (1 + (((factor >> 16) * bits) >> 16)).min(31);
         }
         if at < count {
             break;

@@ -1,7 +1,7 @@
 use super::LightRays;
-use super::light::{Aimed, LightRay, append_rays};
+use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
 use crate::extract::{DirectionalLightTable, material_evidence};
-use crate::intersect::{MaterialRows, Surface, Surfaces, offset_origin};
+use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
 use bevy_ecs::prelude::*;
@@ -17,22 +17,22 @@ pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] 
 
 /// Aims along parallel rays; nothing is beyond such a light.
 #[inline(always)]
-fn aim_along(surface: &Surface, to_light: DVec3) -> Aimed {
+fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let direction = to_light.as_vec3();
-    let cosine = surface.normal.as_dvec3().dot(direction.as_dvec3());
-    Aimed { origin, direction, distance: f64::INFINITY, cosine }
+    Aimed { origin, direction, distance: f64::INFINITY, cosine: cosine_of(surface, normal, direction) }
 }
 
 /// Appends a tile's rays to directional lights, light after light; each looks without end.
 pub fn aim_at_directional_lights(
     lights: Res<Shared<DirectionalLightTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
 ) {
-    for (surfaces, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays) in &mut tiles {
+        let lit = LitRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
-            append_rays(surfaces, &list.row, &mut rays, lights.casts_shadows[light], |surface| {
-                let aimed = aim_along(surface, lights.to_light[light]);
+            append_rays(&lit, &mut rays, lights.casts_shadows[light], |surface, normal| {
+                let aimed = aim_along(surface, normal, lights.to_light[light]);
                 let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
                 LightRay { aimed, reach: f32::INFINITY, irradiance }
             });
@@ -44,6 +44,7 @@ pub fn aim_at_directional_lights(
 pub fn directional_light_stage() -> Stage {
     Stage::new("Aim at directional lights", TileSystems::Aim, aim_at_directional_lights)
         .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
         .table::<DirectionalLightTable>()

@@ -25,11 +25,11 @@ column! {
 }
 
 impl Footprints {
-    /// The length of each step, on a scale on which 1 unit is half of red or green.
+    /// The root of each step's length, right as red and down as green, on a scale on which 1 unit is half of it.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let shade = |step: DVec3| {
-            let length = step.length();
-            if length.is_finite() { (length / (1.0 + length)) as f32 } else { 1.0 }
+            let root = step.length().sqrt();
+            if root.is_finite() { (root / (1.0 + root)) as f32 } else { 1.0 }
         };
         let [right, down] = self.get(row);
         [shade(right), shade(down), 0.0]

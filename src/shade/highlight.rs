@@ -2,7 +2,7 @@
 
 use super::{LightRays, Radiance, ShadowHits};
 use crate::extract::{MaterialKind, MaterialTable};
-use crate::intersect::{NO_SHAPE, Surfaces};
+use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces};
 use crate::plan::Column;
 use crate::rays::WorldRays;
 use glam::DVec3;
@@ -21,6 +21,7 @@ pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
 pub(super) struct Lit<'a> {
     pub eye: &'a WorldRays,
     pub surfaces: &'a Surfaces,
+    pub shading: Option<&'a ShadingNormals>,
     pub light: &'a LightRays,
     pub shadow: Option<&'a ShadowHits>,
 }
@@ -46,12 +47,55 @@ impl Lit<'_> {
                 continue;
             }
             let [to_light, to_eye] = [self.light.direction_of(ray), -self.eye.direction_of(path)];
-            let share = share(materials.row[material] as usize, [surface.normal.as_dvec3(), to_light, to_eye]);
+            let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(path));
+            let share = share(materials.row[material] as usize, [normal, to_light, to_eye]);
             let irradiance = self.light.irradiance(ray);
             let [r, g, b] = [0, 1, 2].map(|part| (share[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
             radiance.r[path] += r;
             radiance.g[path] += g;
             radiance.b[path] += b;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{blinn_phong_peak, phong_peak};
+    use crate::measure::ray_aim::Draws;
+    use crate::shade::{half_way_cosine, mirror_cosine};
+
+    /// Light and eye change places, and the answer stays.
+    #[test]
+    fn highlights_are_reciprocal() {
+        for index in 0..20_000 {
+            let mut draws = Draws::new(1511, index);
+            let exponent = draws.power_of_ten(0.0, 6.0);
+            let normal = draws.unit_vector();
+            let mut way = || (normal * draws.between(0.0, 1.0) + draws.unit_vector_across(normal)).normalize();
+            let (light, eye) = (way(), way());
+            for (peak, cosine) in [
+                (phong_peak(exponent), mirror_cosine as fn(_, _, _) -> f64),
+                (blinn_phong_peak(exponent), half_way_cosine),
+            ] {
+                let there = highlight(peak, exponent, cosine(normal, light, eye));
+                let back = highlight(peak, exponent, cosine(normal, eye, light));
+                let doubt = (exponent + 8.0) * 1e-14 / cosine(normal, light, eye).abs();
+                assert!((there - back).abs() <= doubt * there.max(back), "{index}: {there} {back}");
+            }
+        }
+        eprintln!("highlights: 20000 pairs of ways, two models, reciprocal");
+    }
+
+    #[test]
+    fn highlights_at_their_ends() {
+        assert_eq!(highlight(2.0, 1e9, 1.000_001), 2.0, "a cosine past 1 by rounding");
+        assert_eq!(highlight(2.0, 1e9, 0.999), 0.0);
+        assert_eq!([highlight(2.0, 0.0, 1e-300), highlight(2.0, 0.0, 0.0), highlight(2.0, 2.0, -1.0)], [2.0, 0.0, 0.0]);
+        assert_eq!(highlight(2.0, 5.0, f64::NAN), 0.0);
+        let opposite = half_way_cosine(DVec3::Y, DVec3::X, -DVec3::X);
+        assert_eq!(highlight(2.0, 5.0, opposite), 0.0, "light and eye face each other");
+        assert!(phong_peak(1e9).is_finite() && blinn_phong_peak(1e9).is_finite());
+        assert!((blinn_phong_peak(0.0) - std::f64::consts::FRAC_1_PI).abs() < 1e-16, "an exponent of 0 is matte");
     }
 }

@@ -1,6 +1,8 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{MaterialTable, material_evidence};
-use crate::intersect::{NO_SHAPE, RayColumn, RayLanes, Surface, Surfaces, offset_origin};
+use crate::intersect::{
+    NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+};
 use crate::plan::{Carried, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
@@ -78,19 +80,26 @@ pub(super) struct Aimed {
     pub origin: Vec3,
     pub direction: Vec3,
     pub distance: f64,
-    /// Of the angle between the normal and the direction; not above 0 where the surface faces away.
+    /// Of the angle between the shading normal and the direction; not above 0 where the surface faces away.
     pub cosine: f64,
 }
 
+/// Aims at a point; `normal` is the one to shade by, which is the surface's own where it has no other.
 #[inline(always)]
-pub(super) fn aim(surface: &Surface, light: DVec3) -> Aimed {
+pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> Aimed {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
-    Aimed { origin, direction, distance, cosine: surface.normal.as_dvec3().dot(direction.as_dvec3()) }
+    Aimed { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
 }
 // ANCHOR_END: aim
+
+/// The cosine by the shading normal, or 0 where the light is behind the surface itself.
+#[inline(always)]
+pub(super) fn cosine_of(surface: &Surface, normal: DVec3, direction: Vec3) -> f64 {
+    falling_cosine(surface.normal.as_dvec3(), normal, direction.as_dvec3())
+}
 
 // ANCHOR: shadow_reach
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
@@ -107,22 +116,43 @@ pub(super) struct LightRay {
     pub irradiance: [f64; 3],
 }
 
+/// The surfaces that light may fall on.
+pub(super) struct LitRows<'a> {
+    pub surfaces: &'a Surfaces,
+    pub shading: Option<&'a ShadingNormals>,
+    pub rows: &'a [u32],
+}
+
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
-/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+/// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
-    surfaces: &Surfaces,
-    rows: &[u32],
+    lit: &LitRows<'_>,
     rays: &mut LightRays,
     casts_shadows: bool,
-    ray_of: impl Fn(&Surface) -> LightRay,
+    ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
+    let surfaces = lit.surfaces;
+    match lit.shading {
+        None => append(lit.rows, rays, casts_shadows, |row| {
+            let surface = surfaces.get(row);
+            ray_of(&surface, surface.normal.as_dvec3())
+        }),
+        Some(normals) => {
+            append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
+        }
+    }
+}
+
+/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+#[inline(always)]
+fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
     let length = rays.rows();
     let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
     for &row in rows {
-        let ray = ray_of(&surfaces.get(row as usize));
+        let ray = ray_of(row as usize);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();

@@ -2,7 +2,7 @@ use super::highlight::{Lit, highlight};
 use super::light::light_evidence;
 use super::{LightRays, Radiance, ShadowHits};
 use crate::extract::{MaterialKind, MaterialTable, PhongTable, matter_evidence};
-use crate::intersect::Surfaces;
+use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Phong;
@@ -24,10 +24,13 @@ pub fn mirror_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
 pub fn add_phong(
     materials: Res<Shared<MaterialTable>>,
     highlights: Res<Shared<PhongTable>>,
-    mut tiles: Query<(&WorldRays, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
+    mut tiles: Query<(
+        (&WorldRays, &Surfaces, Option<&ShadingNormals>),
+        (&LightRays, Option<&ShadowHits>, &mut Radiance),
+    )>,
 ) {
-    for (eye, surfaces, light, shadow, mut radiance) in &mut tiles {
-        let lit = Lit { eye, surfaces, light, shadow };
+    for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
+        let lit = Lit { eye, surfaces, shading, light, shadow };
         lit.add_highlights(&materials, MaterialKind::Phong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = mirror_cosine(normal, to_light, to_eye);
             let height = highlight(highlights.peak[row], highlights.exponent[row], cosine);
@@ -41,6 +44,7 @@ pub fn phong_stage() -> Stage {
     Stage::new("Add Phong highlights", TileSystems::Shade, add_phong)
         .reads::<WorldRays>()
         .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
         .reads::<LightRays>()
         .reads_if::<ShadowHits>()
         .reads::<Radiance>()

@@ -1,7 +1,7 @@
 use super::LightRays;
-use super::light::{LightRay, aim, append_rays, shadow_reach};
+use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
 use crate::extract::{PointLightTable, material_evidence};
-use crate::intersect::{MaterialRows, Surfaces};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -21,20 +21,21 @@ pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared:
 /// Appends a tile's rays to point lights, light after light.
 pub fn aim_at_point_lights(
     lights: Res<Shared<PointLightTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
 ) {
-    for (surfaces, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays) in &mut tiles {
+        let lit = LitRows { surfaces, shading, rows: &list.row };
         for light in 0..lights.position.len() {
-            aim_rows(surfaces, &list.row, &lights, light, &mut rays);
+            aim_rows(&lit, &lights, light, &mut rays);
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn aim_rows(surfaces: &Surfaces, rows: &[u32], lights: &PointLightTable, light: usize, rays: &mut LightRays) {
+fn aim_rows(lit: &LitRows<'_>, lights: &PointLightTable, light: usize, rays: &mut LightRays) {
     let (position, intensity) = (lights.position[light], lights.intensity[light]);
-    append_rays(surfaces, rows, rays, lights.casts_shadows[light], |surface| {
-        let aimed = aim(surface, position);
+    append_rays(lit, rays, lights.casts_shadows[light], |surface, normal| {
+        let aimed = aim(surface, normal, position);
         let irradiance = irradiance_from_point(intensity, aimed.cosine, aimed.distance * aimed.distance);
         LightRay { aimed, reach: shadow_reach(aimed.distance), irradiance }
     });
@@ -44,6 +45,7 @@ fn aim_rows(surfaces: &Surfaces, rows: &[u32], lights: &PointLightTable, light: 
 pub fn point_light_stage() -> Stage {
     Stage::new("Aim at point lights", TileSystems::Aim, aim_at_point_lights)
         .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
         .table::<PointLightTable>()

@@ -1,7 +1,7 @@
-use super::light::{LightRay, aim, append_rays, shadow_reach};
+use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
 use super::{LightRays, irradiance_from_point};
 use crate::extract::{SpotLightTable, material_evidence};
-use crate::intersect::{MaterialRows, Surfaces};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::SpotLight;
 use bevy_ecs::prelude::*;
@@ -38,13 +38,14 @@ pub fn spot_share(versine: f64, inner: f64, outer: f64) -> f64 {
 /// Appends a tile's rays to spot lights, light after light; a surface outside the cone gets none.
 pub fn aim_at_spot_lights(
     lights: Res<Shared<SpotLightTable>>,
-    mut tiles: Query<(&Surfaces, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
 ) {
-    for (surfaces, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays) in &mut tiles {
+        let lit = LitRows { surfaces, shading, rows: &list.row };
         for (light, &position) in lights.position.iter().enumerate() {
             let (axis, inner, outer) = (lights.axis[light], lights.inner[light], lights.outer[light]);
-            append_rays(surfaces, &list.row, &mut rays, lights.casts_shadows[light], |surface| {
-                let mut aimed = aim(surface, position);
+            append_rays(&lit, &mut rays, lights.casts_shadows[light], |surface, normal| {
+                let mut aimed = aim(surface, normal, position);
                 // The direction of f32 is too coarse for narrow cones.
                 let along = (aimed.origin.as_dvec3() - position) * (1.0 / aimed.distance);
                 let share = spot_share(versine(along, axis), inner, outer);
@@ -61,8 +62,56 @@ pub fn aim_at_spot_lights(
 pub fn spot_light_stage() -> Stage {
     Stage::new("Aim at spot lights", TileSystems::Aim, aim_at_spot_lights)
         .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
         .table::<SpotLightTable>()
         .when(|scene| Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::versine_of_half;
+    use crate::measure::hemisphere::Quadrature;
+    use crate::scene::Degrees;
+    use std::f64::consts::{PI, TAU};
+
+    /// What a sphere around a spot receives in all, summed by quadrature, is the light's whole power at any radius.
+    #[test]
+    fn a_sphere_around_a_spot_receives_its_whole_power() {
+        let quadrature = Quadrature::default();
+        let mut tried = 0;
+        for (inner, outer) in [(0.0, 1e-4), (1e-4, 1e-4), (20.0, 35.0), (0.0, 180.0), (179.0, 179.99), (180.0, 180.0)] {
+            let [inner, outer] = [inner, outer].map(|angle| versine_of_half(Degrees(angle)));
+            for radius in [1e-8, 0.3, 1e8] {
+                // Rings of equal area: dA = 2π r² dv, v = 1 − cos θ.
+                let received = |v: f64| {
+                    let intensity = [spot_share(v, inner, outer), 0.0, 0.0];
+                    irradiance_from_point(intensity, 1.0, radius * radius)[0] * TAU * radius * radius
+                };
+                let sum = quadrature.sum_of_panels(&[0.0, inner, outer, 2.0], received);
+                let power = PI * (inner + outer);
+                assert!((sum / power - 1.0).abs() < 1e-12, "{inner} {outer} {radius}: {sum} for {power}");
+                tried += 1;
+            }
+        }
+        eprintln!("spots: {tried} spheres receive a spot's whole power");
+    }
+
+    #[test]
+    fn edges_are_where_the_angles_say() {
+        for outer in [1e-4, 1.0, 90.0, 179.99] {
+            let edges = [outer * 0.5, outer].map(|angle| versine_of_half(Degrees(angle)));
+            let at = |share: f64| {
+                let angle = Degrees(outer * share).radians() / 2.0;
+                let way = DVec3::new(libm::sin(angle), 0.0, libm::cos(angle));
+                spot_share(versine(way, DVec3::Z), edges[0], edges[1])
+            };
+            assert_eq!([at(0.0), at(0.49), at(1.000_001)], [1.0, 1.0, 0.0], "outer {outer}");
+            let fading = [0.51, 0.6, 0.75, 0.9, 0.99].map(at);
+            assert!(fading.windows(2).all(|pair| pair[0] > pair[1] && pair[1] > 0.0 && pair[0] < 1.0), "{fading:?}");
+        }
+        assert_eq!([0.1, 0.5, 0.6].map(|v| spot_share(v, 0.5, 0.5)), [1.0, 0.0, 0.0], "a sharp edge");
+    }
 }

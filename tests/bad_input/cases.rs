@@ -2,7 +2,7 @@
 
 use crate::scenes::{Eye, named};
 use bevy_ecs::prelude::*;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use pinhole::scene::*;
 
 /// A scene with one of each kind, all well.
@@ -16,7 +16,15 @@ pub fn good(eye: Eye) -> World {
     };
     world.spawn((Name::new("ball"), Sphere::default(), Matte::default(), Placement::at(0.0, 1.0, 0.0)));
     world.spawn((Name::new("floor"), Plane::default(), Matte::default()));
+    let normals = Some([DVec3::Z, DVec3::new(0.5, 0.0, 1.0), DVec3::new(0.0, 0.5, 1.0)]);
+    let sail = Triangle { normals, uvs: Some([DVec2::ZERO, DVec2::X, DVec2::ONE]), ..Triangle::default() };
+    world.spawn((Name::new("sail"), sail, Matte::default(), Placement::at(-2.0, 0.0, 0.0)));
     world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(2.0, 4.0, 2.0)));
+    world.spawn((Name::new("glossy"), Sphere { radius: 0.5 }, Phong::default(), Placement::at(-2.0, 1.0, 0.0)));
+    world.spawn((Name::new("satin"), Sphere { radius: 0.5 }, BlinnPhong::default(), Placement::at(2.0, 1.0, 0.0)));
+    world.spawn((Name::new("glow"), Sphere { radius: 0.25 }, Emissive::default(), Placement::at(0.0, 2.5, 0.0)));
+    world.spawn((Name::new("sun"), DirectionalLight::default()));
+    world.spawn((Name::new("spot"), SpotLight::default(), Placement::at(0.0, 1.0, 4.0)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::grey(0.5) }));
     world
 }
@@ -248,6 +256,36 @@ pub const SHAPES: &[Case] = &[
         coin(w, Disk::default());
         put(w, "coin", Cuboid::default());
     }),
+    ("a sphere and a triangle", &["\"ball\"", "Sphere and Triangle"], |w| put(w, "ball", Triangle::default())),
+    ("corners on one line", &["triangle \"sail\"", "vertices", "(0, 0, 0), (1, 1, 1), (3, 3, 3)", "one line"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.vertices = [DVec3::ZERO, DVec3::ONE, DVec3::splat(3.0)]);
+    }),
+    ("corners on one line but for rounding", &["\"sail\"", "vertices", "(0.1, 0.2, 0.3)", "one line"], |w| {
+        let corners = [DVec3::ZERO, DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 2.0, 3.0)];
+        edit::<Triangle>(w, "sail", |t| t.vertices = corners);
+    }),
+    ("two corners in one place", &["\"sail\"", "vertices", "one line"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.vertices[1] = t.vertices[2]);
+    }),
+    ("three corners in one place", &["\"sail\"", "vertices", "(7, 7, 7), (7, 7, 7), (7, 7, 7)"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.vertices = [DVec3::splat(7.0); 3]);
+    }),
+    ("a corner out of reach", &["\"sail\"", "vertices", "(1, 1e19, 0)", "1e18"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.vertices[1].y = 1e19);
+    }),
+    ("a corner out of reach by its placement", &["\"sail\"", "vertices", "1e18"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.vertices[1].y = 1e12);
+        edit::<Placement>(w, "sail", |p| p.scale = DVec3::splat(1e10));
+    }),
+    ("a normal of length 0", &["\"sail\"", "normals", "(0, 0, 0)", "direction other than 0"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.normals = Some([DVec3::Z, DVec3::ZERO, DVec3::Z]));
+    }),
+    ("normals to both sides", &["\"sail\"", "normals", "(0, 0, -1)", "one side"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.normals = Some([DVec3::Z, DVec3::Z, DVec3::NEG_Z]));
+    }),
+    ("a normal along the triangle", &["\"sail\"", "normals", "(1, 0, 0)", "one side"], |w| {
+        edit::<Triangle>(w, "sail", |t| t.normals = Some([DVec3::Z, DVec3::Z, DVec3::X]));
+    }),
     ("an unnamed sphere", &["(unnamed, entity ", "radius", "-2"], |w| {
         w.spawn((Sphere { radius: -2.0 }, Matte::default()));
     }),
@@ -287,6 +325,56 @@ pub const MATTER: &[Case] = &[
     }),
     ("intensity 1e300", &["\"lamp\"", "intensity", "1e300"], |w| {
         edit::<PointLight>(w, "lamp", |l| l.intensity = Rgb::grey(1e300));
+    }),
+    ("two kinds of material", &["\"ball\"", "Matte and BlinnPhong at once", "one material only"], |w| {
+        put(w, "ball", BlinnPhong::default());
+    }),
+    ("a Phong of its own and one that is used", &["\"glossy\"", "material", "twice", "\"floor\""], |w| {
+        let floor = named(w, "floor");
+        put(w, "glossy", UsesMaterial(floor));
+    }),
+    ("more than all the light", &["\"glossy\"", "specular", "(0, 0.5, 0)", "(0.4, 0.6, 0.4)", "at most 1"], |w| {
+        edit::<Phong>(w, "glossy", |p| (p.colour.g, p.specular) = (0.6, Rgb::new(0.0, 0.5, 0.0)));
+    }),
+    ("more than all the light, Blinn–Phong", &["\"satin\"", "specular", "(1, 1, 1)", "at most 1"], |w| {
+        edit::<BlinnPhong>(w, "satin", |p| p.specular = Rgb::grey(1.0));
+    }),
+    ("specular 1.5", &["\"glossy\"", "specular", "(1.5, 0, 0)", "from 0 to 1"], |w| {
+        edit::<Phong>(w, "glossy", |p| p.specular = Rgb::new(1.5, 0.0, 0.0));
+    }),
+    ("exponent −1", &["\"glossy\"", "exponent", "is -1,", "from 0 to 1e9"], |w| {
+        edit::<Phong>(w, "glossy", |p| p.exponent = -1.0);
+    }),
+    ("exponent 1e10", &["\"satin\"", "exponent", "is 1e10,", "from 0 to 1e9"], |w| {
+        edit::<BlinnPhong>(w, "satin", |p| p.exponent = 1e10);
+    }),
+    ("radiance −1", &["\"glow\"", "radiance", "(-1, 0, 0)"], |w| {
+        edit::<Emissive>(w, "glow", |e| e.radiance = Rgb::new(-1.0, 0.0, 0.0));
+    }),
+    ("a used Emissive that is disabled", &["\"coal\"", "material", "\"ember\"", "disabled"], |w| {
+        let ember = w.spawn((Name::new("ember"), Emissive::default(), Disabled)).id();
+        w.spawn((Name::new("coal"), Sphere::default(), UsesMaterial(ember)));
+    }),
+    ("irradiance −1", &["\"sun\"", "irradiance", "(0, -1, 0)"], |w| {
+        edit::<DirectionalLight>(w, "sun", |l| l.irradiance = Rgb::new(0.0, -1.0, 0.0));
+    }),
+    ("a spot's intensity 1e300", &["\"spot\"", "intensity", "1e300"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.intensity = Rgb::grey(1e300));
+    }),
+    ("outer angle 180.1°", &["\"spot\"", "outer_angle", "180.1°", "up to 180°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(180.1));
+    }),
+    ("outer angle 0°", &["\"spot\"", "outer_angle", "is 0°", "above 0°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(0.0));
+    }),
+    ("inner angle beyond the outer", &["\"spot\"", "inner_angle", "is 61°", "60°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(61.0));
+    }),
+    ("inner angle −1°", &["\"spot\"", "inner_angle", "is -1°"], |w| {
+        edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(-1.0));
+    }),
+    ("a flattened sun", &["\"sun\"", "scale", "(1, 1, 0)", "invertible"], |w| {
+        put(w, "sun", Placement { scale: DVec3::new(1.0, 1.0, 0.0), ..Placement::default() });
     }),
     ("background −1", &["\"sky\"", "colour", "(-1, 0, 0)"], |w| {
         edit::<Background>(w, "sky", |b| b.colour = Rgb::new(-1.0, 0.0, 0.0));
@@ -361,11 +449,29 @@ pub const FIELDS: &[Field] = &[
     ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(v, 1.0, 1.0) })),
     ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(1.0, v, 1.0) })),
     ("size", "coin", |w, v| coin(w, Cuboid { size: DVec3::new(1.0, 1.0, v) })),
+    ("vertices", "sail", |w, v| edit::<Triangle>(w, "sail", |t| t.vertices[0].x = v)),
+    ("vertices", "sail", |w, v| edit::<Triangle>(w, "sail", |t| t.vertices[2].z = v)),
+    ("normals", "sail", |w, v| edit::<Triangle>(w, "sail", |t| t.normals.as_mut().expect("given")[1].y = v)),
+    ("uvs", "sail", |w, v| edit::<Triangle>(w, "sail", |t| t.uvs.as_mut().expect("given")[2].x = v)),
     ("position", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.position.z = v)),
     ("orientation", "lamp", |w, v| edit::<Placement>(w, "lamp", |p| p.orientation.w = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.r = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.g = v)),
     ("intensity", "lamp", |w, v| edit::<PointLight>(w, "lamp", |l| l.intensity.b = v)),
+    ("colour", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.colour.r = v)),
+    ("specular", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.specular.g = v)),
+    ("exponent", "glossy", |w, v| edit::<Phong>(w, "glossy", |p| p.exponent = v)),
+    ("colour", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.colour.b = v)),
+    ("specular", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.specular.r = v)),
+    ("exponent", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.exponent = v)),
+    ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.r = v)),
+    ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.b = v)),
+    ("irradiance", "sun", |w, v| edit::<DirectionalLight>(w, "sun", |l| l.irradiance.g = v)),
+    ("orientation", "sun", |w, v| edit::<Placement>(w, "sun", |p| p.orientation.x = v)),
+    ("intensity", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.intensity.r = v)),
+    ("inner_angle", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.inner_angle = Degrees(v))),
+    ("outer_angle", "spot", |w, v| edit::<SpotLight>(w, "spot", |l| l.outer_angle = Degrees(v))),
+    ("position", "spot", |w, v| edit::<Placement>(w, "spot", |p| p.position.z = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.r = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.g = v)),
     ("colour", "sky", |w, v| edit::<Background>(w, "sky", |b| b.colour.b = v)),

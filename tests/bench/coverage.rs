@@ -2,14 +2,24 @@
 //!
 //! `cargo bench --bench coverage` repeats each 1,000 times; `-- --repetitions 200` takes fewer.
 //! Those marked `*` are outside 93 to 97 %.
+//! Then what the timers of the stages cost: CPU time with them over that without.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
+#[path = "../../chapters/mod.rs"]
+mod chapters;
 #[path = "../report/coverage.rs"]
 mod coverage;
 #[path = "../report/synthetic.rs"]
 mod synthetic;
 
+use pinhole::Asked;
+use pinhole::render::Execution;
+use pinhole::report::runner::{Variant, timers};
+use pinhole::scene::{Resolution, Sampling};
 use synthetic::Noise;
+
+/// The half-width below which sixteen seeds tell nothing of an efficiency (NUMERICS.md, section 1).
+const RESOLUTION: f64 = 0.077;
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
@@ -26,4 +36,24 @@ fn main() {
             }
         }
     }
+    timers_on_and_off();
+}
+
+fn timers_on_and_off() {
+    let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "18_error_and_time").expect("chapter 18");
+    let asked = Asked { resolution: Some(Resolution { width: 192, height: 108 }), ..Asked::default() };
+    let scene = Box::new(|| chapter.world(&asked));
+    let (sampling, stages) = (Sampling::default(), chapter.stages());
+    let variant = Variant { name: "18".into(), sampling, stages, scene, reference: 0 };
+    let execution = Execution { threads: Some(1), ..Execution::default() };
+    let ratio = timers(&variant, &execution, &()).expect("a render").expect("nine pairs");
+    let within = (ratio.value - 1.0).abs() <= RESOLUTION;
+    println!(
+        "timers on over off: {:.4} ({:.4} to {:.4}); {} the resolution of ±{:.1} %",
+        ratio.value,
+        ratio.low,
+        ratio.high,
+        if within { "within" } else { "beyond" },
+        100.0 * RESOLUTION
+    );
 }

@@ -14,7 +14,7 @@ fn chapter(name: &str) -> Chapter {
 #[test]
 fn the_message_names_the_stage_of_each_planted_bug() {
     let mut before: BTreeMap<&str, Snapshots> = BTreeMap::new();
-    for planted in &PLANTED {
+    for planted in PLANTED {
         let chapter = chapter(planted.chapter);
         let before = before.entry(planted.chapter).or_insert_with(|| Snapshots::of(&chapter).expect("renders"));
         let now = planted.snapshots(&chapter).expect("renders with the bug");

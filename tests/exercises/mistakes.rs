@@ -2,6 +2,7 @@
 
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
+use std::f64::consts::PI;
 
 /// The chapter, the wrong function, words of the remark that it must get.
 pub const ALL: &[(&str, Attempt, &str)] = &[
@@ -95,12 +96,51 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("13_shapes", Attempt::NearestBoxT(|o, d, l, m| Some(passed(o, d, l, m)?.1).filter(|&t| t > 0.0)), "far side"),
     ("13_shapes", Attempt::NearestBoxT(min_and_max), "0 by 0"),
     ("13_shapes", Attempt::NearestBoxT(first_entered), "last slab"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, squared_mean)),
+        "part of the variance",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 0.0, of_pairs)), "one less is right"),
+    (
+        "18_error_and_time",
+        Attempt::VarianceAndBiasSquared(|x, t| split(x, t, 1.0, |x| of_pairs(x).max(0.0))),
+        "cut off",
+    ),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
     ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| (zigzag(x + w / 2.0) - zigzag(x - w / 2.0)) / w), "without width"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w / 2.0, x + w / 2.0, 1.0)), "the area"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "other way round"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, dot(n, l))), "faces away"),
+    ("15_reflection", Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 1.0, lit(n, l))), "n + 2"),
+    (
+        "15_reflection",
+        Attempt::PhongRadiance(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, step(n, l))),
+        "cosine of the light's slant",
+    ),
+    ("15_reflection", Attempt::PhongRadiance(even_behind), "even"),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, _, _, e, l| (side(g, e) * cosine(g, l)).max(0.0)),
+        "as the surface lies",
+    ),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, n, s, e, l| fallen(g, cosine(turned(g, mixed(n, s), e), l), e, l)),
+        "negative",
+    ),
+    (
+        "14_transforms",
+        Attempt::FallingCosine(|g, n, s, e, l| fallen(g, cosine(mixed(n, s), l), e, l).max(0.0)),
+        "eye's side",
+    ),
+    ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
+    ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -350,4 +390,100 @@ fn first_entered(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> O
     passed(o, d, least, most)?;
     let near = |axis: usize| ((least[axis] - o[axis]) / d[axis]).min((most[axis] - o[axis]) / d[axis]);
     (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
+}
+
+fn less_truth(runs: &[f64], truth: f64) -> Vec<f64> {
+    runs.iter().map(|run| run - truth).collect()
+}
+
+fn squared_mean(off: &[f64]) -> f64 {
+    (off.iter().sum::<f64>() / off.len() as f64).powi(2)
+}
+
+fn of_pairs(off: &[f64]) -> f64 {
+    let (n, sum) = (off.len() as f64, off.iter().sum::<f64>());
+    (sum * sum - off.iter().map(|off| off * off).sum::<f64>()) / (n * (n - 1.0))
+}
+
+fn spread(off: &[f64], fewer: f64) -> f64 {
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    off.iter().map(|off| (off - mean).powi(2)).sum::<f64>() / (off.len() as f64 - fewer)
+}
+
+fn split(runs: &[f64], truth: f64, fewer: f64, bias: fn(&[f64]) -> f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [spread(&off, fewer), bias(&off)])
+}
+
+fn one_run_has_no_variance(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    match runs.len() {
+        0 => Some([0.0, 0.0]),
+        1 => Some([0.0, off[0] * off[0]]),
+        _ => Some([spread(&off, 1.0), of_pairs(&off)]),
+    }
+}
+
+fn about_the_truth(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let off = less_truth(runs, truth);
+    (runs.len() > 1).then(|| [off.iter().map(|off| off * off).sum::<f64>() / (off.len() as f64 - 1.0), of_pairs(&off)])
+}
+
+fn squares_less_square(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
+    let n = runs.len() as f64;
+    let squares = runs.iter().map(|run| run * run).sum::<f64>() / n;
+    let variance = (squares - squared_mean(runs)) * n / (n - 1.0);
+    (runs.len() > 1).then(|| [variance, of_pairs(&less_truth(runs, truth))])
+}
+
+/// Chapter 15 as it should be, but for the number beside n in the factor and for what arrives.
+fn phong(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3], beside: f64, arrives: f64) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = if alpha > 0.0 { (m[2] + beside) / (2.0 * PI) * alpha.min(1.0).powf(m[2]) } else { 0.0 };
+    (m[0] / PI + m[1] * lobe) * e * arrives
+}
+
+fn lit(n: [f64; 3], l: [f64; 3]) -> f64 {
+    dot(n, l).max(0.0)
+}
+
+fn step(n: [f64; 3], l: [f64; 3]) -> f64 {
+    if dot(n, l) > 0.0 { 1.0 } else { 0.0 }
+}
+
+fn even_behind(m: [f64; 3], e: f64, n: [f64; 3], l: [f64; 3], v: [f64; 3]) -> f64 {
+    let alpha = 2.0 * dot(n, l) * dot(n, v) - dot(l, v);
+    let lobe = (m[2] + 2.0) / (2.0 * PI) * alpha.abs().min(1.0).powf(m[2]);
+    (m[0] / PI + m[1] * lobe) * e * lit(n, l)
+}
+
+fn mixed(normals: [[f64; 3]; 3], shares: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| (0..3).map(|corner| shares[corner] * normals[corner][axis]).sum())
+}
+
+fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
+    dot(a, b) / length(a) / length(b)
+}
+
+fn side(normal: [f64; 3], towards: [f64; 3]) -> f64 {
+    if dot(normal, towards) > 0.0 { 1.0 } else { -1.0 }
+}
+
+/// The mixed normal on the eye's side of the surface.
+fn turned(geometric: [f64; 3], mixed: [f64; 3], eye: [f64; 3]) -> [f64; 3] {
+    mixed.map(|part| part * side(geometric, eye) * side(geometric, mixed))
+}
+
+/// The cosine, and 0 where the light is below the surface.
+fn fallen(geometric: [f64; 3], cosine: f64, eye: [f64; 3], light: [f64; 3]) -> f64 {
+    if side(geometric, eye) == side(geometric, light) { cosine } else { 0.0 }
+}
+
+fn not_unit(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
+    let normal = turned(g, mixed(n, s), e);
+    fallen(g, dot(normal, l) / length(l), e, l).max(0.0)
+}
+
+fn below_too(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
+    cosine(turned(g, mixed(n, s), e), l).max(0.0)
 }

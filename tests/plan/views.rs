@@ -24,7 +24,7 @@ fn a_view_of_an_unknown_word_names_what_is_on_offer() {
 #[test]
 fn a_view_paints_the_columns_of_the_whole_picture() {
     let (mut compared, mut seen) = (0, BTreeSet::new());
-    let scenes: [fn(Setup) -> World; 3] = [full, stretched, pieces];
+    let scenes: [fn(Setup) -> World; 4] = [full, stretched, pieces, shining];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
         let whole = inspect(&scene_of(setup), &offer(), 32).expect("inspects");

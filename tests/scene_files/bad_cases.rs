@@ -77,6 +77,19 @@ pub const WORDS: &[Case] = &[
         &["casts_shadows is maybe", "true or false"],
     ),
     ("a column without quotes", "[(view: (column: ^hit))]", &["column is hit", "double quotes"]),
+    (
+        "two corners",
+        "[(triangle: (vertices: ((0, 0, 0), (1, 0, 0)^)))]",
+        &["vertices is ((0, 0, 0), (1, 0, 0))", "three"],
+    ),
+    ("corners of two numbers", "[(triangle: (vertices: ((0, 0^), (1, 0), (0, 1))))]", &["vertices", "three numbers"]),
+    (
+        "corners in square brackets",
+        "[(triangle: (vertices: ^[(0, 0, 0), (1, 0, 0), (0, 1, 0)]))]",
+        &["vertices", "three"],
+    ),
+    ("one normal for all", "[(triangle: (normals: (^0, 0, 1)))]", &["normals is (0, 0, 1)"]),
+    ("uvs of three numbers", "[(triangle: (uvs: ((0, 0, ^0), (1, 0, 0), (0, 1, 0))))]", &["uvs"]),
     ("a name without quotes", "[(name: ^ball)]", &["name is ball", "double quotes"]),
     ("a name on two lines", "[(name: ^\"a\\nb\")]", &["name is \"a\\nb\"", "one line"]),
     ("disabled in quotes", "[(name: \"a\", disabled: ^\"yes\")]", &["disabled is \"yes\"", "true or false"]),
@@ -149,5 +162,50 @@ pub const MEANING: &[Case] = &[
     ("a depth of −1", "[@, (name: \"a\", rectangle: (width: 1, depth: ^-1), matte: ())]", &["depth is -1"]),
     ("a flat cuboid", "[@, (name: \"a\", cuboid: (size: ^(1, 0, 1)), matte: ())]", &["size is (1, 0, 1)", "each part"]),
     ("a disk's width", "[@, (name: \"a\", disk: (^width: 1), matte: ())]", &["disk \"a\"", "`width`", "`radius`"]),
+    (
+        "two materials on one entity",
+        "[@, ^(name: \"a\", sphere: (), matte: (), phong: ())]",
+        &["material \"a\"", "Matte and Phong at once"],
+    ),
+    (
+        "more than all the light",
+        "[@, (name: \"a\", sphere: (), phong: (colour: (0.9, 0, 0), specular: ^(0.2, 0, 0)))]",
+        &["phong \"a\"", "specular is (0.2, 0, 0)", "(0.9, 0, 0)"],
+    ),
+    (
+        "an exponent below 0",
+        "[@, (name: \"a\", sphere: (), blinn_phong: (exponent: ^-1))]",
+        &["blinn_phong \"a\"", "exponent is -1", "from 0 to 1e9"],
+    ),
+    (
+        "a radiance below 0",
+        "[@, (name: \"a\", sphere: (), emissive: (radiance: ^(0, -1, 0)))]",
+        &["emissive \"a\"", "radiance is (0, -1, 0)"],
+    ),
+    (
+        "an infinite sun",
+        "[@, (name: \"a\", directional_light: (irradiance: ^(inf, 0, 0)))]",
+        &["directional light \"a\"", "irradiance is (inf, 0, 0)"],
+    ),
+    (
+        "a spot of more than a half space",
+        "[@, (name: \"a\", spot_light: (outer_angle: ^190))]",
+        &["spot light \"a\"", "outer_angle is 190°", "180°"],
+    ),
+    (
+        "a spot's cones the wrong way round",
+        "[@, (name: \"a\", spot_light: (inner_angle: ^50, outer_angle: 40))]",
+        &["inner_angle is 50°", "to the outer angle, 40°"],
+    ),
+    (
+        "corners on one line",
+        "[@, (name: \"a\", triangle: (vertices: ^((0, 0, 0), (1, 0, 0), (2, 0, 0))), matte: ())]",
+        &["triangle \"a\"", "vertices is (0, 0, 0), (1, 0, 0), (2, 0, 0)", "one line"],
+    ),
+    (
+        "normals to both sides",
+        "[@, (name: \"a\", triangle: (normals: ^((0, 0, 1), (0, 0, 1), (0, 0, -1))), matte: ())]",
+        &["triangle \"a\"", "normals is", "one side"],
+    ),
     ("two shapes on one entity", "[@, ^(name: \"a\", sphere: (), plane: (), matte: ())]", &["one shape only"]),
 ];

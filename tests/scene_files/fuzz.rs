@@ -71,7 +71,11 @@ pub fn bases() -> Vec<String> {
     let mut bases: Vec<String> = chapters.filter_map(|c| scene_text(&c.world(&Asked::default())).ok()).collect();
     for eye in scenes::EYES {
         let setup = Setup { eye, ..Setup::default() };
-        bases.extend([scenes::full(setup), scenes::turned(setup)].iter().filter_map(|world| scene_text(world).ok()));
+        bases.extend(
+            [scenes::full(setup), scenes::turned(setup), scenes::shining(setup)]
+                .iter()
+                .filter_map(|world| scene_text(world).ok()),
+        );
     }
     bases
 }

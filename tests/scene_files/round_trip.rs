@@ -47,6 +47,7 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
             scenes::full(setup),
             scenes::turned(setup),
             scenes::ties(),
+            scenes::shining(setup),
             scenes::pieces(setup),
             scenes::textured(setup),
         ];

@@ -12,6 +12,7 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::{intersect, rays, shade};
+#[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 
 /// Which camera a scene gets.
@@ -122,6 +123,11 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("child"), sphere(0.25), child, UsesMaterial(gold), ChildOf(group)));
     let wall = Plane { normal: DVec3::new(1.0, 0.0, -0.25) };
     world.spawn((Name::new("wall"), wall, at(-3.03, 0.0, 0.0), Matte { colour: Rgb::new(0.5, 0.7, 0.5) }));
+    let sail = (leaning_triangle(setup.scale), at(-0.5, 1.75, 0.5));
+    world.spawn((Name::new("sail"), sail, Matte { colour: Rgb::new(0.4, 0.7, 0.9) }));
+    let flag = Triangle { normals: None, ..leaning_triangle(setup.scale) };
+    let stretched = Placement { scale: DVec3::new(0.5, -0.75, 2.0), ..at(1.03, 2.26, -0.25) };
+    world.spawn((Name::new("flag"), flag, stretched, UsesMaterial(gold)));
     world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
@@ -205,6 +211,59 @@ pub fn pieces(setup: Setup) -> World {
     world
 }
 
+/// Surfaces with highlights and surfaces that emit light, alone and beside a material, of their own and by the material
+/// that they use, under a lamp, two suns and two spots, one of each without shadows.
+///
+/// All places lie on the grid of [`full`], so that it may be moved exactly.
+pub fn shining(setup: Setup) -> World {
+    let mut world = World::new();
+    let look = LookAt { eye: setup.point(0.23, 1.43, 4.9), target: setup.point(0.01, 0.77, 0.02), up: DVec3::Y };
+    setup.camera(&mut world, look);
+    let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
+    let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
+    let (colour, specular) = (Rgb::new(0.5, 0.2, 0.1), Rgb::new(0.3, 0.4, 0.5));
+    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b) };
+    let gold = (Name::new("gold"), Phong { colour, specular, exponent: 9.5 }, glow(0.05, 0.0, 0.1));
+    let gold = world.spawn(gold).id();
+    world.spawn((Name::new("matte ball"), sphere(0.5), at(-1.77, 0.5, 0.53), Matte { colour }, glow(0.0, 0.1, 0.0)));
+    world.spawn((Name::new("golden ball"), sphere(0.6), at(-0.5, 0.6, 0.3), UsesMaterial(gold)));
+    let satin = BlinnPhong { colour, specular, exponent: 70.0 };
+    world.spawn((Name::new("satin ball"), sphere(0.6), at(0.8, 0.6, 0.3), satin));
+    world.spawn((Name::new("glow"), sphere(0.25), at(1.51, 0.25, 1.2), glow(0.5, 0.4, 0.1)));
+    let ember = world.spawn((Name::new("ember"), glow(0.3, 0.1, 0.0))).id();
+    world.spawn((Name::new("coal"), sphere(0.2), at(-1.03, 0.2, 1.3), UsesMaterial(ember)));
+    let floor = Phong { colour: Rgb::grey(0.3), specular: Rgb::grey(0.3), exponent: 300.0 };
+    world.spawn((Name::new("floor"), Plane::default(), at(0.0, 0.017, 0.0), floor));
+    world.spawn((Name::new("lamp"), setup.light(20.0, true), at(2.51, 4.02, 3.03)));
+    let towards = |eye: [f64; 3], target: [f64; 3]| LookAt {
+        eye: setup.point(eye[0], eye[1], eye[2]),
+        target: setup.point(target[0], target[1], target[2]),
+        up: DVec3::Y,
+    };
+    for (name, x, casts_shadows) in [("sun", 3.0, true), ("sky light", -3.0, false)] {
+        let sun = DirectionalLight { irradiance: Rgb::new(0.4, 0.5, 0.6), casts_shadows };
+        world.spawn((Name::new(name), sun, towards([x, 5.0, 2.0], [0.0, 0.0, 0.0])));
+    }
+    for (name, x, casts_shadows) in [("spot", 1.3, true), ("second spot", -1.2, false)] {
+        let intensity = Rgb::new(20.0, 15.0, 9.0);
+        let Rgb { r, g, b } = intensity;
+        let strength = setup.scale * setup.scale;
+        let intensity = Rgb::new(r * strength, g * strength, b * strength);
+        let (inner_angle, outer_angle) = (Degrees(12.0), Degrees(38.0));
+        let spot = SpotLight { intensity, inner_angle, outer_angle, casts_shadows };
+        world.spawn((Name::new(name), spot, towards([x, 4.1, 2.3], [x * 0.5, 0.1, 0.4])));
+    }
+    world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.1, 0.2, 0.3) }));
+    world
+}
+
+/// A triangle of about this size that faces the viewer, with normals of its own.
+pub fn leaning_triangle(size: f64) -> Triangle {
+    let corners = [[0.0, 0.0, 0.0], [0.875, 0.125, 0.25], [0.25, 0.9375, -0.125]];
+    let normals = [[-0.5, -0.25, 1.0], [0.5, 0.0, 1.0], [0.0, 0.5, 1.0]].map(DVec3::from);
+    Triangle { vertices: corners.map(|corner| DVec3::from(corner) * size), normals: Some(normals), uvs: None }
+}
+
 /// How many pixels of [`ties`] see a ball and the pane at the very same distance.
 pub const TIED_PIXELS: usize = 8;
 
@@ -240,7 +299,7 @@ pub enum Toggle {
     Plane,
     Sphere,
     Ellipsoid,
-    /// A disk, a rectangle and a cuboid.
+    /// A disk, a rectangle, a cuboid and a triangle.
     Pieces,
     Shadow,
     Orthographic,
@@ -248,6 +307,11 @@ pub enum Toggle {
     View,
     Statistics,
     Layers,
+    Sun,
+    Spot,
+    Phong,
+    BlinnPhong,
+    Emissive,
     Samples,
 }
 
@@ -267,6 +331,9 @@ pub const TOGGLES: &[Toggle] = &[
     Toggle::Layers,
     Toggle::Samples,
 ];
+
+/// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
+pub const MORE: [Toggle; 5] = [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -309,6 +376,28 @@ pub fn toggled(on: &[Toggle]) -> World {
         world.spawn((Name::new("mat"), mat, matte(0.3, 0.2, 0.7)));
         let brick = (Cuboid { size: DVec3::new(0.6, 0.4, 0.5) }, Placement::at(-0.4, 1.6, 0.0));
         world.spawn((Name::new("brick"), brick, matte(0.6, 0.2, 0.1)));
+        let sail = (leaning_triangle(1.0), Placement::at(-1.2, 0.3, 0.4));
+        world.spawn((Name::new("sail"), sail, matte(0.4, 0.7, 0.9)));
+    }
+    if has(Toggle::Sun) {
+        let sun = DirectionalLight { irradiance: Rgb::grey(0.8), casts_shadows: has(Toggle::Shadow) };
+        world.spawn((Name::new("sun"), sun, LookAt { eye: DVec3::new(-2.0, 3.0, 2.0), ..LookAt::default() }));
+    }
+    if has(Toggle::Spot) {
+        let spot = SpotLight { intensity: Rgb::grey(20.0), casts_shadows: has(Toggle::Shadow), ..SpotLight::default() };
+        world.spawn((Name::new("spot"), spot, LookAt { eye: DVec3::new(1.0, 3.0, 1.5), ..LookAt::default() }));
+    }
+    if has(Toggle::Phong) {
+        let ball = (Sphere { radius: 0.5 }, Placement::at(-1.2, 0.5, 0.4));
+        world.spawn((Name::new("glossy ball"), ball, Phong { exponent: 8.0, ..Phong::default() }));
+    }
+    if has(Toggle::BlinnPhong) {
+        let ball = (Sphere { radius: 0.5 }, Placement::at(1.0, 0.5, 0.6));
+        world.spawn((Name::new("satin ball"), ball, BlinnPhong { exponent: 20.0, ..BlinnPhong::default() }));
+    }
+    if has(Toggle::Emissive) {
+        let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
+        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2) }));
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
@@ -329,10 +418,21 @@ pub fn toggled(on: &[Toggle]) -> World {
     world
 }
 
-/// All combinations of toggles, the empty one first.
+/// All combinations of [`TOGGLES`], the empty one first; then each of [`MORE`] beside none, one or several of them, and
+/// all pairs of it.
 pub fn combinations() -> Vec<Vec<Toggle>> {
     let chosen = |bits: usize| (0..TOGGLES.len()).filter(|bit| bits >> bit & 1 == 1).map(|bit| TOGGLES[bit]).collect();
-    (0..1 << TOGGLES.len()).map(chosen).collect()
+    let mut all: Vec<Vec<Toggle>> = (0..1 << TOGGLES.len()).map(chosen).collect();
+    let lit = vec![Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Shadow];
+    let several = [vec![], lit, TOGGLES.to_vec()];
+    let beside: Vec<Vec<Toggle>> = TOGGLES.iter().map(|&toggle| vec![toggle]).chain(several.clone()).collect();
+    for (place, &more) in MORE.iter().enumerate() {
+        all.extend(beside.iter().map(|on| [on.as_slice(), &[more]].concat()));
+        for &other in &MORE[place + 1..] {
+            all.extend(several.iter().map(|on| [on.as_slice(), &[more, other]].concat()));
+        }
+    }
+    all
 }
 
 /// None, each alone, all pairs.

@@ -41,14 +41,23 @@ pub mod how_it_is_built;
 #[path = "13_shapes.rs"]
 pub mod shapes;
 
+#[path = "14_transforms.rs"]
+pub mod transforms;
+
+#[path = "15_reflection.rs"]
+pub mod reflection;
+
 #[path = "16_textures.rs"]
 pub mod textures;
 
 #[path = "17_sampling.rs"]
 pub mod sampling;
 
+#[path = "18_error_and_time.rs"]
+pub mod error_and_time;
+
 /// By the chapter's name.
-pub const ALL: [(&str, Attempt); 15] = [
+pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
     ("02_ray", Attempt::Unit(ray::unit)),
     ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
@@ -62,6 +71,9 @@ pub const ALL: [(&str, Attempt); 15] = [
     ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
     ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
+    ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
+    ("15_reflection", Attempt::PhongRadiance(reflection::phong_radiance)),
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
 ];

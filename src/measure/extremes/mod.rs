@@ -17,6 +17,8 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod light;
+mod light_albedo;
 mod plane;
 mod print;
 mod sampling;
@@ -29,6 +31,11 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
 
 pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
 pub use print::Words;
@@ -53,6 +60,8 @@ pub enum Group {
     Transform,
     /// Textures and environments: what a pixel covers, its mean, edges of images.
     Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
     /// Samples: their numbers, their places, what they count for.
     Sampling,
     /// Films: sums of samples, bytes of pictures.
@@ -63,22 +72,27 @@ pub enum Group {
     Rectangle,
     /// Rays against cuboids, and shadow rays off them.
     Cuboid,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
 }
 
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
+        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,
         Self::Camera,
         Self::Transform,
+        Self::Triangle,
         Self::Sampling,
         Self::Film,
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
         Self::Texture,
+        Self::Light,
     ];
 
     /// Its cases.
@@ -93,11 +107,13 @@ impl Group {
                 .collect(),
             Self::Transform => transform::trials(),
             Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
             Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
             Self::Disk => flat::trials(flat::Kind::Disk),
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
+            Self::Light => light::trials(),
         }
     }
 }
@@ -111,11 +127,13 @@ impl fmt::Display for Group {
             Self::Camera => "camera",
             Self::Transform => "transform",
             Self::Texture => "texture",
+            Self::Triangle => "triangle",
             Self::Sampling => "sampling",
             Self::Film => "film",
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
+            Self::Light => "light",
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::bench::{Bench, plane_table, sphere_table};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
-    ShapeKind, ShapeTable,
+    ShapeKind, ShapeTable, TriangleTable,
 };
 use crate::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use crate::measure::oracle_plane::Plane;
@@ -69,6 +69,12 @@ impl ShadowStages {
         Self::of(&of_hits, shade::cuboid_shadow_stage())
     }
 
+    /// The stages for triangles, a light still to be placed.
+    pub fn of_triangles() -> Self {
+        let of_hits = [intersect::triangle_stage(), intersect::classify_stage(), intersect::triangle_surface_stage()];
+        Self::of(&of_hits, shade::triangle_shadow_stage())
+    }
+
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
         let to_surface = [&[intersect::start_stage()], to_surface].concat();
         let to_light =
@@ -119,6 +125,13 @@ impl ShadowStages {
     /// The scene's cuboids; a cuboid's place is its number.
     pub fn cuboids(&mut self, table: CuboidTable) {
         self.shapes(ShapeKind::Cuboid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's triangles; a triangle's place is its number.
+    pub fn triangles(&mut self, table: TriangleTable) {
+        self.shapes(ShapeKind::Triangle, table.shape.len());
         self.to_surface.share(table.clone());
         self.to_light.share(table);
     }

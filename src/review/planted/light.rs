@@ -1,10 +1,12 @@
 //! Slips between surfaces and the picture.
 
-use crate::extract::{BackgroundTable, MaterialTable, PlaneTable};
+use crate::extract::{
+    BackgroundTable, DirectionalLightTable, EmissiveTable, MaterialTable, PlaneTable, SpotLightTable,
+};
 use crate::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
-use crate::intersect::Surfaces;
+use crate::intersect::{EmissiveRows, Surfaces};
 use crate::plan::{Column, Shared};
-use crate::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
+use crate::shade::{LightRays, Radiance, ShadowHits, irradiance_from_point, matte_radiance};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use std::mem::swap;
@@ -33,6 +35,53 @@ pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
         rays.clear();
         let (_, _, _, _, _, dy, ..) = rays.slices_mut(1);
         dy.fill(1.0);
+    }
+}
+
+/// Parallel light that falls at a slant counts in full: what each ray brings is as much as the strongest brings.
+pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        let rays = &mut *rays;
+        for ray in 0..rays.rows() {
+            if rays.reach[ray] == f32::INFINITY {
+                [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.irradiance[0].map(|part| part as f32);
+            }
+        }
+    }
+}
+
+/// A spot's edge is as sharp as its inner cone: what has faded shines in full.
+pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+    for (surfaces, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+            let way = spots.position[0] - origin;
+            let direction = rays.direction_of(ray);
+            if way.normalize().dot(direction) < 1.0 - 1e-9 || rays.reach[ray] == f32::INFINITY {
+                continue;
+            }
+            let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);
+            let whole = irradiance_from_point(spots.intensity[0], cosine, way.length_squared());
+            [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
+        }
+    }
+}
+
+/// No highlight of Phong's kind.
+pub fn phong_forgotten() {}
+
+/// No highlight of Blinn's kind.
+pub fn blinn_phong_forgotten() {}
+
+/// What a surface emits counts twice.
+pub fn emitted_twice(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&EmissiveRows, &mut Radiance)>) {
+    for (list, mut radiance) in &mut tiles {
+        for (&row, &of) in list.row.iter().zip(&list.emissive) {
+            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            radiance.r[row] += 2.0 * r;
+            radiance.g[row] += 2.0 * g;
+            radiance.b[row] += 2.0 * b;
+        }
     }
 }
 

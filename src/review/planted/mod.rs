@@ -9,6 +9,7 @@ mod pieces;
 mod rays;
 mod table;
 mod textures;
+mod triangles;
 
 pub use table::PLANTED;
 

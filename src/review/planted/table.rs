@@ -1,4 +1,4 @@
-use super::{Bug, Planted, hits, light, pieces, rays, textures};
+use super::{Bug, Planted, hits, light, pieces, rays, textures, triangles};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
@@ -17,6 +17,10 @@ const SCALED: &str = "09_camera_to_world";
 const PIECES: &str = "13_shapes";
 /// Surfaces with more than one colour, and an environment.
 const TEXTURED: &str = "16_textures";
+/// Three reflection models under three kinds of light.
+const REFLECTION: &str = "15_reflection";
+/// Triangles, with normals of their own and without.
+const FACETS: &str = "14_transforms";
 /// Several samples a pixel.
 const SAMPLED: &str = "17_sampling";
 /// A column painted for the picture.
@@ -24,7 +28,7 @@ const PAINTED: &str = "02_ray";
 
 /// Every bug, in the order of the stages; at least one at each.
 #[rustfmt::skip]
-pub static PLANTED: [Planted; 48] = [
+pub static PLANTED: &[Planted] = &[
     bug("half-pixel", "Place raster points", "no + 0.5", MOST, Bug::After(|| rays::half_pixel.into_configs())),
     bug("one-pattern", "Place samples", "every pixel alike", SAMPLED, Bug::After(|| rays::one_pattern.into_configs())),
     bug("radius-doubled", "Place samples", "twice as far from the centre", SAMPLED, Bug::After(|| rays::radius_doubled.into_configs())),
@@ -40,6 +44,7 @@ pub static PLANTED: [Planted; 48] = [
     bug("light-left-over", "Start with no light on its way", "not emptied", MOST, Bug::Instead(|| light::light_left_over.into_configs())),
     bug("far-root", "Intersect spheres", "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", "Intersect ellipsoids", "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
+    bug("two-edges", "Intersect triangles", "third edge not asked for", FACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
     bug("plane-sign", "Intersect planes", "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
     bug("disk-square", "Intersect disks", "the square about it", PIECES, Bug::Instead(|| pieces::disk_square.into_configs())),
     bug("one-coordinate", "Intersect rectangles", "one coordinate asked", PIECES, Bug::Instead(|| pieces::one_coordinate.into_configs())),
@@ -48,6 +53,8 @@ pub static PLANTED: [Planted; 48] = [
     bug("normal-inward", "Describe sphere surfaces", "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", "Describe sphere surfaces", "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
     bug("normal-as-direction", "Describe ellipsoid surfaces", "taken for a direction", SCALED, Bug::After(|| hits::normal_as_direction.into_configs())),
+    bug("next-corner", "Describe triangle surfaces", "shares one corner on", FACETS, Bug::After(|| triangles::next_corner.into_configs())),
+    bug("shorter-normal", "Interpolate shading normals", "not brought to length 1", FACETS, Bug::After(|| triangles::shorter.into_configs())),
     bug("constant-epsilon", "Describe plane surfaces", "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
     bug("disk-inward", "Describe disk surfaces", "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
     bug("rectangle-epsilon", "Describe rectangle surfaces", "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
@@ -61,15 +68,21 @@ pub static PLANTED: [Planted; 48] = [
     bug("mirrored", "Add the environment", "left for right", TEXTURED, Bug::Instead(|| textures::mirrored.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
+    bug("sun-without-slant", "Aim at directional lights", "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
+    bug("spot-without-fading", "Aim at spot lights", "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", "Look for ellipsoids in the way", "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
+    bug("triangles-ignored", "Look for triangles in the way", "not looked for", FACETS, Bug::Instead(|| triangles::ignored.into_configs())),
     bug("behind-counts", "Look for planes in the way", "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
     bug("disks-ignored", "Look for disks in the way", "not looked for", PIECES, Bug::Instead(|| light::disks_ignored.into_configs())),
     bug("rectangles-ignored", "Look for rectangles in the way", "not looked for", PIECES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
     bug("cuboids-ignored", "Look for cuboids in the way", "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
+    bug("phong-forgotten", "Add Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
+    bug("blinn-phong-forgotten", "Add Blinn–Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
+    bug("emitted-twice", "Add what surfaces emit", "added twice", REFLECTION, Bug::Instead(|| light::emitted_twice.into_configs())),
     bug("green-first", "Paint the view", "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
     bug("added-twice", "Add to the film", "added twice, counted once", MOST, Bug::After(|| light::added_twice.into_configs())),
     bug("gamma-twice", DEVELOP, "the curve taken twice", MOST, Bug::Develop(light::gamma_twice)),

@@ -11,7 +11,10 @@ use std::ops::Range;
 pub const LONGEST_NAME: usize = 100;
 
 const THREE_NUMBERS: &str = "three numbers in round brackets, such as (0.0, 1.0, 0.0)";
+const TWO_NUMBERS: &str = "two numbers in round brackets, such as (0.0, 1.0)";
 const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0.0, 1.0)";
+
+const THREE_OF_THEM: &str = "three of them in round brackets, one a corner, each in brackets of its own";
 
 /// A word of an entity, and where it stands.
 pub struct FilePart {
@@ -177,8 +180,11 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedString => "a text in double quotes".into(),
         Error::NoSuchEnumVariant { expected, .. } => format!("one of {}", expected.join(", ")),
         Error::ExpectedNamedStructLike("DVec3") | Error::ExpectedStructLike => THREE_NUMBERS.into(),
+        Error::ExpectedNamedStructLike("DVec2") => TWO_NUMBERS.into(),
         Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
         Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 4") => FOUR_NUMBERS.into(),
+        Error::ExpectedDifferentLength { expected, .. } if expected.contains("array") => THREE_OF_THEM.into(),
+        Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 2") => TWO_NUMBERS.into(),
         Error::ExpectedDifferentLength { .. } => THREE_NUMBERS.into(),
         Error::ExpectedStructLikeEnd => "closed by `)` after fewer values".into(),
         Error::ExpectedUnit | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {

@@ -1,0 +1,38 @@
+use super::options::{resolution, workers};
+use crate::scene::Resolution;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args, Clone)]
+pub struct ReportErrors {
+    /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
+    #[arg(value_name = "CHAPTER")]
+    pub subject: String,
+    /// Compare with this: sampler=NAME, filter=NAME, a chapter or a scene file; may be given several times
+    #[arg(long, value_name = "WHAT")]
+    pub against: Vec<String>,
+    /// Four sample counts of 8 seeds instead of five of 16
+    #[arg(long)]
+    pub quick: bool,
+    /// How many pixels the image has (default: the scene's shape, about 5,000 pixels)
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
+    pub size: Option<Resolution>,
+    /// How many workers render the timed runs (default: 1)
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
+    pub threads: Option<u16>,
+    /// Keep the report in the chapter's folder, as report.json
+    #[arg(long)]
+    pub write: bool,
+    /// Measure nothing: print what is kept in the chapter's folder
+    #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
+    pub kept: bool,
+    /// Measure nothing but what naive measurements give, beside what is right
+    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write", "kept"])]
+    pub naive: bool,
+    /// With --kept: draw the plot to this SVG instead
+    #[arg(short, long, value_name = "FILE", requires = "kept")]
+    pub output: Option<PathBuf>,
+    /// With --kept: against samples instead of time
+    #[arg(long, requires = "kept")]
+    pub samples_axis: bool,
+}
