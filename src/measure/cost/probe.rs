@@ -18,7 +18,7 @@ use crate::measure::oracle_rectangle::rectangle_hit;
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::measure::oracle_triangle::triangle_hit;
 use crate::plan::{Stage, Table};
-use crate::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
+use crate::rays::{self, CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays};
 use crate::render::{Inspection, inspect};
 use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use crate::shade;
@@ -141,7 +141,12 @@ fn note(worst: &mut Option<f64>, error: f64) {
 
 fn probe(tile: &EntityRef<'_>, row: usize, pixel: [u32; 2], exact: &Exact, worst: &mut Worst) {
     let camera = &exact.camera;
-    let raster = camera.raster(pixel, DVec2::splat(0.5));
+    // A sample's place in its pixel is chosen at random, so it is taken for right; without samples it is the centre.
+    let within = match (tile.get::<PixelSamples>(), tile.get::<RasterPoints>()) {
+        (Some(_), Some(points)) => DVec2::new(points.x[row], points.y[row]) - DVec2::from(pixel.map(f64::from)),
+        _ => DVec2::splat(0.5),
+    };
+    let raster = camera.raster(pixel, within);
     let size = DVec2::new(f64::from(camera.width), f64::from(camera.height));
     let rounded = |point: &ExactPoint| DVec2::new(point.x.to_f64(), point.y.to_f64());
     if let Some(points) = tile.get::<RasterPoints>() {
