@@ -30,7 +30,7 @@ fn its_image_is_the_kit_s_to_the_last_bit() {
             let kit = render(&world, &chapter.stages(), &Execution::default(), &()).expect("renders").film;
             let mut entities = EntityPerRay::spawn(&world).expect("spawns");
             entities.run();
-            assert!(entities.film() == kit, "{name} {width}x{height}");
+            assert!(entities.film().tiles == kit.tiles, "{name} {width}x{height}");
             pixels += u64::from(width) * u64::from(height);
         }
     }

@@ -158,11 +158,14 @@ fn means_vary_as_theory_says_and_are_unbiased() {
                     let expected = integrand.variance / f64::from(samples);
                     if sampler == Sampler::Independent {
                         let apart = (error.variance - expected).abs();
-                        assert!(apart < 4.5 * error.variance_error, "{told}, expected {expected}");
+                        // The second term is what is left of the spread where the fourth moment is the variance's square.
+                        let spread = 4.5 * error.variance_error + 8.0 * expected / f64::from(TRIALS);
+                        assert!(apart < spread, "{told}, expected {expected}");
                     } else {
                         // A scrambled net may be worse than dice by a small factor, e where t is 0 (Owen 1997), and no more.
                         assert!(
-                            error.variance <= 4.0 * expected + 4.5 * error.variance_error,
+                            error.variance
+                                <= 4.0 * expected + 4.5 * error.variance_error + 8.0 * expected / f64::from(TRIALS),
                             "worse than by dice: {told}"
                         );
                     }

@@ -3,8 +3,9 @@ use super::find::is_scene_file;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
-use crate::scene::scene_text;
+use crate::scene::{Environment, ImageTexture, SceneFolder, scene_text};
 use crate::{Error, Result};
+use bevy_ecs::prelude::World;
 use std::io::Write;
 use std::path::Path;
 
@@ -23,11 +24,12 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
             subject.name()
         )
     });
-    let scene = note + &scene_text(&world)?;
     let Some(file) = &asked.output else {
-        write!(out, "{}{scene}", head("scene.ron"))?;
+        write!(out, "{}{note}{}", head("scene.ron"), scene_text(&world)?)?;
         return Ok(());
     };
+    name_images_from(&mut world, file);
+    let scene = note + &scene_text(&world)?;
     let shown = file.display();
     if !is_scene_file(&shown.to_string()) {
         return Err(Error::Usage(format!("cannot write {shown}: the name must end in .ron")));
@@ -40,6 +42,25 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
     write_whole(file, |file| file.write_all(text.as_bytes()))?;
     writeln!(out, "wrote {shown}")?;
     Ok(())
+}
+
+/// Names the scene's images by their whole paths where the file will lie in another folder than they are named from.
+fn name_images_from(world: &mut World, file: &Path) {
+    let here = SceneFolder::path_of(world, "");
+    let there = file.parent().unwrap_or(Path::new(""));
+    if here == there {
+        return;
+    }
+    let whole = |name: &str| {
+        let path = std::path::absolute(here.join(name)).unwrap_or_else(|_| name.into());
+        path.to_string_lossy().into_owned()
+    };
+    for mut image in world.query::<&mut ImageTexture>().iter_mut(world) {
+        image.file = whole(&image.file);
+    }
+    for mut environment in world.query::<&mut Environment>().iter_mut(world) {
+        environment.file = whole(&environment.file);
+    }
 }
 
 /// The comment at the head of a file: what it is, and how it is used.

@@ -5,7 +5,7 @@ use super::judge::{Report, judge};
 use super::question::{Mistake, Probe, Question, probes};
 use crate::attempt::StageWords;
 use crate::measure::ray_aim::Draws;
-use crate::plan::{ColumnKind, Evidence, Stage, TileSystems, plan};
+use crate::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
 use crate::rays::RasterPoints;
 use bevy_ecs::prelude::World;
 use std::time::Duration;
@@ -139,8 +139,9 @@ fn by_the_plan((stages, asked): &Input) -> Option<Vec<String>> {
             known.push(name);
             known.len() - 1
         });
-        let name = if name == asked { FILM } else { NUMBERS.get(number)? };
-        Some(ColumnKind { name, ..ColumnKind::of::<RasterPoints>() })
+        let (name, lifetime) =
+            if name == asked { (FILM, Lifetime::Film) } else { (*NUMBERS.get(number)?, Lifetime::Pixel) };
+        Some(ColumnKind { name, lifetime, ..ColumnKind::of::<RasterPoints>() })
     };
     let mut offer = Vec::new();
     for words in stages {

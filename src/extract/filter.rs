@@ -92,7 +92,6 @@ pub fn radius_of(filter: Filter) -> f64 {
     }
 }
 
-// ANCHOR: filter_value
 /// What a filter is at a distance of x ≥ 0 pixels from the centre along one axis; its scale is of no account.
 pub fn filter_value(filter: Filter, x: f64) -> f64 {
     if x >= radius_of(filter) {
@@ -117,7 +116,6 @@ pub fn filter_value(filter: Filter, x: f64) -> f64 {
         }
     }
 }
-// ANCHOR_END: filter_value
 
 /// The four weights of the window (Harris 1978, minimum 4-term).
 const HARRIS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];

@@ -63,10 +63,8 @@ fn cone(who: &str, light: &SpotLight) -> Result<[f64; 2], Refusal> {
     Ok([versine_of_half(light.inner_angle), versine_of_half(light.outer_angle)])
 }
 
-// ANCHOR: versine_of_half
 /// 1 − cos of half an angle, as 2 sin² of its quarter, which loses nothing where the angle is small.
 pub fn versine_of_half(angle: Degrees) -> f64 {
     let sine = libm::sin(angle.radians() / 4.0);
     2.0 * sine * sine
 }
-// ANCHOR_END: versine_of_half

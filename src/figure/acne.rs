@@ -6,12 +6,14 @@ use super::picture::Picture;
 use super::svg::{Drawing, Svg};
 use crate::Result;
 use crate::chapter::{Asked, Chapter};
+use crate::extract::MaterialTable;
 use crate::film::FilmTile;
 use crate::intersect::{NO_SHAPE, Surfaces};
 use crate::naive::shadow::{ShadowStart, start_after_constant, start_at_hit, start_off_surface};
+use crate::plan::Table;
 use crate::render::inspect;
 use crate::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
-use crate::shade::{LightRays, ShadowHits};
+use crate::shade::{LightRays, ShadowHits, matte_radiance};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 
@@ -67,6 +69,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// What the stages wrote up to the shadow rays, and the shapes that may stand in the way.
 struct Shadows {
     occluders: Occluders,
+    materials: MaterialTable,
     surfaces: Surfaces,
     rays: LightRays,
     hits: ShadowHits,
@@ -91,7 +94,8 @@ impl Shadows {
         let met = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
         let unlit = |row: usize| if met(row) { [0.0; 3] } else { film.mean(row) };
         let unlit = (0..film.count.len()).map(unlit).collect();
-        Ok(Self { occluders: Occluders::of(&scene)?, surfaces, rays, hits, unlit })
+        let (occluders, materials) = (Occluders::of(&scene)?, MaterialTable::extract(&scene)?);
+        Ok(Self { occluders, materials, surfaces, rays, hits, unlit })
     }
 
     /// The pixels with another start of each shadow ray, and how many of them are judged otherwise than by the kit.
@@ -103,8 +107,9 @@ impl Shadows {
             let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.reach[ray]));
             wrong += usize::from(blocked != (self.hits.shape[ray] != NO_SHAPE));
             if !blocked {
-                let brings = [rays.r[ray], rays.g[ray], rays.b[ray]];
-                pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part);
+                let colour = self.materials.colour.get(surface.material as usize).copied().unwrap_or_default();
+                let brings = matte_radiance(colour, rays.irradiance(ray));
+                pixels[path as usize].iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
             }
         }
         (pixels, wrong)

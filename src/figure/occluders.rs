@@ -1,6 +1,6 @@
 use crate::Result;
-use crate::extract::{EllipsoidTable, PlaneTable, SphereTable, TriangleTable};
-use crate::intersect::{ellipsoid_t, plane_t, sphere_t, triangle_t};
+use crate::extract::{CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable};
+use crate::intersect::{cuboid_t, disk_t, ellipsoid_t, plane_t, rectangle_t, sphere_t, triangle_t};
 use crate::plan::Table;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -11,6 +11,9 @@ pub struct Occluders {
     ellipsoids: EllipsoidTable,
     planes: PlaneTable,
     triangles: TriangleTable,
+    disks: DiskTable,
+    rectangles: RectangleTable,
+    cuboids: CuboidTable,
 }
 
 impl Occluders {
@@ -21,6 +24,9 @@ impl Occluders {
             ellipsoids: EllipsoidTable::extract(scene)?,
             planes: PlaneTable::extract(scene)?,
             triangles: TriangleTable::extract(scene)?,
+            disks: DiskTable::extract(scene)?,
+            rectangles: RectangleTable::extract(scene)?,
+            cuboids: CuboidTable::extract(scene)?,
         })
     }
 
@@ -32,6 +38,10 @@ impl Occluders {
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
         let triangles = self.triangles.facet.iter().map(|facet| triangle_t(origin, direction, facet));
-        spheres.chain(ellipsoids).chain(planes).chain(triangles).any(|t| t < reach)
+        let disks = self.disks.flat.iter().map(|flat| disk_t(origin, direction, flat));
+        let rectangles = self.rectangles.flat.iter().map(|flat| rectangle_t(origin, direction, flat));
+        let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));
+        let round = spheres.chain(ellipsoids);
+        round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < reach)
     }
 }

@@ -12,6 +12,7 @@ use bevy_ecs::prelude::*;
 pub fn chapter(name: &'static str) -> Chapter {
     let scene = match name {
         "04_orthographic" => parallel,
+        "13_shapes" => boxed,
         "16_textures" => checkered,
         "15_reflection" => glossy,
         _ => central,
@@ -23,14 +24,8 @@ pub fn chapter(name: &'static str) -> Chapter {
 pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
-        .chain([
-            "09_camera_to_world",
-            "10_light_and_shadow",
-            "13_shapes",
-            "16_textures",
-            "15_reflection",
-            "17_sampling",
-        ])
+        .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
+        .chain(["17_sampling"])
         .map(chapter)
         .collect()
 }
@@ -41,6 +36,13 @@ fn central(world: &mut World) {
     things(world);
     let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
+}
+
+fn boxed(world: &mut World) {
+    central(world);
+    let tilt = DQuat::from_xyzw(0.0, 0.26, 0.1, 0.96).normalize();
+    let brick = Placement { orientation: tilt, ..Placement::at(1.6, 0.4, 0.6) };
+    world.spawn((Cuboid { size: [0.8, 0.6, 0.7].into() }, brick, Matte::default()));
 }
 
 fn checkered(world: &mut World) {
@@ -67,8 +69,5 @@ fn things(world: &mut World) {
     world.spawn((Sphere { radius: 0.7 }, Placement::at(0.5, 0.7, -1.5), Matte { colour: gold }));
     let egg = Placement { scale: [0.6, 1.0, 0.4].into(), ..Placement::at(0.9, 0.3, 1.4) };
     world.spawn((Sphere { radius: 0.3 }, egg, Matte { colour: gold }));
-    let tilt = DQuat::from_xyzw(0.0, 0.26, 0.1, 0.96).normalize();
-    let brick = Placement { orientation: tilt, ..Placement::at(1.6, 0.4, 0.6) };
-    world.spawn((Cuboid { size: [0.8, 0.6, 0.7].into() }, brick, Matte { colour: red }));
     world.spawn((Plane::default(), Matte { colour: Rgb::grey(0.6) }));
 }

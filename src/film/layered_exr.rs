@@ -2,10 +2,14 @@ use super::{Film, write_whole};
 use crate::Result;
 use crate::scene::LayerKind;
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text,
+    WritableImage,
 };
 use std::io;
 use std::path::Path;
+
+/// Lines, and no tiles: what every reader of layers takes.
+const SCAN_LINES: Encoding = Encoding { blocks: Blocks::ScanLines, ..Encoding::FAST_LOSSLESS };
 
 /// What the attribute is called that says which number of the layer `entity` is which shape.
 pub const ENTITY_NAMES: &str = "entityNames";
@@ -29,7 +33,7 @@ pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
             attributes.other.insert(Text::from(ENTITY_NAMES), AttributeValue::Text(told));
         }
         let channels = AnyChannels::sort(channels(film, kinds).into());
-        let image = Image::from_layer(Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels));
+        let image = Image::from_layer(Layer::new(size, attributes, SCAN_LINES, channels));
         image.write().non_parallel().to_buffered(file).map_err(io::Error::other)
     })
 }

@@ -30,7 +30,6 @@ impl Meeting {
         }
     }
 
-    // ANCHOR: meeting
     /// The shares are the areas over their sum; what rounding has pushed below 0 is 0.
     /// Where the sum is so small that a share could be off by more than 2⁻²⁶, exact arithmetic finds them.
     #[inline(always)]
@@ -47,7 +46,6 @@ impl Meeting {
         let sum: f64 = shares.iter().sum();
         Self { weights: shares.map(|share| share / sum), along: along > 0.0 }
     }
-    // ANCHOR_END: meeting
 
     /// What the corners' vectors are there.
     #[inline(always)]
@@ -64,7 +62,6 @@ impl Meeting {
     }
 }
 
-// ANCHOR: triangle_surface
 /// The surface where a ray meets the triangle of a row.
 ///
 /// The point is the mean of the corners by their shares, not O + tR: so it lies off the plane by the rounding of that mean
@@ -87,7 +84,6 @@ pub fn triangle_surface(
     let normal = if leaves_by_normal { -triangles.normal[row] } else { triangles.normal[row] };
     (Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }, meeting)
 }
-// ANCHOR_END: triangle_surface
 
 /// Fills the surface of every row that hit a triangle.
 pub fn fill_triangle_surfaces(

@@ -52,7 +52,9 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
     let mut painted = Radiance::default();
     let (r, g, b) = painted.slices_mut(rows);
     for (row, path) in (0..(column.rows)(tile)).zip(paths(column, tile)).rev() {
-        [r[path], g[path], b[path]] = (column.paint)(tile, row, image);
+        // Samples beyond the image's edge have coordinates below 0, which no picture can show.
+        let shown = (column.paint)(tile, row, image).map(|part| if part < 0.0 { 0.0 } else { part });
+        [r[path], g[path], b[path]] = shown;
     }
     painted
 }

@@ -21,7 +21,6 @@ pub fn short_blinn_phong_peak(exponent: f64) -> f64 {
 }
 // ANCHOR_END: short_blinn_phong_peak
 
-// ANCHOR: highlight_f32
 /// A highlight in f32, with directions taken for unit vectors.
 ///
 /// They are unit vectors but for their last digit; to the power of a large exponent that digit is everything.
@@ -30,9 +29,7 @@ pub fn highlight_f32(peak: f32, exponent: f32, normal: Vec3, to_light: Vec3, to_
     let mirrored = 2.0 * normal.dot(to_light) * normal - to_light;
     peak * libm::powf(mirrored.dot(to_eye), exponent)
 }
-// ANCHOR_END: highlight_f32
 
-// ANCHOR: spot_share_by_cosine
 /// The share of a spot light by cosines, as many programs have it.
 ///
 /// In a narrow cone all cosines are 1 but for their last digits.
@@ -41,7 +38,6 @@ pub fn spot_share_by_cosine(cosine: f64, inner: f64, outer: f64) -> f64 {
     let s = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }
-// ANCHOR_END: spot_share_by_cosine
 
 /// The same in f32.
 #[must_use]

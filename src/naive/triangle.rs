@@ -25,7 +25,6 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f3
 }
 // ANCHOR_END: naive_moller_trumbore
 
-// ANCHOR: naive_woop_f32
 /// The test of Woop, Benthin and Wald as published: sheared corners and edge functions in f32, an edge function that
 /// comes out 0 once more in f64.
 ///
@@ -53,9 +52,7 @@ pub fn hit_woop_f32(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option
     let t = (u * a.z + v * b.z + w * c.z) / whole;
     (!(least < 0.0 && most > 0.0) && whole != 0.0 && t > 0.0).then_some(t)
 }
-// ANCHOR_END: naive_woop_f32
 
-// ANCHOR: naive_inside_strictly
 /// The same test without the constant, and an edge counted to neither of its triangles.
 ///
 /// "Inside" with `>` for `>=` reads as well, and it leaves out every ray that is aimed at an edge exactly.
@@ -71,7 +68,6 @@ pub fn hit_inside_strictly(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3
     let t = e2.dot(q) / determinant;
     (u > 0.0 && v > 0.0 && u + v < 1.0 && t > 0.0).then_some(t)
 }
-// ANCHOR_END: naive_inside_strictly
 
 // ANCHOR: naive_winding
 /// A normal by the order in which the corners come, after a placement has moved them.

@@ -86,7 +86,9 @@ pub struct Plan {
 /// Pure and deterministic: the same scene and offer give the same plan.
 pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
-    offer.sort_by_key(|stage| stage.set);
+    // Where stages of one set add to the same sums, their order must not depend on who offered which first.
+    let by_name = |stage: &Stage| if stage.set.order_free() { "" } else { stage.name };
+    offer.sort_by_key(|stage| (stage.set, by_name(stage)));
     let view = requested::<View>(scene).map(|view| find_view(&offer, &view.column)).transpose()?;
 
     let mut wanted: BTreeSet<&'static str> = BTreeSet::new();

@@ -121,10 +121,13 @@ fn sorted(entities: Option<Vec<Entity>>) -> Vec<Entity> {
     entities
 }
 
-/// A number with its noun: `1 sphere`, `3 spheres`.
+/// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`.
 pub fn counted(count: usize, noun: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{ending}")
+    match noun.split_once(" with ") {
+        Some((noun, what)) => format!("{count} {noun}{ending} with {what}"),
+        None => format!("{count} {noun}{ending}"),
+    }
 }
 
 fn first_three(scene: &World, found: &[Entity]) -> String {

@@ -1,12 +1,10 @@
 use crate::extract::{FilterCells, Span};
 
-// ANCHOR: box_offset
 /// How far beside the pixel's centre a box of that radius puts a sample: a step of u is a step of the place.
 #[inline(always)]
 pub fn box_offset(u: f64, radius: f64) -> f64 {
     (2.0 * u - 1.0) * radius
 }
-// ANCHOR_END: box_offset
 
 // ANCHOR: tent_offset
 /// The same for a tent, whose area up to a place is a parabola on each side.
@@ -17,7 +15,6 @@ pub fn tent_offset(u: f64, radius: f64) -> f64 {
 }
 // ANCHOR_END: tent_offset
 
-// ANCHOR: table_offset
 /// The same by a table of the area under |f| to one side of the centre, and whether f is negative there.
 ///
 /// Within a cell of the table |f| is taken for a straight line: its area up to a place is a parabola, solved for the place
@@ -35,7 +32,6 @@ pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
     let along = part / (slope + (slope * slope + (1.0 - 2.0 * slope) * part).sqrt() + f64::MIN_POSITIVE);
     ((x + along * width).copysign(side), negative)
 }
-// ANCHOR_END: table_offset
 
 #[cfg(test)]
 mod tests {

@@ -5,13 +5,11 @@ use crate::plan::{Shared, Stage, TileSystems};
 use crate::scene::{Checker, Stripes};
 use bevy_ecs::prelude::*;
 
-// ANCHOR: wave
 /// 1 where x lies in an even cell, −1 in an odd one.
 #[inline(always)]
 pub fn wave(x: f64) -> f64 {
     if x.floor().rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }
 }
-// ANCHOR_END: wave
 
 // ANCHOR: wave_mean
 /// The area under `wave` from 0 to x: it rises to 1 over every even cell and falls back to 0 over every odd one.

@@ -59,7 +59,7 @@ pub const TEXTURES: &[Case] = &[
         edit::<ImageTexture>(w, "ball", |i| i.file = "Cargo.toml".into());
     }),
     ("a file with a long name", &["\"ball\"", "file is …", "there is no file …"], |w| {
-        edit::<ImageTexture>(w, "ball", |i| i.file = format!("{}.png", "long/".repeat(200)));
+        edit::<ImageTexture>(w, "ball", |i| i.file = format!("{}card.png", "long/".repeat(200)));
     }),
     ("an image too bright for a surface", &["\"ball\"", EVENING, "other texels", "from 0 to 1"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = EVENING.into());

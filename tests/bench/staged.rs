@@ -60,7 +60,7 @@ fn compare(chapter: &Chapter, threads: usize, bounces: Option<u32>, options: &Op
     let execution = Execution { threads: Some(threads), bounces, ..Execution::default() };
     let staged = || render(&world, &offer, &execution, &()).expect("renders").film;
     let fused = || fused::render(&world, threads);
-    assert!(staged() == fused(), "the two images differ");
+    assert!(staged().tiles == fused().tiles, "the two images differ");
 
     let mut logs = Vec::new();
     let (mut staged_ms, mut fused_ms) = (Vec::new(), Vec::new());

@@ -12,7 +12,7 @@ const HEIGHT: f64 = 4.0;
 /// A white disc on black, by parallel rays: a pixel's light is the share of it that the disc covers.
 fn disc(seed: u64, samples: u32, adaptive: Adaptive) -> World {
     let mut world = World::new();
-    let sampling = Sampling { samples, seed, sampler: Sampler::Independent, ..Sampling::default() };
+    let sampling = Sampling { samples, seed, sampler: Sampler::Independent, filter: Filter::Box { radius: 0.5 } };
     let resolution = Resolution { width: SIDE, height: SIDE };
     let camera = (OrthographicCamera { view_height: HEIGHT }, Placement::at(0.0, 0.0, 5.0), resolution);
     world.spawn((Name::new("camera"), camera, sampling, adaptive));

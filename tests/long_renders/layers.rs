@@ -80,7 +80,12 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             assert!((albedo - colours[entity]).length() < 1e-6, "{albedo} of {}", names[entity]);
             assert!((normal.length() - 1.0).abs() < 1e-6);
             assert!((axes.transpose() * normal - three("normal_camera", "XYZ", pixel)).length() < 1e-6);
-            assert_eq!(normal, three("shading_normal", "XYZ", pixel), "no shape here has another normal");
+            let shading_normal = three("shading_normal", "XYZ", pixel);
+            if names[entity].contains("sail") {
+                assert!((shading_normal.length() - 1.0).abs() < 1e-6 && shading_normal != normal);
+            } else {
+                assert_eq!(normal, shading_normal, "only the sail has normals of its own");
+            }
             let from_eye = position - eye;
             let size = from_eye.length() + eye.length();
             let axis = -axes.z_axis.dot(from_eye);
@@ -103,23 +108,37 @@ fn layers_are_means_over_the_samples_that_met_something() {
     let scene = sampled(SIZE, seven(Sampler::Independent), layers);
     let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
     // Each sample by itself: what the sums were after it, less what they were before.
-    let (mut values, mut before) = (Vec::<DVec3>::new(), DVec3::ZERO);
-    let row = |film: &Film| film.place(20, 18);
-    for step in 4..=steps_of(7) {
+    let pixels = || (0..SIZE[0] * SIZE[1]).map(|pixel| [pixel % SIZE[0], pixel / SIZE[0]]);
+    let sum_of = |film: &Film, [x, y]: [u32; 2]| {
+        let (tile, row) = film.place(x, y);
+        let tile = &film.tiles[tile];
+        DVec3::new(tile.r[row], tile.g[row], tile.b[row])
+    };
+    let mut before = vec![DVec3::ZERO; (SIZE[0] * SIZE[1]) as usize];
+    let mut values: Vec<Vec<DVec3>> = vec![Vec::new(); before.len()];
+    for step in 0..=steps_of(7) {
         under_way.advance(step, &()).expect("goes on");
-        let (tile, row) = row(&under_way.film);
-        let film = &under_way.film.tiles[tile];
-        let sum = DVec3::new(film.r[row], film.g[row], film.b[row]);
-        values.push(sum - before);
-        before = sum;
+        for ((values, before), at) in values.iter_mut().zip(&mut before).zip(pixels()) {
+            let sum = sum_of(&under_way.film, at);
+            if step >= 4 {
+                values.push(sum - *before);
+                *before = sum;
+            }
+        }
     }
-    let mean = values.iter().copied().sum::<DVec3>() / values.len() as f64;
-    let squares: DVec3 = values.iter().map(|&value| (value - mean) * (value - mean)).sum();
-    let (tile, row) = row(&under_way.film);
-    let variance = DVec3::from_array(under_way.film.variance_of_mean(tile, row));
-    let expected = squares / 6.0 / 7.0;
-    assert!((variance - expected).length() <= 1e-12 * expected.length(), "{variance} is not {expected}");
-    assert!(expected.length() > 0.0, "the pixel shows no noise");
+    let mut noisy = 0;
+    for (values, [x, y]) in values.iter().zip(pixels()) {
+        let mean = values.iter().copied().sum::<DVec3>() / values.len() as f64;
+        let squares: DVec3 = values.iter().map(|&value| (value - mean) * (value - mean)).sum();
+        let (tile, row) = under_way.film.place(x, y);
+        let variance = DVec3::from_array(under_way.film.variance_of_mean(tile, row));
+        let expected = squares / 6.0 / 7.0;
+        let slack = 1e-12 * expected.length() + 1e-24 * mean.length_squared();
+        assert!((variance - expected).length() <= slack, "pixel {x},{y}: {variance} is not {expected}");
+        noisy += usize::from(expected.length() > 1e-20);
+    }
+    assert!(noisy > 100, "{noisy} pixels show noise");
+    let (tile, row) = under_way.film.place(20, 18);
     let layers = &under_way.film.layers[tile];
     assert_eq!(layers.taken[row], 7);
     let edge = (0..SIZE[0] * SIZE[1]).filter(|pixel| {
@@ -130,7 +149,9 @@ fn layers_are_means_over_the_samples_that_met_something() {
     });
     let edge = edge.count();
     assert!(edge > 20, "{edge} pixels at an edge");
-    eprintln!("layers: variance of 7 samples by hand the same; {edge} pixels are partly covered");
+    eprintln!(
+        "layers: variance of 7 samples by hand the same in {noisy} pixels with noise; {edge} pixels are partly covered"
+    );
 }
 
 #[test]

@@ -76,7 +76,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
          together {together} ran; never dropped: {untried:?}",
         scenes.len()
     );
-    assert_eq!(untried, [&"Add to the film", &"Place raster points", &"Start in the dark"], "tried too little");
+    assert_eq!(untried, [&"Add to the film", &"Start in the dark"], "tried too little");
 }
 
 /// What a film keeps beside its light.
@@ -100,6 +100,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
+        ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
     ];
     for stage in &offer {
         let mut powers = Vec::new();

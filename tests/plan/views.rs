@@ -1,6 +1,7 @@
 //! What a view paints, and what it answers to a word it does not know.
 
 use super::*;
+use pinhole::plan::Lifetime;
 
 #[test]
 fn a_view_of_an_unknown_word_names_what_is_on_offer() {
@@ -24,12 +25,19 @@ fn a_view_of_an_unknown_word_names_what_is_on_offer() {
 #[test]
 fn a_view_paints_the_columns_of_the_whole_picture() {
     let (mut compared, mut seen) = (0, BTreeSet::new());
-    let scenes: [fn(Setup) -> World; 4] = [full, stretched, pieces, shining];
+    let sampled = |setup: Setup| {
+        let mut scene = full(setup);
+        let camera = named(&mut scene, "camera");
+        let sampling = Sampling { samples: 1, filter: Filter::Box { radius: 0.5 }, ..Sampling::default() };
+        scene.entity_mut(camera).insert(sampling);
+        scene
+    };
+    let scenes: [fn(Setup) -> World; 6] = [full, stretched, pieces, shining, textured, sampled];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
         let whole = inspect(&scene_of(setup), &offer(), 32).expect("inspects");
         for column in &whole.plan.columns {
-            if column.name == "pixel" || column.name == "radiance" {
+            if column.lifetime == Lifetime::Film || column.name == "radiance" {
                 continue;
             }
             let mut scene = scene_of(setup);
@@ -41,13 +49,19 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
             let expected = FilmBits::of_tiles(whole.image.width, whole.image.height, tiles.iter());
             viewed.assert_is(&expected, &format!("{eye:?}, view of {}", column.name));
             // An orthographic camera's rays all have one direction.
-            let uniform = eye == Eye::Orthographic && matches!(column.name, "camera" | "world");
+            let one_direction = eye == Eye::Orthographic && matches!(column.name, "camera" | "world");
+            // And the first sample of every pixel has one number.
+            let uniform = one_direction || column.name == "samples";
             assert_eq!(viewed.colours() == 1, uniform, "{eye:?}: the view of {} shows nothing", column.name);
             seen.insert(format!("{eye:?} {}", column.name));
             compared += 1;
         }
     }
-    assert_eq!(seen.len(), 2 * (view_names(&offer()).len() - 1), "every column but radiance, which is the picture");
+    // A sample's sign is what the film weighs its view by.
+    let views = view_names(&offer()).into_iter().filter(|name| !matches!(*name, "radiance" | "sign"));
+    let missing: Vec<_> =
+        views.flat_map(|name| EYES.map(|eye| format!("{eye:?} {name}"))).filter(|name| !seen.contains(name)).collect();
+    assert!(missing.is_empty(), "not seen: {missing:?}");
     eprintln!("views: {compared} views, each equal to its column of the whole picture");
 }
 

@@ -21,6 +21,19 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut sphere) = entity.get_mut::<Sphere>() {
             sphere.radius *= scale;
         }
+        if let Some(mut disk) = entity.get_mut::<Disk>() {
+            disk.radius *= scale;
+        }
+        if let Some(mut rectangle) = entity.get_mut::<Rectangle>() {
+            rectangle.width *= scale;
+            rectangle.depth *= scale;
+        }
+        if let Some(mut cuboid) = entity.get_mut::<Cuboid>() {
+            cuboid.size *= scale;
+        }
+        if let Some(mut triangle) = entity.get_mut::<Triangle>() {
+            triangle.vertices = triangle.vertices.map(|vertex| vertex * scale);
+        }
         if let Some(mut checker) = entity.get_mut::<Checker>().filter(|texture| texture.by == TextureBy::Space) {
             checker.size *= scale;
         }
