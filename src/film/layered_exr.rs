@@ -1,6 +1,7 @@
 use super::{Film, write_whole};
 use crate::Result;
 use crate::scene::LayerKind;
+use exr::meta::attribute::LineOrder;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text,
     WritableImage,
@@ -9,7 +10,8 @@ use std::io;
 use std::path::Path;
 
 /// Lines, and no tiles: what every reader of layers takes.
-const SCAN_LINES: Encoding = Encoding { blocks: Blocks::ScanLines, ..Encoding::FAST_LOSSLESS };
+const SCAN_LINES: Encoding =
+    Encoding { blocks: Blocks::ScanLines, line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
 
 /// What the attribute is called that says which number of the layer `entity` is which shape.
 pub const ENTITY_NAMES: &str = "entityNames";

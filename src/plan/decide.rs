@@ -185,7 +185,12 @@ fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
         .filter(|(stage, row)| could(stage) && (none_to_tell || !holds_none(row)))
         .map(|(stage, row)| format!("\"{}\" is left out here ({})", stage.name, row.reason))
         .collect();
-    if writers.is_empty() { "no stage on offer writes it".into() } else { writers.join(" and ") }
+    match &writers[..] {
+        [] => "no stage on offer writes it".into(),
+        [one] => one.clone(),
+        [one, other] => format!("{one} and {other}"),
+        [first, between @ .., last] => format!("{first} and {last} and so are {} more that write it", between.len()),
+    }
 }
 
 fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {

@@ -100,6 +100,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
+        ("everything, larger", full(Setup { size: [80, 60], ..Setup::default() })),
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
     ];
     for stage in &offer {
