@@ -168,8 +168,8 @@ mod tests {
     #[test]
     fn a_drawing_without_a_view_box_is_refused() {
         let kit = kit("<svg width=\"3\"></svg>");
-        let told = block(&mut kit.borrow_mut(), &mut Pictures::new(), "chart 05_x", "It").expect_err("refused");
-        assert_eq!(told, "`chart 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
+        let told = block(&mut kit.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It").expect_err("refused");
+        assert_eq!(told, "`figure 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
     }
 
     #[test]
