@@ -136,7 +136,9 @@ fn the_error_that_is_measured_is_the_error_that_there_is() {
 fn samples_that_run_out_are_told() {
     let (_, outcome) = run(3, 32, Adaptive { error: 0.01, pilot: 8 });
     let found = outcome.achieved.expect("measured");
-    assert!(found.cut_short > 40 && found.samples.2 == 32, "{found:?}");
+    // Such pixels need more than a thousand samples, and 32 that all agree come about less than once in a thousand.
+    let torn = (0..SIDE * SIDE).filter(|pixel| (0.2..0.8).contains(&covered(pixel % SIDE, pixel / SIDE))).count();
+    assert!(torn > 20 && found.cut_short >= torn as u64 && found.samples.2 == 32, "{torn} torn pixels: {found:?}");
     eprintln!("samples ran out: {found:?}");
 }
 
