@@ -144,7 +144,7 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
 #[test]
 fn means_vary_as_theory_says_and_are_unbiased() {
     const TRIALS: u32 = 2000;
-    let (mut tried, mut worst) = (0, 0.0_f64);
+    let (mut tried, mut worst, mut dearest) = (0, 0.0_f64, 0.0_f64);
     for integrand in INTEGRANDS {
         for samples in [1, 2, 3, 4, 7, 16, 64] {
             for (word, sampler) in Sampler::ALL {
@@ -162,10 +162,11 @@ fn means_vary_as_theory_says_and_are_unbiased() {
                         let spread = 4.5 * error.variance_error + 8.0 * expected / f64::from(TRIALS);
                         assert!(apart < spread, "{told}, expected {expected}");
                     } else {
-                        // A scrambled net may be worse than dice by a small factor, e where t is 0 (Owen 1997), and no more.
+                        dearest = dearest.max(error.variance / expected);
+                        // Theory allows a scrambled net e times as much (Owen 1997, t = 0); on these functions it is never worse.
                         assert!(
                             error.variance
-                                <= 4.0 * expected + 4.5 * error.variance_error + 8.0 * expected / f64::from(TRIALS),
+                                <= expected + 4.5 * error.variance_error + 8.0 * expected / f64::from(TRIALS),
                             "worse than by dice: {told}"
                         );
                     }
@@ -175,6 +176,7 @@ fn means_vary_as_theory_says_and_are_unbiased() {
         }
     }
     eprintln!("means: {tried} of {TRIALS} trials each, the worst biased by {worst:.2} standard errors of 4.5 allowed");
+    eprintln!("means: no net varies more than {dearest:.2} times as much as dice");
 }
 
 /// The slope of the variance: −1 by dice, −2 with one sample a cell, steeper with Owen's scrambling where it is smooth.

@@ -79,7 +79,7 @@ fn a_step_ends_where_the_neighbour_s_point_is() {
         }
     }
     eprintln!("footprints: {tried} steps to neighbours, the worst off by {worst:.4} of itself");
-    assert!(worst < 0.05, "{worst}");
+    assert!(worst < 0.003, "{worst}");
 }
 
 /// A floor to the horizon, all of whose light is its texture's.
