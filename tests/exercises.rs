@@ -126,8 +126,8 @@ fn every_planted_mistake_is_called_by_its_name() {
         }
     }
     assert!(unnamed.is_empty(), "{} of {}:\n{}", unnamed.len(), mistakes::ALL.len(), unnamed.join("\n"));
-    for (chapter, _) in solutions::ALL.iter().copied() {
-        assert!(mistakes::ALL.iter().any(|(of, ..)| of == &chapter), "no mistake is planted in {chapter}");
+    for (chapter, _) in solutions::ALL {
+        assert!(mistakes::ALL.iter().any(|(of, ..)| of == chapter), "no mistake is planted in {chapter}");
     }
     eprintln!("mistakes: {} planted, all recognised", mistakes::ALL.len());
 }

@@ -5,6 +5,7 @@
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
 use pinhole::{Chapter, intersect, rays, shade};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -44,7 +45,7 @@ fn scene(world: &mut World) {
     let wood = world.spawn((Name::new("wood"), matte(0.62, 0.42, 0.25))).id();
     world.spawn((Name::new("floor"), Plane::default(), matte(0.6, 0.6, 0.6)));
     // Quaternions: a quarter turn about x, and a twelfth about y.
-    let upright = DQuat::from_xyzw(0.707106781, 0.0, 0.0, 0.707106781);
+    let upright = DQuat::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2);
     let aside = DQuat::from_xyzw(0.0, 0.258819045, 0.0, 0.965925826);
     let board = Placement { orientation: upright, ..Placement::at(-0.3, 1.1, -2.2) };
     world.spawn((Name::new("board"), Rectangle { width: 4.4, depth: 1.8 }, board, matte(0.25, 0.45, 0.5)));

@@ -138,7 +138,7 @@ fn asked() -> Vec<Probe<Input>> {
 fn somewhere(at: u64) -> Input {
     let mut draws = Draws::new(1401, at);
     let geometric = draws.unit_vector();
-    let side = if at % 2 == 0 { 1.0 } else { -1.0 };
+    let side = if at.is_multiple_of(2) { 1.0 } else { -1.0 };
     let normals = [(); 3].map(|()| (geometric * (side * 1.05) + draws.unit_vector()).normalize().to_array());
     let (a, b) = (draws.unit(), draws.unit());
     let shares = if a + b > 1.0 { [1.0 - a, 1.0 - b, a + b - 1.0] } else { [a, b, 1.0 - a - b] };

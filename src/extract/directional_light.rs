@@ -53,16 +53,16 @@ mod tests {
     fn the_light_is_against_the_entity_s_own_minus_z() {
         let light = DirectionalLight::default();
         let half = std::f64::consts::FRAC_1_SQRT_2;
-        assert_eq!(to_light(|w| drop(w.spawn(light))), DVec3::Z);
-        assert_eq!(to_light(|w| drop(w.spawn((light, Placement::at(5.0, -7.0, 1e9))))), DVec3::Z);
+        assert_eq!(to_light(|w| _ = w.spawn(light)), DVec3::Z);
+        assert_eq!(to_light(|w| _ = w.spawn((light, Placement::at(5.0, -7.0, 1e9)))), DVec3::Z);
         let turned = Placement { orientation: DQuat::from_xyzw(0.0, half, 0.0, half), ..Placement::default() };
-        assert!((to_light(|w| drop(w.spawn((light, turned)))) - DVec3::X).length() < 1e-15);
+        assert!((to_light(|w| _ = w.spawn((light, turned))) - DVec3::X).length() < 1e-15);
         let look = LookAt { eye: DVec3::new(0.0, 3.0, 4.0), target: DVec3::ZERO, up: DVec3::Y };
-        assert!((to_light(|w| drop(w.spawn((light, look)))) - DVec3::new(0.0, 0.6, 0.8)).length() < 1e-15);
+        assert!((to_light(|w| _ = w.spawn((light, look))) - DVec3::new(0.0, 0.6, 0.8)).length() < 1e-15);
         let scaled = Placement { scale: DVec3::new(2.0, 3.0, 1e-12), ..Placement::default() };
-        assert_eq!(to_light(|w| drop(w.spawn((light, scaled)))), DVec3::Z);
+        assert_eq!(to_light(|w| _ = w.spawn((light, scaled))), DVec3::Z);
         let mirrored = Placement { scale: DVec3::new(1.0, 1.0, -1.0), ..Placement::default() };
-        assert_eq!(to_light(|w| drop(w.spawn((light, mirrored)))), DVec3::NEG_Z, "its own −z is mirrored with it");
+        assert_eq!(to_light(|w| _ = w.spawn((light, mirrored))), DVec3::NEG_Z, "its own −z is mirrored with it");
         let under = to_light(|world| {
             let parent = world.spawn(turned).id();
             world.spawn((light, ChildOf(parent)));

@@ -72,7 +72,7 @@ pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers
     if !endings.contains(&ending.as_str()) {
         return Err(refused(accepted.into()));
     }
-    let texels = decoded(&path, &ending).map_err(|problem| refused(problem))?;
+    let texels = decoded(&path, &ending).map_err(refused)?;
     let wrong = |texel: &[f32; 3]| !texel.iter().all(|&part| numbers.accepts(part));
     if let Some(first) = texels.rgb.iter().position(wrong) {
         let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();

@@ -26,8 +26,8 @@ pub const ENTITY_NAMES: &str = "entityNames";
 pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
     write_whole(path, |file| {
         let size = (film.width as usize, film.height as usize);
-        let mut attributes = LayerAttributes::default();
-        attributes.software_name = Some(Text::from("pinhole"));
+        let mut attributes =
+            LayerAttributes { software_name: Some(Text::from("pinhole")), ..LayerAttributes::default() };
         let kinds = film.layers.first().map_or(&[][..], |layers| &layers.kinds);
         if kinds.contains(&LayerKind::Entity) {
             let told: Vec<String> = names.iter().enumerate().map(|(number, name)| format!("{number} {name}")).collect();

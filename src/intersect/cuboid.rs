@@ -68,7 +68,7 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
     let lost = 8.0 * EPSILON * (sum + half);
     let relative = EPSILON * (4.0 * sum_of_approach / speed + 4.0);
     let (along, in_a_face) = (sum_of_approach == 0.0, (over_near.abs() <= lost) | (over_far.abs() <= lost));
-    let unsure = if along { in_a_face } else { !(relative < 0.25) };
+    let unsure = if along { in_a_face } else { relative.is_nan() | (relative >= 0.25) };
     let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
     let bounds = |t: f64| {
         if unsure { Between { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Between::new(t, error(t)) }

@@ -89,7 +89,7 @@ pub fn edge_on(index: u64) -> (AimedRay, Flat) {
     let half_edges = [DVec3::X * draws.between(0.5, 2.0), DVec3::Z * draws.between(0.5, 2.0)];
     let centre = DVec3::new(draws.between(-1.0, 1.0), draws.between(-1.0, 1.0), draws.between(-1.0, 1.0));
     let flat = Flat::new(centre, DVec3::Y, half_edges).unwrap_or(ANY);
-    let zero = if index % 2 == 0 { 0.0 } else { -0.0 };
+    let zero = if index.is_multiple_of(2) { 0.0 } else { -0.0 };
     let direction = Vec3::new(draws.between(-1.0, 1.0) as f32, zero, draws.between(-1.0, 1.0) as f32).normalize();
     let height = if index % 4 < 2 { centre.y as f32 } else { 0.0 };
     (AimedRay { origin: Vec3::new(-4.0, height, 0.5), direction }, flat)

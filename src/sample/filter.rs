@@ -113,8 +113,7 @@ mod tests {
     /// The integral of f(x) h(x) over that of f, by Simpson's rule on each side of where f turns.
     fn convolved(filter: Filter, h: impl Fn(f64) -> f64, kink: f64) -> f64 {
         let (radius, turn) = (radius_of(filter), turning_place(filter));
-        let mut ends =
-            vec![-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
+        let mut ends = [-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
         ends.sort_by(f64::total_cmp);
         let mut sum = 0.0;
         for pair in ends.windows(2) {

@@ -24,7 +24,7 @@ fn wave_area(x: f64) -> f64 {
 #[inline(always)]
 pub fn wave_mean(x: f64, width: f64) -> f64 {
     let (low, high) = (x - 0.5 * width, x + 0.5 * width);
-    if !(high - low < f64::INFINITY) {
+    if !(high - low).is_finite() {
         0.0
     } else if low.floor() == high.floor() {
         wave(x)

@@ -77,7 +77,7 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] 
     let [right, down] = at.steps.map(|step| step.truncate() * size);
     let (long, short) = if right.length() >= down.length() { (right, down) } else { (down, right) };
     let length = long.length();
-    if !(length < f64::INFINITY) {
+    if !length.is_finite() {
         return trilinear(pyramid, at.point.truncate(), f64::INFINITY, wrap);
     }
     // Two steps that point the same way cover less than their lengths say: what counts is the area that they span.

@@ -379,7 +379,7 @@ fn min_and_max(o: [f64; 3], d: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Opt
         let (first, last) = if a < b { (a, b) } else { (b, a) };
         near = if first > near { first } else { near };
         far = if last < far { last } else { far };
-        if !(near <= far) || first.is_nan() {
+        if near > far || near.is_nan() || far.is_nan() || first.is_nan() {
             return None;
         }
     }
