@@ -8,14 +8,17 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, DirectionalLightTable, ImageShape, MaterialKind, MaterialTable, PinholeLens,
-    PlaneTable, PointLightTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable,
+    BackgroundTable, CameraAxes, DirectionalLightTable, FilterTable, ImageShape, MaterialKind, MaterialTable,
+    PinholeLens, PlaneTable, PointLightTable, SamplingTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
 use pinhole::plan::Table;
-use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
-use pinhole::scene::Refusal;
+use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
+use pinhole::sample::{
+    Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
+};
+use pinhole::scene::{Filter, Refusal, Sampler};
 use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
 use std::sync::{Mutex, PoisonError};
 
@@ -33,6 +36,9 @@ pub struct Scene {
     materials: MaterialTable,
     lights: PointLightTable,
     background: BackgroundTable,
+    /// None for one ray through the middle of each pixel.
+    sampling: Option<SamplingTable>,
+    filter: FilterTable,
 }
 
 impl Scene {
@@ -58,6 +64,8 @@ impl Scene {
             materials,
             lights: Table::extract(world)?,
             background: Table::extract(world)?,
+            sampling: sampling_evidence(world).needed.then(|| Table::extract(world)).transpose()?,
+            filter: Table::extract(world)?,
         })
     }
 }
@@ -76,18 +84,61 @@ pub fn render(world: &World, threads: usize) -> Film {
     film
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+/// What samplers work out once for all pixels is worked out once a tile, as in the kit.
 fn render_tile(scene: &Scene, film: &mut FilmTile) {
+    let Some(SamplingTable { samples, sampler, .. }) = scene.sampling else { return add_centres(scene, film) };
+    let (numbers, purpose) = (0..samples, Purpose::Pixel);
+    match sampler {
+        Sampler::Independent => {
+            add_samples(scene, &numbers.map(|n| Independent::new(n, 0, purpose)).collect::<Vec<_>>(), film);
+        }
+        Sampler::Stratified => {
+            add_samples(scene, &numbers.map(|n| Stratified::new(n, samples, 0, purpose)).collect::<Vec<_>>(), film);
+        }
+        Sampler::Sobol => add_samples(scene, &numbers.map(|n| Sobol::new(n, 0, purpose)).collect::<Vec<_>>(), film),
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_centres(scene: &Scene, film: &mut FilmTile) {
     for row in 0..film.tile.rows() {
         let [x, y] = film.tile.pixel_of(row);
-        let radiance = radiance(scene, x, y);
+        let radiance = radiance(scene, raster_from_pixel(x, y));
         film.add(row, radiance);
     }
 }
 
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_samples<D: Draw>(scene: &Scene, draws: &[D], film: &mut FilmTile) {
+    let seed = scene.sampling.unwrap_or_default().seed;
+    for row in 0..film.tile.rows() {
+        let [x, y] = film.tile.pixel_of(row);
+        let key = PixelKey::new(seed, [x, y]);
+        for draw in draws {
+            let [(right, across), (down, along)] = draw.two(key).map(|bits| offset(&scene.filter, unit(bits)));
+            let radiance = radiance(scene, raster_from_pixel(x, y) + DVec2::new(right, down));
+            if across == along {
+                film.add(row, radiance);
+            } else {
+                film.add_negative(row, radiance);
+            }
+        }
+    }
+}
+
+/// How far beside the pixel's centre a sample lies, and whether the filter is negative there.
 #[inline(always)]
-fn radiance(scene: &Scene, x: u32, y: u32) -> [f32; 3] {
-    let ndc = ndc_from_raster(raster_from_pixel(x, y), scene.image.size());
+fn offset(filter: &FilterTable, u: f64) -> (f64, bool) {
+    match filter.filter {
+        Filter::Box { radius } => (box_offset(u, radius), false),
+        Filter::Tent { radius } => (tent_offset(u, radius), false),
+        _ => table_offset(u, &filter.cells),
+    }
+}
+
+#[inline(always)]
+fn radiance(scene: &Scene, raster: DVec2) -> [f32; 3] {
+    let ndc = ndc_from_raster(raster, scene.image.size());
     let screen: DVec2 = screen_from_ndc(ndc, scene.image.aspect());
     let camera = camera_ray_perspective(screen, scene.lens.tan_half_vertical);
     let direction = (scene.axes.world_from_camera * camera).as_vec3().as_dvec3();

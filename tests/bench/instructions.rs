@@ -27,10 +27,11 @@ struct Case {
     samples: u32,
 }
 
-const CASES: [Case; 3] = [
+const CASES: [Case; 4] = [
     Case { name: "spheres seen unlit", scene: UNLIT, stages: unlit, samples: 1 },
     Case { name: "spheres and a plane in light and shadow", scene: LIT, stages: lit, samples: 1 },
     Case { name: "the same with 4 samples a pixel", scene: SAMPLED, stages: sampled, samples: 4 },
+    Case { name: "some of chapters 13 to 17, with 4 samples", scene: VARIED, stages: varied, samples: 4 },
 ];
 
 /// Sizes whose pixels are as 1 to 4, in whole tiles.
@@ -59,6 +60,17 @@ const SAMPLED: &str = r#"[
     (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
     (point_light: (intensity: (90, 80, 70)), placement: (position: (3, 5, 4))),
     (background: (colour: (0.1, 0.2, 0.3))),
+]"#;
+
+/// One of two or more of what each chapter brings: the others must cost nothing.
+const VARIED: &str = r#"[
+    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
+        sampling: (samples: 4, filter: Tent(radius: 1))),
+    (disk: (radius: 1.2), placement: (position: (-1, 0.5, 0)), phong: (colour: (0.5, 0.4, 0.2))),
+    (cuboid: (size: (1, 1.2, 1)), placement: (position: (1, 0.6, 0)), matte: (),
+        checker: (second: (0.2, 0.2, 0.6), size: 0.3, by: Space)),
+    (spot_light: (intensity: (90, 80, 70)), placement: (position: (0, 1, 8))),
+    (gradient: (top: (0.1, 0.2, 0.5))),
 ]"#;
 
 /// From the screen to the world, for a perspective camera.
@@ -95,6 +107,18 @@ fn lit() -> Vec<Stage> {
 
 fn sampled() -> Vec<Stage> {
     lit_with(rays::place_samples_stage())
+}
+
+fn varied() -> Vec<Stage> {
+    let mut stages = perspective();
+    stages.extend([rays::place_samples_stage(), intersect::start_stage()]);
+    stages.extend([intersect::disk_stage(), intersect::cuboid_stage(), intersect::classify_stage()]);
+    stages.extend([intersect::disk_surface_stage(), intersect::cuboid_surface_stage()]);
+    stages.extend([shade::start_stage(), shade::start_light_stage(), shade::gradient_stage()]);
+    stages.extend([shade::footprint_stage(), shade::colour_stage(), shade::lay_stage(), shade::checker_stage()]);
+    stages.extend([shade::spot_light_stage(), shade::start_shadow_stage(), shade::disk_shadow_stage()]);
+    stages.extend([shade::cuboid_shadow_stage(), shade::light_stage(), shade::phong_stage(), film_stage()]);
+    stages
 }
 
 fn main() {

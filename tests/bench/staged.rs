@@ -1,8 +1,9 @@
 //! Stages on columns against one hand-written loop: the same scene, the same image, interleaved runs.
 //!
 //! `cargo bench --bench staged` prints the ratio of CPU times with its 95 % interval, on one and two threads, with and
-//! without the empty bounce schedule; then each stage's nanoseconds a row; then memory at two sizes.
-//! `-- --pairs 5 --size 480x270` takes fewer and smaller runs.
+//! without the empty bounce schedule, and with 4 samples a pixel; then each stage's nanoseconds a row; then memory at two
+//! sizes.
+//! `-- --pairs 5 --size 480x270` takes fewer and smaller runs; `-- --only samples` only those with samples.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 mod fused;
@@ -14,16 +15,26 @@ mod chapters;
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
 use pinhole::render::{Execution, render};
-use pinhole::scene::Resolution;
-use pinhole::{Asked, Chapter};
+use pinhole::scene::{Resolution, Sampler};
+use pinhole::{Asked, AskedSampling, Chapter};
 
 fn main() {
     let options = Options::read();
+    for sampler in [Sampler::Sobol, Sampler::Independent, Sampler::Stratified] {
+        sampled(sampler, &options);
+    }
+    if options.only_samples {
+        return;
+    }
     for name in ["05_pinhole", "cover"] {
         let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
         for threads in [1, 2] {
             for bounces in [None, Some(8)] {
-                compare(&chapter, threads, bounces, &options);
+                let work = match bounces {
+                    None => "no bounce schedule".into(),
+                    Some(legs) => format!("{legs} empty bounces"),
+                };
+                compare(&chapter, &options.world(&chapter, false), (threads, bounces), &work, &options);
             }
         }
         bounce_cost(&chapter, &options);
@@ -35,6 +46,7 @@ fn main() {
 struct Options {
     pairs: usize,
     size: Resolution,
+    only_samples: bool,
 }
 
 impl Options {
@@ -45,7 +57,8 @@ impl Options {
         let size = after("--size").and_then(|size| size.split_once('x'));
         let size = size.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
         let (width, height) = size.unwrap_or((1920, 1080));
-        Self { pairs, size: Resolution { width, height } }
+        let only_samples = after("--only").is_some_and(|only| only == "samples");
+        Self { pairs, size: Resolution { width, height }, only_samples }
     }
 
     fn world(&self, chapter: &Chapter, statistics: bool) -> World {
@@ -53,13 +66,36 @@ impl Options {
     }
 }
 
+/// Samples a pixel where several are taken.
+const SAMPLES: u32 = 4;
+
+/// The cover by several samples a pixel, with direct light and shadows, through the default filter.
+fn sampled(sampler: Sampler, options: &Options) {
+    let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "cover").expect("the cover");
+    let sampling = AskedSampling { samples: Some(SAMPLES), sampler: Some(sampler), ..AskedSampling::default() };
+    let world = chapter.world(&Asked { resolution: Some(options.size), sampling, ..Asked::default() });
+    let word = Sampler::ALL.into_iter().find(|(_, other)| *other == sampler).expect("a sampler's name").0;
+    for threads in [1, 2] {
+        let ms = compare(&chapter, &world, (threads, None), &format!("{SAMPLES} {word} samples"), options);
+        let samples = f64::from(options.size.width) * f64::from(options.size.height) * f64::from(SAMPLES);
+        println!("{:<12} {word}: {:.2} Msamples/s a core on {threads} threads", chapter.name, samples / ms / 1e3);
+    }
+}
+
 /// Staged over fused, interleaved ABBA, after a warm-up of each and a check that the images are the same.
-fn compare(chapter: &Chapter, threads: usize, bounces: Option<u32>, options: &Options) {
-    let world = options.world(chapter, false);
+///
+/// Gives the median of the staged runs' CPU milliseconds.
+fn compare(
+    chapter: &Chapter,
+    world: &World,
+    (threads, bounces): (usize, Option<u32>),
+    work: &str,
+    options: &Options,
+) -> f64 {
     let offer = chapter.stages();
     let execution = Execution { threads: Some(threads), bounces, ..Execution::default() };
-    let staged = || render(&world, &offer, &execution, &()).expect("renders").film;
-    let fused = || fused::render(&world, threads);
+    let staged = || render(world, &offer, &execution, &()).expect("renders").film;
+    let fused = || fused::render(world, threads);
     assert!(staged().tiles == fused().tiles, "the two images differ");
 
     let mut logs = Vec::new();
@@ -78,15 +114,15 @@ fn compare(chapter: &Chapter, threads: usize, bounces: Option<u32>, options: &Op
     }
     let (low, middle, high) = interval(&logs);
     println!(
-        "{:<12} {}x{} threads {threads} {:<18} staged/fused CPU time {middle:.3} [{low:.3}, {high:.3}] of {} pairs; medians {:.0} and {:.0} ms",
+        "{:<12} {}x{} threads {threads} {work:<22} staged/fused CPU time {middle:.3} [{low:.3}, {high:.3}] of {} pairs; medians {:.0} and {:.0} ms",
         chapter.name,
         options.size.width,
         options.size.height,
-        bounces.map_or("no bounce schedule".into(), |legs| format!("{legs} empty bounces")),
         options.pairs,
         median(&mut staged_ms),
         median(&mut fused_ms),
     );
+    median(&mut staged_ms)
 }
 
 /// What eight runs of the empty bounce schedule a tile add, as a ratio of the same staged render with and without.
