@@ -11,7 +11,7 @@ use pinhole::measure::film_bits::digest;
 use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
-use pinhole::scene::{Placement, PointLight, Statistics};
+use pinhole::scene::{Filter, Placement, PointLight, Sampling, Statistics};
 use scenes::{
     EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, pieces, shining, stretched, textured,
     ties, turned,
@@ -36,6 +36,14 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("ties", ties()),
         ("unlit", unlit),
     ]
+}
+
+/// The textured scene by several samples a pixel, some of which count negatively.
+fn sampled(setup: Setup) -> World {
+    let mut scene = textured(setup);
+    let camera = named(&mut scene, "camera");
+    scene.entity_mut(camera).insert(Sampling { samples: 3, filter: Filter::MITCHELL, ..Sampling::default() });
+    scene
 }
 
 fn with_statistics(mut scene: World) -> World {
@@ -242,7 +250,7 @@ fn an_empty_bounce_and_statistics() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining] {
+        for scene in [full, turned, stretched, pieces, textured, shining, sampled] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -253,7 +261,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 4 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 7 scenes, all equal");
 }
 
 #[test]
@@ -263,7 +271,7 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        for scene in [full, stretched, pieces, textured, shining] {
+        for scene in [full, stretched, pieces, textured, shining, sampled] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {
                 for sign in [far, -far] {

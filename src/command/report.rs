@@ -92,9 +92,11 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) 
     })?;
     provenance.load[1] = load();
     let measured = measure(&variants, &ladder, &runs)?;
-    let scenes = variants
-        .iter()
-        .map(|variant| Ok(crate::measure::cost::fingerprint(scene_text(&(variant.scene)())?.as_bytes())));
+    let scenes = variants.iter().map(|variant| {
+        let world = (variant.scene)();
+        let text = scene_text(&world)?;
+        Ok((crate::measure::cost::fingerprint(text.as_bytes()), crate::extract::shape_entities(&world).len()))
+    });
     let empty = Report {
         name: subject.stem(),
         title: subject.title().into(),

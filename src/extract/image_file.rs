@@ -109,7 +109,7 @@ fn one_line(what: &dyn std::fmt::Display) -> String {
 }
 
 /// The end of a long text, where a path is told from another.
-fn shortened(text: &str) -> String {
+pub(super) fn shortened(text: &str) -> String {
     const MOST_LETTERS: usize = 80;
     let letters = text.chars().count();
     let end = text.chars().skip(letters.saturating_sub(MOST_LETTERS));

@@ -1,9 +1,10 @@
 use super::check::kind_and_name;
-use super::image_file::{Numbers, read_texels};
+use super::image_file::{Numbers, read_texels, shortened};
+use super::phong::beside_highlight;
 use super::texture::{Texture, rows_of_kind};
 use super::{Pyramid, Texels};
 use crate::plan::{Table, entities};
-use crate::scene::{ImageTexture, Refusal, TextureBy, Wrap};
+use crate::scene::{ImageTexture, Refusal, Rgb, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
 
 /// The materials that are coloured by an image, in spawn order.
@@ -28,7 +29,11 @@ pub(super) fn check_images(scene: &World) -> Result<(), Refusal> {
 
 fn image_of(scene: &World, owner: Entity) -> Result<Texels, Refusal> {
     let file = scene.get::<ImageTexture>(owner).map_or("", |texture| &texture.file);
-    read_texels(scene, &kind_and_name(scene, ImageTexture::WORD, owner), file, Numbers::Shares)
+    let who = kind_and_name(scene, ImageTexture::WORD, owner);
+    let texels = read_texels(scene, &who, file, Numbers::Shares)?;
+    let [r, g, b] = [0, 1, 2].map(|part| texels.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max).into());
+    beside_highlight(scene, owner, (&who, "file", shortened(&format!("{file:?}"))), Rgb::new(r, g, b))?;
+    Ok(texels)
 }
 
 impl Table for ImageTable {

@@ -1,7 +1,7 @@
 use super::check::kind_and_name;
 use super::check::{number, reflectance, triple};
 use crate::plan::{Table, entities};
-use crate::scene::{Phong, Refusal, Rgb};
+use crate::scene::{BlinnPhong, Phong, Refusal, Rgb};
 use bevy_ecs::prelude::*;
 
 /// The largest exponent: beyond it a highlight is narrower than the directions of f32 can tell.
@@ -64,6 +64,27 @@ pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, Refusal> 
         let accepted = format!("it must be a number from 0 to {LARGEST_EXPONENT:e}");
         Err(Refusal::new(who, "exponent", number(exponent), accepted))
     }
+}
+
+/// Checks that a texture leaves room for the highlight of the material that it colours; `largest` is the largest that each
+/// part of its colour comes to.
+pub(super) fn beside_highlight(
+    scene: &World,
+    material: Entity,
+    (who, field, value): (&str, &'static str, String),
+    largest: Rgb,
+) -> Result<(), Refusal> {
+    let phong = scene.get::<Phong>(material).map(|own| own.specular);
+    let specular = phong.or_else(|| scene.get::<BlinnPhong>(material).map(|own| own.specular));
+    let Some(specular) = specular.filter(|own| (own.to_vec() + largest.to_vec()).max_element() > 1.0) else {
+        return Ok(());
+    };
+    let (specular, largest) = (triple(specular.to_vec()), triple(largest.to_vec()));
+    let accepted = format!(
+        "its parts come to {largest} and with the material's specular share {specular} must come to at most 1, for a \
+         surface gives back no more than it gets"
+    );
+    Err(Refusal::new(who, field, value, accepted))
 }
 
 /// Colour and specular share, which may not come to more than all the light.

@@ -1,4 +1,5 @@
-use super::check::{kind_and_name, reflectance};
+use super::check::{kind_and_name, reflectance, triple};
+use super::phong::beside_highlight;
 use super::texture::{Texture, rows_of_kind};
 use crate::plan::Table;
 use crate::scene::{Checker, Refusal, Rgb, Stripes};
@@ -25,8 +26,11 @@ impl TwoColours {
             let Some(texture) = scene.get::<T>(material) else { continue };
             let who = kind_and_name(scene, T::WORD, material);
             let (first, second) = colours(texture);
-            table.first.push(reflectance(&who, "first", first)?.to_array());
-            table.second.push(reflectance(&who, "second", second)?.to_array());
+            for (field, colour, colours) in [("first", first, &mut table.first), ("second", second, &mut table.second)]
+            {
+                colours.push(reflectance(&who, field, colour)?.to_array());
+                beside_highlight(scene, material, (&who, field, triple(colour.to_vec())), colour)?;
+            }
             table.filter.push(texture.filter());
         }
         Ok(table)

@@ -1,9 +1,8 @@
 use super::classify::DiskRows;
-use super::flat::{coordinates, crossing};
+use super::flat::{crossing, describe_flats};
 use super::narrow::narrow;
 use super::sphere::{LANES, RayBlock, Verdict};
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
-use super::uv::flat_uv;
+use super::surface::{SurfaceUvs, Surfaces};
 use super::wide_flat::wide_disk_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{DiskTable, Flat, ShapeTable};
@@ -71,24 +70,9 @@ pub fn fill_disk_surfaces(
     shapes: Res<Shared<ShapeTable>>,
     mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
-        let of = |row: usize| &disks.flat[shapes.row[hits.shape[row] as usize] as usize];
-        for &row in &list.row {
-            let row = row as usize;
-            let flat = of(row);
-            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
-            let point = origin + hits.t[row] * direction;
-            let bound = offset_bound(point, origin, sum_of_parts(flat.centre));
-            let material = shapes.material[hits.shape[row] as usize];
-            surfaces.set(row, Surface::facing(direction, point, flat.normal, bound, material));
-        }
-        if let Some(mut uvs) = uvs {
-            for &row in &list.row {
-                let row = row as usize;
-                let at = coordinates(rays.origin_of(row), rays.direction_of(row), hits.t[row], of(row));
-                uvs.set(row, flat_uv(at));
-            }
-        }
+    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+        let flat_of = |shape: u32| &disks.flat[shapes.row[shape as usize] as usize];
+        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, uvs.as_deref_mut());
     }
 }
 

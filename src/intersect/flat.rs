@@ -1,7 +1,10 @@
-//! Where a ray crosses the plane of a flat piece, and how well f64 knows it.
+//! Where a ray crosses the plane of a flat piece, how well f64 knows it, and what the surface is there.
 
-use super::surface::sum_of_parts;
-use crate::extract::Flat;
+use super::Hits;
+use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::uv::flat_uv;
+use crate::extract::{Flat, ShapeTable};
+use crate::rays::WorldRays;
 use glam::DVec3;
 
 /// 2⁻⁵³, the rounding unit of f64.
@@ -51,9 +54,35 @@ pub fn crossing(origin: DVec3, direction: DVec3, flat: &Flat) -> Crossing {
 }
 // ANCHOR_END: crossing
 
+/// Fills the surfaces, and the uvs where they are wanted, of the listed rows, all of which hit a flat piece.
+pub(super) fn describe_flats<'f>(
+    flat_of: impl Fn(u32) -> &'f Flat,
+    shapes: &ShapeTable,
+    list: &[u32],
+    (rays, hits): (&WorldRays, &Hits),
+    surfaces: &mut Surfaces,
+    uvs: Option<&mut SurfaceUvs>,
+) {
+    for &row in list {
+        let (row, shape) = (row as usize, hits.shape[row as usize]);
+        let flat = flat_of(shape);
+        let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+        let point = origin + hits.t[row] * direction;
+        let bound = offset_bound(point, origin, sum_of_parts(flat.centre));
+        let material = shapes.material[shape as usize];
+        surfaces.set(row, Surface::facing(direction, point, flat.normal, bound, material));
+    }
+    let Some(uvs) = uvs else { return };
+    for &row in list {
+        let row = row as usize;
+        let at = coordinates(rays.origin_of(row), rays.direction_of(row), hits.t[row], flat_of(hits.shape[row]));
+        uvs.set(row, flat_uv(at));
+    }
+}
+
 /// The two coordinates of O + tR in a flat piece.
 #[inline(always)]
-pub fn coordinates(origin: DVec3, direction: DVec3, t: f64, flat: &Flat) -> [f64; 2] {
+fn coordinates(origin: DVec3, direction: DVec3, t: f64, flat: &Flat) -> [f64; 2] {
     let v = t * direction - (flat.centre - origin);
     [flat.along[0].dot(v), flat.along[1].dot(v)]
 }

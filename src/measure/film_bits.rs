@@ -1,6 +1,7 @@
 //! A film as bits, so that equal means equal.
 
 use crate::film::{Film, FilmTile};
+use crate::scene::{FNV_BASIS, fnv};
 
 /// A film pixel by pixel: the bits of three weighted sums, and the counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,6 +81,5 @@ impl FilmBits {
 
 /// FNV-1a over the bytes of some words.
 pub fn digest(words: impl Iterator<Item = u64>) -> u64 {
-    let bytes = words.flat_map(u64::to_le_bytes);
-    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+    words.fold(FNV_BASIS, |hash, word| fnv(hash, &word.to_le_bytes()))
 }

@@ -1,5 +1,5 @@
 use crate::plan::Plan;
-use crate::scene::fingerprint;
+use crate::scene::{FNV_BASIS, fingerprint, fnv};
 use bevy_ecs::prelude::*;
 
 /// What a film is a film of, as a number: two renders with the same key add to the same sums.
@@ -13,6 +13,5 @@ pub fn film_key(scene: &World, plan: &Plan) -> u64 {
         text += row.stage;
         text.push('\n');
     }
-    // FNV-1a.
-    text.bytes().fold(0xCBF2_9CE4_8422_2325, |key, byte| (key ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+    fnv(FNV_BASIS, text.as_bytes())
 }

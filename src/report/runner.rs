@@ -215,7 +215,7 @@ pub fn fingerprint(variants: &[Variant<'_>], ladder: &Ladder, sources: &str) -> 
         let stages: Vec<&str> = variant.stages.iter().map(|stage| stage.name).collect();
         let world = variant.world(variant.sampling)?;
         let scene = crate::scene::scene_text(&world).map_err(Error::from)?;
-        text += &format!("{}\n{scene}\n{stages:?}\n", variant.name);
+        text += &format!("{}\n{scene}\n{}\n{stages:?}\n", variant.name, crate::scene::fingerprint(&world));
     }
     Ok(crate::measure::cost::fingerprint(text.as_bytes()))
 }

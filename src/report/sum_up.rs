@@ -60,7 +60,7 @@ pub fn measure(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs) -> Result
 /// What each variant's numbers are, and how the others compare with the first.
 pub fn sum_up(mut report: Report, variants: &[Variant<'_>], runs: &Runs, measured: &[Measured]) -> Report {
     for (own, (variant, measured)) in variants.iter().zip(measured).enumerate() {
-        report.variants.push(summary(variant, own, runs, measured, &report.scenes_of(own)));
+        report.variants.push(summary(variant, own, runs, measured, report.scenes_of(own)));
     }
     let comparisons = (variants.len() - 1) * (report.ladder.samples.len() * 2 + TIMES);
     report.family_level = sidak(LEVEL, comparisons);
@@ -73,12 +73,18 @@ pub fn sum_up(mut report: Report, variants: &[Variant<'_>], runs: &Runs, measure
 }
 
 impl Report {
-    fn scenes_of(&self, own: usize) -> String {
+    fn scenes_of(&self, own: usize) -> (String, usize) {
         self.scenes.get(own).cloned().unwrap_or_default()
     }
 }
 
-fn summary(variant: &Variant<'_>, own: usize, runs: &Runs, measured: &Measured, scene: &str) -> VariantSummary {
+fn summary(
+    variant: &Variant<'_>,
+    own: usize,
+    runs: &Runs,
+    measured: &Measured,
+    scene: (String, usize),
+) -> VariantSummary {
     let Measured { curve, deviations, reference } = measured;
     let levels = curve.levels.iter().zip(deviations).zip(&runs.levels[own]).enumerate();
     let stages = &runs.stages[own];
@@ -96,8 +102,9 @@ fn summary(variant: &Variant<'_>, own: usize, runs: &Runs, measured: &Measured, 
             .collect(),
         slope: Told::of(curve.slope(LEVEL).map(|slope| slope.interval(LEVEL))),
         reference_variance: curve.levels.first().and_then(|level| level.ensemble.reference_variance()).unwrap_or(0.0),
-        scene: scene.into(),
+        scene: scene.0,
         rays: rays.map(|rays| rays / samples),
+        tests_a_ray: scene.1,
         stages: stages
             .iter()
             .map(|(stage, lap)| StageSummary {

@@ -108,8 +108,11 @@ pub struct VariantSummary {
     pub reference_variance: f64,
     /// Fingerprint of its scene.
     pub scene: String,
-    /// Camera and shadow rays a sample.
+    /// Camera and shadow rays a sample; a camera ray's path has one leg.
     pub rays: [f64; 2],
+    /// Shapes that each ray is tested against: all, for there is no hierarchy.
+    #[serde(default)]
+    pub tests_a_ray: usize,
     /// Its stages, in a run with timers of 16 samples a pixel.
     pub stages: Vec<StageSummary>,
 }
@@ -146,9 +149,9 @@ pub struct Report {
     pub title: String,
     /// What it was compared with, as typed.
     pub against: Vec<String>,
-    /// Fingerprints of the variants' scenes.
+    /// Of each variant's scene: its fingerprint, and how many shapes it holds.
     #[serde(skip)]
-    pub scenes: Vec<String>,
+    pub scenes: Vec<(String, usize)>,
     /// Pixels from left to right and from top to bottom.
     pub size: [u32; 2],
     /// Which runs were made.

@@ -57,7 +57,7 @@ pub use directional_light::DirectionalLight;
 pub use disk::Disk;
 pub use emissive::Emissive;
 pub use environment::Environment;
-pub use file::{FileProblem, PlaceInFile, SceneFile, fingerprint, scene_text, words};
+pub use file::{FNV_BASIS, FileProblem, PlaceInFile, SceneFile, fingerprint, fnv, scene_text, words};
 pub use filter::Filter;
 pub use folder::SceneFolder;
 pub use glam::DQuat;

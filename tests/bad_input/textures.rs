@@ -39,6 +39,24 @@ pub const TEXTURES: &[Case] = &[
     ("a checker that gives back more", &["checker \"floor\"", "first", "(2, 0, 0)"], |w| {
         edit::<Checker>(w, "floor", |c| c.first = Rgb::new(2.0, 0.0, 0.0));
     }),
+    (
+        "a checker that leaves its highlight no room",
+        &["checker \"floor\"", "first", "(0.8, 0.8, 0.8)", "specular share (0.3"],
+        |w| {
+            let floor = named(w, "floor");
+            let shiny = Phong { colour: Rgb::grey(0.1), specular: Rgb::grey(0.3), exponent: 20.0 };
+            w.entity_mut(floor).remove::<Matte>().insert(shiny);
+        },
+    ),
+    (
+        "an image brighter than its highlight allows",
+        &["image texture \"ball\"", "card.png", "specular share (0, 0.9"],
+        |w| {
+            let ball = named(w, "ball");
+            let shiny = BlinnPhong { colour: Rgb::grey(0.0), specular: Rgb::new(0.0, 0.9, 0.0), exponent: 20.0 };
+            w.entity_mut(ball).remove::<Matte>().insert(shiny);
+        },
+    ),
     ("stripes of negative light", &["stripes \"wall\"", "second", "(0, -1, 0)"], |w| {
         edit::<Stripes>(w, "wall", |s| s.second = Rgb::new(0.0, -1.0, 0.0));
     }),

@@ -1,5 +1,7 @@
 use super::word::Word;
-use crate::scene::{ChildOf, Disabled, Name, Sampler, Sampling, Statistics, UsesMaterial};
+use crate::scene::{
+    ChildOf, Disabled, Environment, ImageTexture, Name, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial,
+};
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
 use std::any::TypeId;
@@ -7,6 +9,7 @@ use std::any::TypeId;
 /// All that a picture of this scene can depend on, as text: the same for the same scene, however often it is made.
 ///
 /// Entities are told by their place in the order of spawning, so that names need not tell them apart.
+/// An image that the scene names is told by what the file holds, too.
 /// Left out are statistics, and how many samples a camera takes: a render that is continued may take more.
 pub fn fingerprint(scene: &World) -> String {
     let mut entities: Vec<EntityRef<'_>> = scene
@@ -30,6 +33,12 @@ pub fn fingerprint(scene: &World) -> String {
                 text += &format!(" {}: {value}", word.word);
             }
         }
+        let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
+        let environment = entity.get::<Environment>().map(|environment| &environment.file);
+        for file in texture.into_iter().chain(environment) {
+            let held = std::fs::read(SceneFolder::path_of(scene, file)).map(|bytes| fnv(FNV_BASIS, &bytes));
+            text += &format!(" {:?}", held.ok());
+        }
         if let Some(sampling) = entity.get::<Sampling>() {
             // A stratified pixel's grid is made for its number of samples.
             let samples = if sampling.sampler == Sampler::Stratified { sampling.samples } else { 0 };
@@ -38,4 +47,36 @@ pub fn fingerprint(scene: &World) -> String {
         text.push('\n');
     }
     text
+}
+
+/// The hash of nothing, with which [`fnv`] begins.
+pub const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// The FNV-1a hash of what was hashed before and these bytes.
+pub fn fnv(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_the_known_one() {
+        assert_eq!(fnv(FNV_BASIS, b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn an_image_that_holds_something_else_makes_another_scene() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut scene = World::new();
+        scene.insert_resource(SceneFolder(folder.path().into()));
+        scene.spawn(ImageTexture { file: "card.png".into(), ..ImageTexture::default() });
+        let with = |bytes: &[u8]| {
+            std::fs::write(folder.path().join("card.png"), bytes).expect("a file");
+            fingerprint(&scene)
+        };
+        assert_eq!(with(b"one"), with(b"one"));
+        assert_ne!(with(b"one"), with(b"two"));
+    }
 }

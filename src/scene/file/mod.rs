@@ -19,7 +19,7 @@ mod slip;
 mod word;
 mod write;
 
-pub use fingerprint::fingerprint;
+pub use fingerprint::{FNV_BASIS, fingerprint, fnv};
 pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
 pub use word::words;
