@@ -13,7 +13,7 @@ use pinhole::report::interval::LEVEL;
 use pinhole::report::refusal::{Refused, disjoint};
 use synthetic::{Noise, PIECES, Renderer};
 
-/// Repetitions of each case here; `cargo bench --bench coverage` makes 1,000.
+/// Repetitions of each case here; `cargo bench --bench coverage` makes 4,000.
 const REPETITIONS: usize = 60;
 
 /// The share of binomial draws of `of` at `share` that are below `held`.

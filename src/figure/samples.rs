@@ -25,7 +25,7 @@ pub fn draw_points(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     camera_entity(&scene)?;
     let pixel = PixelKey::new(SamplingTable::extract(&scene)?.seed, [240, 135]);
     let side = 206.0;
-    let mut svg = Svg::new(figure.name, side + 86.0);
+    let mut svg = Svg::new(figure.name, side + 96.0);
     for (number, (word, sampler)) in (0_u32..).zip(Sampler::ALL.into_iter().rev()) {
         let corner = DVec2::new(24.0 + f64::from(number) * (side + 28.0), 12.0);
         for line in 0..=8 {
@@ -44,10 +44,10 @@ pub fn draw_points(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             let at = corner + DVec2::from(point.map(unit)) * side;
             svg.circle(at, 2.4, Some(&Fill::new(RAY, 1.0)), None);
             columns[(unit(point[0]) * f64::from(POINTS)) as usize] += 1;
-            svg.quiet_line(DVec2::new(at.x, corner.y + side + 6.0), DVec2::new(at.x, corner.y + side + 14.0), TICK);
+            svg.quiet_line(DVec2::new(at.x, corner.y + side + 5.0), DVec2::new(at.x, corner.y + side + 12.0), TICK);
         }
         let empty = columns.iter().filter(|&&count| count == 0).count();
-        let below = corner + DVec2::new(side / 2.0, side + 16.0);
+        let below = corner + DVec2::new(side / 2.0, side + 28.0);
         svg.label(Label::near(below, word, DVec2::Y, 6.0));
         let told = format!("{empty} of {POINTS} columns empty");
         svg.label(Label::near(below + DVec2::new(0.0, 17.0), &told, DVec2::Y, 6.0).title(0.85));

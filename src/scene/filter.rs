@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A filter's radius, in pixels, is where it ends; a larger one blurs more, and lets less of what is finer than a pixel
 /// through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Filter {
     /// All alike: with a radius of 0.5, the pixel's own square.
     Box {

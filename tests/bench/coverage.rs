@@ -1,6 +1,6 @@
 //! How often the intervals of `report` hold the truth, on renderers whose variance and bias are known.
 //!
-//! `cargo bench --bench coverage` repeats each 1,000 times; `-- --repetitions 200` takes fewer.
+//! `cargo bench --bench coverage` repeats each 4,000 times; `-- --repetitions 200` takes fewer.
 //! Those marked `*` are outside 93 to 97 %.
 //! Then what the timers of the stages cost: CPU time with them over that without.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
@@ -24,7 +24,7 @@ const RESOLUTION: f64 = 0.077;
 fn main() {
     let words: Vec<String> = std::env::args().collect();
     let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1));
-    let repetitions = after("--repetitions").and_then(|count| count.parse().ok()).unwrap_or(1000);
+    let repetitions = after("--repetitions").and_then(|count| count.parse().ok()).unwrap_or(4000);
     let noises = [Noise::Gaussian, Noise::Uniform, Noise::Lognormal(0.5), Noise::Lognormal(1.0), Noise::Lognormal(2.5)];
     for noise in noises {
         for bias in [0.0, 0.1] {

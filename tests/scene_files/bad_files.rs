@@ -36,7 +36,7 @@ fn told(folder: &Path, bytes: &[u8]) -> String {
     ];
     assert!(!folder.join("a.png").exists(), "a picture of a refused scene");
     assert!(messages.iter().all(|message| *message == messages[0]), "{messages:?}");
-    messages[0].replace(&file, "scene.ron")
+    messages[0].replace(&file, "scene.ron").replace(&folder.display().to_string(), "folder")
 }
 
 #[test]

@@ -68,6 +68,27 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
 }
 
 #[test]
+fn every_sampler_and_filter_comes_back() {
+    let mut tried = 0;
+    let odd = Filter::Gaussian { radius: 1.0 / 3.0, sigma: 0.1 };
+    for sampler in Sampler::ALL.map(|(_, sampler)| sampler) {
+        for filter in Filter::ALL.map(|(_, filter)| filter).into_iter().chain([odd]) {
+            let mut before = scenes::textured(Setup { size: [24, 16], ..Setup::default() });
+            let camera = scenes::named(&mut before, "camera");
+            let sampling = Sampling { samples: 3, seed: u64::MAX, sampler, filter };
+            before.entity_mut(camera).insert(sampling);
+            let text = scene_text(&before).expect("exported");
+            let mut after = parsed(&text).unwrap_or_else(|problem| panic!("{problem}\n{text}")).world();
+            let back = *after.query::<&Sampling>().single(&after).expect("one sampling camera");
+            assert_eq!(back, sampling, "{text}");
+            assert!(scenes::film(&before) == scenes::film(&after), "another picture\n{text}");
+            tried += 1;
+        }
+    }
+    eprintln!("round trips: {tried} samplings of a textured scene");
+}
+
+#[test]
 fn numbers_come_back_bit_for_bit() {
     let mut tried = 0;
     for bits in (0..64).flat_map(|bit| [1_u64 << bit, !(1_u64 << bit), 0x3ff0_0000_0000_0000 ^ (1 << bit)]) {

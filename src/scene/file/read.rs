@@ -125,7 +125,9 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
     let whose = if who.starts_with('"') { format!("{kind} {who}") } else { format!("unnamed {kind}") };
     match &error.code {
         Error::NoSuchStructField { expected, found, .. } => {
-            let at = fields.iter().find(|field| field.word == found).map_or(part.value.start, |field| field.at);
+            let nested = fields.iter().flat_map(|field| self::fields(text, field.value.clone()));
+            let at = fields.iter().cloned().chain(nested).find(|field| field.word == found);
+            let at = at.map_or(part.value.start, |field| field.at);
             let words: Vec<String> = expected.iter().map(|field| format!("`{field}`")).collect();
             let fields = match &words[..] {
                 [one] => format!("its field is {one}"),
@@ -142,6 +144,12 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
         }
         Error::ExpectedComma => {
             let at = token_at(text, &part.value, stopped);
+            let fraction = text.get(at..).is_some_and(|rest| rest.starts_with('.'));
+            if let Some(field) = fields.iter().find(|field| fraction && field.value.contains(&at)) {
+                let whole = shown(text.get(field.value.clone()).unwrap_or(""));
+                let what = format!("{whose}: {} is {whole}, but it must be a whole number", field.word);
+                return Slip::new(field.value.start, what);
+            }
             Slip::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
         }
         code => {
@@ -152,9 +160,18 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
             let (name, range) = field.map_or((part.word, &part.value), |field| (field.word, &field.value));
             let whole = text.get(range.clone()).unwrap_or("");
             let whose = if field.is_some() { whose } else { who.to_string() };
-            let whole_value = matches!(code, Error::ExpectedDifferentStructName { .. });
-            let at = if whole_value { range.start } else { token_at(text, range, stopped) };
-            let expected = expected(code, part.word);
+            let in_variant = whole.starts_with(char::is_alphabetic)
+                && matches!(
+                    code,
+                    Error::ExpectedStructLike | Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_)
+                );
+            let named = matches!(code, Error::ExpectedDifferentStructName { .. } | Error::NoSuchEnumVariant { .. });
+            let at = if named || in_variant { range.start } else { token_at(text, range, stopped) };
+            let expected = match code {
+                _ if in_variant => "a word with its fields in round brackets, such as Tent(radius: 1.0)".into(),
+                Error::IntegerOutOfBounds if name == "seed" => format!("a whole number from 0 to {}", u64::MAX),
+                _ => expected(code, part.word),
+            };
             let stands = found(text, at);
             let instead = if at == range.start { String::new() } else { format!(", and at {stands} it is not") };
             Slip::new(at, format!("{whose}: {name} is {}, but it must be {expected}{instead}", shown(whole)))

@@ -65,7 +65,10 @@ impl SceneFile {
         let number = marked(&refusal.entity).or_else(|| marked(&refusal.value))?;
         let entity = self.entities.get(number)?;
         let kind = refusal.entity.split(' ').next().unwrap_or("");
-        let at = self.field(entity, kind, refusal.field).unwrap_or(entity.at);
+        // A part of a field is named after it, as in `filter radius`.
+        let outer = refusal.field.split(' ').next().unwrap_or("");
+        let at = self.field(entity, kind, refusal.field).or_else(|| self.field(entity, kind, outer));
+        let at = at.unwrap_or(entity.at);
         Some(place_of(&self.text, at))
     }
 
