@@ -91,8 +91,22 @@ fn formula(latex: &str, display: bool) -> Result<String, String> {
     push_mathml(&mut mathml, parser, config).map_err(|error| broken(&error))?;
     // pulldown-latex 0.8 escapes its own `&nbsp;` once too often.
     let spaces = mathml.replace("&amp;nbsp;", "\u{a0}").replace("&nbsp;", "\u{a0}");
-    let mathml = guarded(&spaces.replace('\n', " "));
+    let mathml = guarded(&spaces_before_scripts(&spaces.replace('\n', " ")));
     Ok(if display { format!("<span class=\"formula\">{mathml}</span>") } else { mathml })
+}
+
+/// pulldown-latex 0.8 puts the space before a function into the function's own exponent: `x\cos^2 y` gives an `msup` of
+/// three parts, which browsers draw as small letters in a row.
+fn spaces_before_scripts(mathml: &str) -> String {
+    let mut result = mathml.to_owned();
+    for tag in ["<msup>", "<msub>", "<msubsup>"] {
+        while let Some(at) = result.find(&format!("{tag}<mspace ")) {
+            let Some(length) = result[at + tag.len()..].find("/>") else { break };
+            let space = result[at + tag.len()..at + tag.len() + length + 2].to_owned();
+            result.replace_range(at..at + tag.len() + space.len(), &format!("{space}{tag}"));
+        }
+    }
+    result
 }
 
 /// The MathML goes through markdown once more: what markdown would read as marks is written by number.
@@ -132,6 +146,19 @@ mod tests {
         let space = expand("$a,\\ b$").expect("a formula");
         assert!(space.contains("<mtext>\u{a0}</mtext>"), "{space}");
         assert!(text.contains("<mfrac>") && !text.contains('\n'), "{text}");
+    }
+
+    #[test]
+    fn a_function_keeps_its_exponent() {
+        for latex in ["$x\\cos^2 y$", "$2\\sin_a\\cos^{n+1}\\beta$", "$x\\log_2^3 y$"] {
+            let text = expand(latex).expect("a formula");
+            assert!(
+                !["<msup><mspace", "<msub><mspace", "<msubsup><mspace"].iter().any(|slip| text.contains(slip)),
+                "{text}"
+            );
+        }
+        let text = expand("$x\\cos^2 y$").expect("a formula");
+        assert!(text.contains("/><msup><mi>cos</mi><mn>2</mn></msup>"), "{text}");
     }
 
     #[test]

@@ -20,5 +20,7 @@ fn highlights_send_on_what_page_15_says() {
     };
     let most = (0..10_000).map(over).fold(0.0, f64::max);
     page_says("15_reflection.md", &format!("gives up to {:.1} % too much", 100.0 * most));
+    let half = libm::acos(libm::exp2(-1e-9)).to_degrees();
+    page_says("15_reflection.md", &format!("end at $10^9$, where a highlight falls to half within {half:.3}°"));
     eprintln!("page 15: the short factor is at most {:.3} % over", 100.0 * most);
 }

@@ -100,7 +100,7 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Words { worst, asked, verdict, .. } = self.words();
-        write!(f, "  {:<36}{:>12}{worst:>21}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
+        write!(f, "  {:<36}{:>12} {worst:>20}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
     }
 }
 
