@@ -252,6 +252,8 @@ fn bad_command_lines() {
         ("render cover --layers all --size 8x8 -o picture.png".into(), &["picture.png", "layers", ".exr"]),
         ("render cover --stats --quiet".into(), &["--stats", "--quiet"]),
         ("render cover --sizes 8x8".into(), &["--sizes", "--size"]),
+        ("report 18 --quick -o plot.svg".into(), &["--quick", "--output"]),
+        ("report 18 --samples-axis".into(), &["--kept"]),
         (output("picture.jpg"), &["picture.jpg", ".png", ".exr"]),
         (output("picture"), &["picture", ".png", ".exr"]),
         (output("file/picture.png"), &["cannot write", "file/picture.png"]),

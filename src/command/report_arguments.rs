@@ -3,6 +3,9 @@ use crate::scene::Resolution;
 use clap::Args;
 use std::path::PathBuf;
 
+/// What says how to measure, or what else.
+const MEASURING: [&str; 6] = ["against", "quick", "size", "threads", "write", "naive"];
+
 #[derive(Args, Clone)]
 pub struct ReportErrors {
     /// A chapter: its stem, its number or its name (17_sampling, 17, sampling); a scene file, ending in .ron; or all
@@ -24,15 +27,16 @@ pub struct ReportErrors {
     #[arg(long)]
     pub write: bool,
     /// Measure nothing: print what is kept in the chapter's folder
-    #[arg(long, conflicts_with_all = ["against", "quick", "size", "threads", "write"])]
+    #[arg(long, conflicts_with_all = MEASURING)]
     pub kept: bool,
     /// Measure nothing but what naive measurements give, beside what is right
-    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write", "kept"])]
+    #[arg(long, conflicts_with_all = ["against", "quick", "threads", "write"])]
     pub naive: bool,
     /// With --kept: draw the plot to this SVG instead
-    #[arg(short, long, value_name = "FILE", requires = "kept")]
+    // clap lets go of `requires` where what is required conflicts with another argument, so these are named as well.
+    #[arg(short, long, value_name = "FILE", requires = "kept", conflicts_with_all = MEASURING)]
     pub output: Option<PathBuf>,
     /// With --kept: against samples instead of time
-    #[arg(long, requires = "kept")]
+    #[arg(long, requires = "kept", conflicts_with_all = MEASURING)]
     pub samples_axis: bool,
 }

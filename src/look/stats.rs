@@ -79,7 +79,8 @@ impl RenderStats {
             height: rendered.film.height,
             threads: rendered.threads,
             milliseconds: milliseconds(rendered.time),
-            megapixels_a_second: pixels / rendered.time.as_secs_f64() / 1e6,
+            // Where nothing was left to do, no time passed.
+            megapixels_a_second: if rendered.time.is_zero() { 0.0 } else { pixels / rendered.time.as_secs_f64() / 1e6 },
             rays: rays_of("Turn rays into the world") + light_rays,
             film_bytes: rendered.film.bytes(),
             film_bytes_a_pixel: rendered.film.bytes() as f64 / pixels,

@@ -4,7 +4,7 @@ use super::deviation::RELATIVE_MSE;
 use super::pictures::Shown;
 use super::plot::{Against, plot};
 use super::summary::{LevelSummary, Report, Told, VariantSummary};
-use super::table::{at_words, short, with_ends, with_half, with_percent};
+use super::table::{at_words, short, slope_words, with_ends, with_half, with_percent};
 use crate::review::escape;
 use std::fmt::Write;
 use std::io;
@@ -50,8 +50,7 @@ fn headline(body: &mut String, report: &Report) {
         ladder.samples.len()
     );
     for variant in &report.variants {
-        let _ =
-            writeln!(body, "<p><b>{}</b>: slope {}.</p>", escape(&variant.name), escape(&with_ends(&variant.slope)));
+        let _ = writeln!(body, "<p><b>{}</b>: {}.</p>", escape(&variant.name), escape(&slope_words(&variant.slope)));
     }
     for flag in &report.flags {
         let _ = writeln!(body, "<p class=\"flag\">{}</p>", escape(flag));

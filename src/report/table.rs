@@ -47,6 +47,15 @@ pub fn with_ends(told: &Told) -> String {
     }
 }
 
+/// The slope, or that there is none and why.
+pub fn slope_words(slope: &Told) -> String {
+    match slope {
+        Told::Value(_) => format!("slope {}", with_ends(slope)),
+        Told::Refused(what) if what.starts_with("no slope") => what.clone(),
+        Told::Refused(what) => format!("no slope: {what}"),
+    }
+}
+
 /// What the comparisons are read at.
 pub fn at_words(at: At) -> String {
     match at {
@@ -87,7 +96,7 @@ impl fmt::Display for Report {
                     100.0 * level.tail_share
                 )?;
             }
-            writeln!(f, "slope {}", with_ends(&variant.slope))?;
+            writeln!(f, "{}", slope_words(&variant.slope))?;
         }
         if !self.comparisons.is_empty() {
             let first = self.variants.first().map_or("the first", |variant| &variant.name);
@@ -119,5 +128,16 @@ mod tests {
         }
         assert_eq!(with_percent(&Told::Value(Interval { low: 1.0, value: 2.0, high: 3.0 })), "2.000 ±50%");
         assert_eq!(with_percent(&Told::Refused("no".into())), "refused");
+    }
+
+    #[test]
+    fn a_slope_that_is_refused_is_not_told_as_a_slope() {
+        assert_eq!(
+            slope_words(&Told::Value(Interval { low: -1.5, value: -1.0, high: -0.5 })),
+            "slope -1.000 (-1.500 to -0.5000)"
+        );
+        for what in ["no slope: 0 has no logarithm", "0 has no logarithm"] {
+            assert_eq!(slope_words(&Told::Refused(what.into())), "no slope: 0 has no logarithm");
+        }
     }
 }
