@@ -254,10 +254,12 @@ fn bad_command_lines() {
         ("render cover --sizes 8x8".into(), &["--sizes", "--size"]),
         ("report 18 --quick -o plot.svg".into(), &["--quick", "--output"]),
         ("report 18 --samples-axis".into(), &["--kept"]),
+        ("report 18 --kept -o plot.png".into(), &["plot.png", ".svg"]),
+        ("figure 17_points -o points".into(), &["points", ".svg"]),
         (output("picture.jpg"), &["picture.jpg", ".png", ".exr"]),
         (output("picture"), &["picture", ".png", ".exr"]),
-        (output("file/picture.png"), &["cannot write", "file/picture.png"]),
-        (output("file/below/picture.exr"), &["cannot write", "file/below/picture.exr"]),
+        (output("file/picture.png"), &["cannot write", "file/picture.png", "file is a file"]),
+        (output("file/below/picture.exr"), &["cannot write", "file/below/picture.exr", "file is a file"]),
         (output("folder.png"), &["cannot write", "folder.png", "folder of that name"]),
     ];
     let mut messages = Vec::new();
@@ -270,7 +272,7 @@ fn bad_command_lines() {
             assert!(message.contains(word), "`{shown}`: no {word} in: {message}");
         }
         let mut message = message.replace(&path(""), "FOLDER/");
-        if let (Error::Write { source, .. }, false) = (&error, shown.contains("folder.png")) {
+        if let (Error::Write { source, .. }, false) = (&error, shown.contains("folder.png") || message.contains("is a file")) {
             message = message.replace(&source.to_string(), "(what the system says)");
         }
         // What a new command or chapter changes is checked above and not kept.
@@ -308,4 +310,41 @@ fn a_bad_place_is_refused_before_the_render() {
     let good = folder.path().join("good.png").display().to_string();
     typed(&["render", "cover", "-q", "--view", "nonsense", "-o", &good]).expect_err("refused");
     assert_eq!(names_in(folder.path()), ["file"], "trying a place leaves nothing there");
+}
+
+/// A chapter that offers too few stages for its scene is told so, and no shape is missing from a picture without a word.
+#[test]
+fn shapes_that_no_stage_on_offer_meets() {
+    let mut scene = good(Eye::Perspective);
+    let (matte, flat) = (Matte::default, Placement { scale: DVec3::new(1.0, 0.5, 1.0), ..Placement::default() });
+    scene.spawn((Name::new("egg"), Sphere::default(), matte(), flat));
+    scene.spawn((Name::new("lid"), Disk::default(), matte()));
+    scene.spawn((Name::new("board"), Rectangle::default(), matte()));
+    scene.spawn((Name::new("crate"), Cuboid::default(), matte()));
+    prepare(&scene, &offer()).map(|_| ()).expect("all can be met");
+    let mut refused = 0;
+    for column in ["hit", "surface", "shadow"] {
+        for (table, name) in [
+            ("spheres", "sphere \"ball\""),
+            ("planes", "plane \"floor\""),
+            ("triangles", "triangle \"sail\""),
+            ("ellipsoids", "sphere \"egg\""),
+            ("disks", "disk \"lid\""),
+            ("rectangles", "rectangle \"board\""),
+            ("cuboids", "cuboid \"crate\""),
+        ] {
+            let mut fewer = offer();
+            let before = fewer.len();
+            fewer.retain(|stage| {
+                let writes = stage.writes.iter().any(|written| written.name == column);
+                !(writes && stage.tables.iter().any(|read| read.name == table))
+            });
+            assert_eq!(fewer.len() + 1, before, "one stage of {column} reads {table}");
+            let told = prepare(&scene, &fewer).err().expect("refused").to_string();
+            let start = format!("{name}: shape is in the table of {table}, but no stage on offer ");
+            assert!(told.starts_with(&start) && told.contains("; offer "), "{column}: {told}");
+            refused += 1;
+        }
+    }
+    eprintln!("offers: {refused} that lack a stage for a shape refused");
 }

@@ -1,10 +1,10 @@
 use super::arguments::DrawFigure;
-use crate::Result;
 use crate::chapter::Chapter;
 use crate::figure::{draw, figures};
 use crate::film::write_whole;
+use crate::{Error, Result};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Draws a figure, or lists those there are.
 pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, out: &mut dyn Write) -> Result {
@@ -14,9 +14,20 @@ pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, out: &mut dyn Write
         }
         return Ok(());
     };
+    let file = svg_place(asked.output.as_ref(), name)?;
     let drawing = draw(chapters, name)?;
-    let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join(format!("{name}.svg")));
     write_whole(&file, |file| file.write_all(drawing.text.as_bytes()))?;
     writeln!(out, "wrote {}", file.display())?;
     Ok(())
+}
+
+/// Where a drawing goes: where it was asked for, or to out/ under its name.
+///
+/// Errors: a name that does not end in .svg.
+pub fn svg_place(asked: Option<&PathBuf>, name: &str) -> Result<PathBuf> {
+    let file = asked.cloned().unwrap_or_else(|| Path::new("out").join(format!("{name}.svg")));
+    match file.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("svg") => Ok(file),
+        _ => Err(Error::Usage(format!("cannot write a drawing to {}: its name must end in .svg", file.display()))),
+    }
 }

@@ -1,3 +1,4 @@
+use super::figure::svg_place;
 use super::interrupt::interrupted;
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
@@ -57,12 +58,13 @@ pub fn has_report(chapter: &Chapter) -> bool {
 
 fn show_kept(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
     let report = kept(super::find::chapter(chapters, &asked.subject)?.name)?;
-    let Some(file) = &asked.output else {
+    if asked.output.is_none() {
         write!(out, "{report}")?;
         return Ok(());
-    };
+    }
+    let file = svg_place(asked.output.as_ref(), &report.name)?;
     let against = if asked.samples_axis { Against::Samples } else { Against::Render };
-    write_whole(file, |file| file.write_all(plot(&report, against).text.as_bytes()))?;
+    write_whole(&file, |file| file.write_all(plot(&report, against).text.as_bytes()))?;
     writeln!(out, "wrote {}", file.display())?;
     Ok(())
 }

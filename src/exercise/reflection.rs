@@ -119,6 +119,7 @@ fn asked() -> Vec<Probe<Input>> {
         [
             probe([0.5, 0.4, 2.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
             probe([0.5, 0.4, 3.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
+            probe([0.5, 0.4, 0.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
         ],
     ));
     asked.extend(probes("anywhere", anywhere(1501, 0.0, 2.0)));

@@ -1,7 +1,9 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
 use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
-use super::unevenly_scaled;
+use super::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, unevenly_scaled,
+};
 use crate::plan::{Table, entities};
 use crate::scene::{
     Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called,
@@ -30,6 +32,19 @@ pub enum ShapeKind {
 impl ShapeKind {
     /// How many kinds there are.
     const COUNT: usize = 7;
+
+    /// The name of the table that it is laid in.
+    pub const fn table(self) -> &'static str {
+        match self {
+            Self::Sphere => SphereTable::NAME,
+            Self::Plane => PlaneTable::NAME,
+            Self::Ellipsoid => EllipsoidTable::NAME,
+            Self::Disk => DiskTable::NAME,
+            Self::Rectangle => RectangleTable::NAME,
+            Self::Cuboid => CuboidTable::NAME,
+            Self::Triangle => TriangleTable::NAME,
+        }
+    }
 }
 
 /// All shapes in spawn order; a shape's number here is the one that hits carry.

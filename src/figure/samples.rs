@@ -81,7 +81,7 @@ pub fn draw_variance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
                 svg.label(Label::near(at(1.0, variance), &word, -DVec2::X, 5.0).title(0.8));
             }
         }
-        for ((word, sampler), colour) in Sampler::ALL.into_iter().zip([RAY, IMAGE, INK]) {
+        for (((word, sampler), colour), line) in Sampler::ALL.into_iter().zip([RAY, IMAGE, INK]).zip(0_u32..) {
             let level = |k: u32| mean_error(sampler, Purpose::Pixel, integrand, 1 << (2 * k), TRIALS, 17);
             let levels: Vec<MeanError> = (1..=5).map(level).collect();
             let places: Vec<DVec2> = levels.iter().map(|level| at(f64::from(level.samples), level.variance)).collect();
@@ -91,7 +91,9 @@ pub fn draw_variance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             places.iter().for_each(|&place| svg.dot(place, 2.6, colour));
             let (slope, half) = slope(&levels);
             let told = format!("{word} {} ± {half:.2}", format!("{slope:.2}").replace('-', "−"));
-            svg.label(Label::near(places[3], &told, DVec2::new(0.6, -1.0), 8.0).title(0.82).coloured(colour));
+            let place = corner + DVec2::new(12.0, tall - 54.0 + 18.0 * f64::from(line));
+            svg.line(place, place + DVec2::new(16.0, 0.0), Pen::new(colour, 1.6));
+            svg.label(Label::near(place + DVec2::new(16.0, 0.0), &told, DVec2::X, 5.0).title(0.82).coloured(colour));
         }
         let below = at(32.0, 1e-10) + DVec2::new(0.0, 22.0);
         svg.label(Label::near(below, integrand.name, DVec2::Y, 6.0));

@@ -37,6 +37,10 @@ fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if let Some(file) = folder.ancestors().find(|above| above.is_file()) {
+        let what = format!("{} is a file, and would have to be a folder", file.display());
+        return Err(io::Error::new(io::ErrorKind::NotADirectory, what));
+    }
     fs::create_dir_all(folder)?;
     temporary_in(folder)
 }

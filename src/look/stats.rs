@@ -29,8 +29,8 @@ pub struct RenderStats {
     pub threads: usize,
     /// From the first tile to the last.
     pub milliseconds: f64,
-    /// Pixels a second, in millions.
-    pub megapixels_a_second: f64,
+    /// Rays a second, in millions.
+    pub megarays_a_second: f64,
     /// Rays of all kinds: a camera ray a pixel, and the rays to lights.
     pub rays: u64,
     /// Bytes that the film takes.
@@ -71,6 +71,7 @@ impl RenderStats {
         // Each kind of light appends its rays to those before.
         let aimed = stages.iter().filter(|stage| stage.stage.starts_with("Aim at "));
         let light_rays = aimed.map(|stage| stage.rows).max().unwrap_or(0);
+        let rays = rays_of("Turn rays into the world") + light_rays;
         let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();
         let left_out = rendered.plan.rows.iter().filter(|row| !row.kept);
         Self {
@@ -80,8 +81,12 @@ impl RenderStats {
             threads: rendered.threads,
             milliseconds: milliseconds(rendered.time),
             // Where nothing was left to do, no time passed.
-            megapixels_a_second: if rendered.time.is_zero() { 0.0 } else { pixels / rendered.time.as_secs_f64() / 1e6 },
-            rays: rays_of("Turn rays into the world") + light_rays,
+            megarays_a_second: if rendered.time.is_zero() {
+                0.0
+            } else {
+                rays as f64 / rendered.time.as_secs_f64() / 1e6
+            },
+            rays,
             film_bytes: rendered.film.bytes(),
             film_bytes_a_pixel: rendered.film.bytes() as f64 / pixels,
             table_bytes: rendered.table_bytes,
@@ -114,8 +119,8 @@ impl fmt::Display for RenderStats {
         }
         writeln!(
             f,
-            "{} × {} pixels, {} rays in {:.0} ms on {} threads ({:.1} million pixels a second)",
-            self.width, self.height, self.rays, self.milliseconds, self.threads, self.megapixels_a_second
+            "{} × {} pixels, {} rays in {:.0} ms on {} threads ({:.1} million rays a second)",
+            self.width, self.height, self.rays, self.milliseconds, self.threads, self.megarays_a_second
         )?;
         let peak =
             self.peak_memory_bytes.map_or_else(String::new, |peak| format!(", {} MiB at most in all", peak >> 20));

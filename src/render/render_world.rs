@@ -6,6 +6,7 @@ use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, PixelSamples, SampleNumber, Tile};
+use crate::shade::check_shapes_are_met;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
@@ -25,6 +26,7 @@ struct HookTurn(usize, usize);
 pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
+    check_shapes_are_met(scene, &plan)?;
     let tables = plan.tables.iter().map(|table| (table.extract)(scene)).collect::<std::result::Result<Vec<_>, _>>()?;
     Ok((plan, tables))
 }

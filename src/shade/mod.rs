@@ -25,6 +25,7 @@ mod shadow;
 mod spot_light;
 mod surface_colour;
 mod texture_point;
+mod unmet;
 
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
@@ -55,6 +56,7 @@ pub use shadow::{
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
+pub use unmet::check_shapes_are_met;
 
 use crate::plan::Stage;
 

@@ -27,7 +27,7 @@ impl Group {
     pub fn heading(self) -> String {
         let [judged, _, wrong] = self.words();
         format!(
-            "{self}: {judged}, judged by exact arithmetic; u = 2^-24\n{:<38}{wrong:>12}{:>21}   {:<8}{:>12}",
+            "{self}: {judged}, judged by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
             "", "worst error", "", "asked"
         )
     }
@@ -100,7 +100,7 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Words { worst, asked, verdict, .. } = self.words();
-        write!(f, "  {:<36}{:>12} {worst:>20}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
+        write!(f, "  {:<40}{:>12} {worst:>20}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
     }
 }
 

@@ -1,0 +1,36 @@
+//! Shapes that no stage on offer meets.
+
+use super::shadow::ShadowHits;
+use crate::extract::ShapeTable;
+use crate::intersect::{Hits, Surfaces};
+use crate::plan::{Column, Plan, Table};
+use crate::scene::Refusal;
+use bevy_ecs::prelude::*;
+
+/// Checks that every shape of a scene can be met by the rays that a plan traces: a chapter offers the stages taught so
+/// far, and a shape of another kind would be missing from its picture, or have no shadow, without a word.
+///
+/// Errors: the first shape that no kept stage looks for.
+pub fn check_shapes_are_met(scene: &World, plan: &Plan) -> Result<(), Refusal> {
+    let meets = |column: &str, table: &str| {
+        let writes = |stage: &crate::plan::Stage| stage.writes.iter().any(|written| written.name == column);
+        plan.stages.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
+    };
+    let columns = [
+        (Hits::NAME, "no stage on offer intersects that; offer intersect::stages(), which do"),
+        (Surfaces::NAME, "no stage on offer describes that; offer intersect::stages(), which do"),
+        (ShadowHits::NAME, "no stage on offer looks for that in the way of light; offer shade::stages(), which do"),
+    ];
+    for (column, accepted) in columns {
+        if !plan.columns.iter().any(|kept| kept.name == column) {
+            continue;
+        }
+        let shapes = ShapeTable::extract(scene)?;
+        let unmet = shapes.kind.iter().zip(&shapes.name).find(|(kind, _)| !meets(column, kind.table()));
+        if let Some((kind, name)) = unmet {
+            let value = format!("in the table of {}", kind.table());
+            return Err(Refusal::new(name.clone(), "shape", value, accepted));
+        }
+    }
+    Ok(())
+}
