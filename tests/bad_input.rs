@@ -272,7 +272,9 @@ fn bad_command_lines() {
             assert!(message.contains(word), "`{shown}`: no {word} in: {message}");
         }
         let mut message = message.replace(&path(""), "FOLDER/");
-        if let (Error::Write { source, .. }, false) = (&error, shown.contains("folder.png") || message.contains("is a file")) {
+        if let (Error::Write { source, .. }, false) =
+            (&error, shown.contains("folder.png") || message.contains("is a file"))
+        {
             message = message.replace(&source.to_string(), "(what the system says)");
         }
         // What a new command or chapter changes is checked above and not kept.

@@ -26,7 +26,7 @@ struct HookTurn(usize, usize);
 pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
-    check_shapes_are_met(scene, &plan)?;
+    check_shapes_are_met(scene, offer, &plan)?;
     let tables = plan.tables.iter().map(|table| (table.extract)(scene)).collect::<std::result::Result<Vec<_>, _>>()?;
     Ok((plan, tables))
 }

@@ -3,18 +3,19 @@
 use super::shadow::ShadowHits;
 use crate::extract::ShapeTable;
 use crate::intersect::{Hits, Surfaces};
-use crate::plan::{Column, Plan, Table};
+use crate::plan::{Column, Plan, Stage, Table};
 use crate::scene::Refusal;
 use bevy_ecs::prelude::*;
 
-/// Checks that every shape of a scene can be met by the rays that a plan traces: a chapter offers the stages taught so
-/// far, and a shape of another kind would be missing from its picture, or have no shadow, without a word.
+/// Checks that for every shape of a scene there are stages on offer that meet it, describe it, and let it cast a shadow,
+/// as far as the plan traces rays for that: a chapter offers the stages taught so far, and a shape of another kind would
+/// be missing from its picture without a word.
 ///
-/// Errors: the first shape that no kept stage looks for.
-pub fn check_shapes_are_met(scene: &World, plan: &Plan) -> Result<(), Refusal> {
+/// Errors: the first shape that no stage on offer looks for.
+pub fn check_shapes_are_met(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), Refusal> {
     let meets = |column: &str, table: &str| {
-        let writes = |stage: &crate::plan::Stage| stage.writes.iter().any(|written| written.name == column);
-        plan.stages.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
+        let writes = |stage: &Stage| stage.writes.iter().any(|written| written.name == column);
+        offer.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
     };
     let columns = [
         (Hits::NAME, "no stage on offer intersects that; offer intersect::stages(), which do"),

@@ -14,6 +14,8 @@ mod chapters;
 
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
+use pinhole::extract::ImageShape;
+use pinhole::plan::Table;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Resolution, Sampler};
 use pinhole::{Asked, AskedSampling, Chapter};
@@ -69,15 +71,17 @@ impl Options {
 /// Samples a pixel where several are taken.
 const SAMPLES: u32 = 4;
 
-/// The cover by several samples a pixel, with direct light and shadows, through the default filter.
+/// The cover by several samples a pixel, with direct light and shadows, through the default filter; half as wide and high,
+/// so that there are as many rays as without.
 fn sampled(sampler: Sampler, options: &Options) {
+    let size = Resolution { width: options.size.width / 2, height: options.size.height / 2 };
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "cover").expect("the cover");
     let sampling = AskedSampling { samples: Some(SAMPLES), sampler: Some(sampler), ..AskedSampling::default() };
-    let world = chapter.world(&Asked { resolution: Some(options.size), sampling, ..Asked::default() });
+    let world = chapter.world(&Asked { resolution: Some(size), sampling, ..Asked::default() });
     let word = Sampler::ALL.into_iter().find(|(_, other)| *other == sampler).expect("a sampler's name").0;
     for threads in [1, 2] {
         let ms = compare(&chapter, &world, (threads, None), &format!("{SAMPLES} {word} samples"), options);
-        let samples = f64::from(options.size.width) * f64::from(options.size.height) * f64::from(SAMPLES);
+        let samples = f64::from(size.width) * f64::from(size.height) * f64::from(SAMPLES);
         println!("{:<12} {word}: {:.2} Msamples/s a core on {threads} threads", chapter.name, samples / ms / 1e3);
     }
 }
@@ -94,6 +98,7 @@ fn compare(
 ) -> f64 {
     let offer = chapter.stages();
     let execution = Execution { threads: Some(threads), bounces, ..Execution::default() };
+    let size = ImageShape::extract(world).map(|image| [image.width, image.height]).expect("a size");
     let staged = || render(world, &offer, &execution, &()).expect("renders").film;
     let fused = || fused::render(world, threads);
     assert!(staged().tiles == fused().tiles, "the two images differ");
@@ -116,8 +121,8 @@ fn compare(
     println!(
         "{:<12} {}x{} threads {threads} {work:<22} staged/fused CPU time {middle:.3} [{low:.3}, {high:.3}] of {} pairs; medians {:.0} and {:.0} ms",
         chapter.name,
-        options.size.width,
-        options.size.height,
+        size[0],
+        size[1],
         options.pairs,
         median(&mut staged_ms),
         median(&mut fused_ms),
