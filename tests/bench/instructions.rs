@@ -7,9 +7,9 @@
 //! valgrind shows its guests no AVX-512, so both programs run the kernels for AVX2.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
-use pinhole::film::{film_stage, write_exr};
+use pinhole::film::{film_stage, write_checkpoint, write_exr};
 use pinhole::plan::{Stage, plan};
-use pinhole::render::{Execution, render};
+use pinhole::render::{Execution, Limits, RenderUnderWay, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
 use pinhole::{intersect, rays, shade};
 use std::fs;
@@ -145,8 +145,16 @@ fn render_only(words: &[String]) {
     let offer = (case.stages)();
     let kept = plan(&world, &offer).expect("a plan");
     assert!(kept.rows.iter().all(|row| row.kept), "a stage is offered that the scene does not need:\n{kept}");
-    let rendered = render(&world, &offer, &Execution { threads: Some(1), ..Execution::default() }, &());
-    write_exr(&rendered.expect("renders").film, Path::new(output)).expect("a file");
+    let execution = Execution { threads: Some(1), ..Execution::default() };
+    let mut under_way = RenderUnderWay::begin(&world, &offer, &execution).expect("a plan");
+    if under_way.is_sampled() {
+        render_in_passes(&mut under_way, &Limits::default(), &(), &mut |_| Ok(())).expect("renders");
+        let key = film_key(&world, &under_way.plan);
+        write_checkpoint(&under_way.film, key, &Path::new(output).with_extension("checkpoint")).expect("a file");
+    } else {
+        under_way.advance(WHOLE, &()).expect("renders");
+    }
+    write_exr(&under_way.finish().film, Path::new(output)).expect("a file");
 }
 
 /// Prints a case's slopes, and gives the ratio of instructions.
@@ -161,6 +169,10 @@ fn compare(case: &Case) -> f64 {
         let full = |mut tool: Command| {
             let size = format!("{width}x{height}");
             tool.arg(env!("CARGO_BIN_EXE_pinhole")).arg("render").arg(&file).args(["--threads", "1", "--quiet"]);
+            if case.samples > 1 {
+                // How often a picture is written on the way would depend on the clock; at the end both keep a checkpoint.
+                tool.args(["--write-every", "1h"]);
+            }
             tool.args(["--size", &size, "-o"]).arg(&full_exr);
             tool
         };
