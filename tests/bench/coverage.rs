@@ -14,12 +14,15 @@ mod synthetic;
 
 use pinhole::Asked;
 use pinhole::render::Execution;
+use pinhole::report::interval::{LEVEL, mean_of};
 use pinhole::report::runner::{Variant, timers};
 use pinhole::scene::{Resolution, Sampling};
 use synthetic::Noise;
 
 /// The half-width below which sixteen seeds tell nothing of an efficiency (NUMERICS.md, section 1).
 const RESOLUTION: f64 = 0.077;
+/// How often the timers' cost is measured.
+const TIMINGS: usize = 12;
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
@@ -46,14 +49,17 @@ fn timers_on_and_off() {
     let (sampling, stages) = (Sampling::default(), chapter.stages());
     let variant = Variant { name: "18".into(), sampling, stages, scene, reference: 0 };
     let execution = Execution { threads: Some(1), ..Execution::default() };
-    let ratio = timers(&variant, &execution, &()).expect("a render").expect("nine pairs");
-    let within = (ratio.value - 1.0).abs() <= RESOLUTION;
+    // What a report measures by nine pairs is too coarse to tell a few percent; so it is measured often.
+    let ratio = || timers(&variant, &execution, &()).expect("a render").expect("nine pairs").value.ln();
+    let logs: Vec<f64> = (0..TIMINGS).map(|_| ratio()).collect();
+    let ratio = mean_of(&logs).expect("many").interval(LEVEL).of_logarithm();
+    let within = ratio.low >= 1.0 - RESOLUTION && ratio.high <= 1.0 + RESOLUTION;
     println!(
-        "timers on over off: {:.4} ({:.4} to {:.4}); {} the resolution of ±{:.1} %",
+        "timers on over off: {:.4} ({:.4} to {:.4}) by {TIMINGS} times nine pairs; {} the resolution of ±{:.1} %",
         ratio.value,
         ratio.low,
         ratio.high,
-        if within { "within" } else { "beyond" },
+        if within { "within" } else { "not shown to be within" },
         100.0 * RESOLUTION
     );
 }

@@ -154,7 +154,11 @@ fn stages(chapter: &Chapter, options: &Options) {
         let lap = |run: &pinhole::render::Rendered| run.laps[slot];
         let each = |run| lap(run).time.as_nanos() as f64 / lap(run).rows.max(1) as f64;
         let mut values: Vec<f64> = runs.iter().map(each).collect();
-        println!("  {:<30} {:>9} rows {:>8.2} ns a row", stage.name, lap(&runs[0]).rows, median(&mut values));
+        let (rows, each) = (lap(&runs[0]).rows, median(&mut values));
+        match rows {
+            0 => println!("  {:<33} no rows {:>10.1} µs in all", stage.name, each / 1e3),
+            _ => println!("  {:<33} {rows:>8} rows {each:>8.2} ns a row", stage.name),
+        }
     }
 }
 
