@@ -55,6 +55,15 @@ fn the_first_command_renders_the_cover_and_its_three_hints_work_as_typed() {
     }
 }
 
+/// The words of a command; what takes minutes without all optimisation is asked of few pixels, where it goes the same way.
+fn as_typed(command: &str) -> Vec<&str> {
+    let mut words: Vec<&str> = command.split(' ').collect();
+    if words[0] == "report" || words.contains(&"--samples") {
+        words.extend(["--size", "8x5"]);
+    }
+    words
+}
+
 #[test]
 fn every_example_in_the_help_works_as_typed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -62,12 +71,7 @@ fn every_example_in_the_help_works_as_typed() {
     let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  cargo run --release -- ")).collect();
     assert!(examples.len() >= 5, "{help}");
     for example in examples {
-        let mut words: Vec<&str> = example.split(' ').collect();
-        // A whole report takes a minute and a half without all optimisation; of few pixels it takes the same way.
-        if words[0] == "report" {
-            words.extend(["--size", "8x5"]);
-        }
-        let tried = run(folder.path(), &words);
+        let tried = run(folder.path(), &as_typed(example));
         assert!(tried.status.success(), "{example}: {}", text(&tried.stderr));
     }
 }
@@ -153,7 +157,7 @@ fn the_readme_s_commands_are_commands() {
     for words in
         typed.map(|line| line.split('#').next().unwrap_or("").trim()).filter(|words| !words.starts_with("extremes"))
     {
-        let told = run(folder.path(), &words.split(' ').collect::<Vec<_>>());
+        let told = run(folder.path(), &as_typed(words));
         assert!(told.status.success(), "{words}: {}", text(&told.stderr));
         tried += 1;
     }
