@@ -95,10 +95,12 @@ pub fn render_long(
     let outcome = outcome?;
     if outcome.stopped {
         keep(&render.film)?;
+        let reached = match outcome.samples {
+            0 => "stopped before every pixel had its first sample".to_string(),
+            samples => format!("stopped after {samples} of {} samples a pixel", render.sampling.samples),
+        };
         return Err(Error::Stopped(format!(
-            "stopped after {} of {} samples a pixel; {} hold them, and the same command with --resume continues",
-            outcome.samples,
-            render.sampling.samples,
+            "{reached}; {} hold what there is, and the same command with --resume continues",
             files.told(true)
         )));
     }
@@ -129,7 +131,9 @@ fn resume(
         render.take(film);
         let samples = crate::render::samples_after(render.film.least_done());
         let of = if render.film.pilot { " of the pilot" } else { "" };
-        format!("continuing from {}, {samples} samples a pixel{of}", checkpoint.display())
+        let more = !render.film.pilot && render.film.planned.is_empty() && samples > render.sampling.samples;
+        let kept = if more { format!(", more than the {} asked for", render.sampling.samples) } else { String::new() };
+        format!("continuing from {}, {samples} samples a pixel{of}{kept}", checkpoint.display())
     } else {
         format!("there is no {} to continue from, so the render begins anew", checkpoint.display())
     };
