@@ -110,6 +110,13 @@ fn numbers_come_back_bit_for_bit() {
     eprintln!("numbers: {tried} come back bit for bit");
 }
 
+/// A scene file's text without blanks and closing commas.
+///
+/// Where a component folds into several lines depends on how long the path of its image is.
+fn unfolded(text: &str) -> String {
+    text.split_whitespace().collect::<String>().replace(",)", ")")
+}
+
 #[test]
 fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -123,11 +130,11 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
         // Images are named from the current folder, and by their whole path in a file that lies elsewhere.
         let here = std::env::current_dir().expect("a folder").display().to_string();
         let printed = printed.replace("\"chapters/", &format!("\"{here}/chapters/"));
-        assert_eq!(text.replace(&file, "scene.ron"), printed, "the same but for the file's name");
+        assert_eq!(unfolded(&text.replace(&file, "scene.ron")), unfolded(&printed), "the same but for the file's name");
         let own = |line: &&str| !line.contains(", a column of its own");
-        let without: Vec<&str> = printed.lines().filter(own).collect();
+        let without = printed.lines().filter(own).collect::<Vec<_>>().join("\n");
         let again = typed(&["export", &file]).expect("exported again");
-        assert_eq!(again.lines().collect::<Vec<_>>(), without, "exported from the file");
+        assert_eq!(unfolded(&again), unfolded(&without), "exported from the file");
         let plans = [chapter.name, &file].map(|name| typed(&["plan", name]).expect("planned"));
         let [of_chapter, of_file] = plans.map(|plan| plan.lines().nth(1).map(String::from));
         assert_eq!(of_chapter, of_file);
