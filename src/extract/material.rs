@@ -19,11 +19,17 @@ pub enum MaterialKind {
     Phong,
     /// A row of the table of Blinn–Phong highlights.
     BlinnPhong,
+    /// A row of the table of mirrors.
+    Mirror,
+    /// A row of the table of glass.
+    Glass,
+    /// A row of the table of metals.
+    Metal,
 }
 
 impl MaterialKind {
     /// How many kinds there are.
-    const COUNT: usize = 3;
+    const COUNT: usize = 6;
 }
 
 /// What shapes are made of, in spawn order, whatever the kind; kinds with more numbers have a table of their own.

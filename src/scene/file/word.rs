@@ -1,7 +1,8 @@
 use crate::scene::{
-    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, Gradient,
-    ImageTexture, Layers, LookAt, Matte, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
-    Rectangle, Resolution, Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
+    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, Glass, Gradient,
+    ImageTexture, Integrator, Layers, LookAt, Matte, Metal, Mirror, OrthographicCamera, PerspectiveCamera, Phong,
+    Placement, Plane, PointLight, Rectangle, Resolution, Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle,
+    View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -31,9 +32,13 @@ const WORDS: &[Word] = &[
     Word::of::<Resolution>("resolution"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
+    Word::of::<Integrator>("integrator"),
     Word::of::<Matte>("matte"),
     Word::of::<Phong>("phong"),
     Word::of::<BlinnPhong>("blinn_phong"),
+    Word::of::<Mirror>("mirror"),
+    Word::of::<Glass>("glass"),
+    Word::of::<Metal>("metal"),
     Word::of::<Emissive>("emissive"),
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),

@@ -1,0 +1,82 @@
+use super::camera::camera_entity;
+use super::emissive::emissive_evidence;
+use super::material::{material_evidence, matter_evidence};
+use crate::plan::{Evidence, entities};
+use crate::scene::{DirectionalLight, Glass, Integrator, LightSampling, Metal, Mirror, PointLight, SpotLight, called};
+use bevy_ecs::prelude::*;
+
+/// How light is followed in a scene, and why so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenIntegrator {
+    /// The camera's own, or what the scene needs.
+    pub integrator: Integrator,
+    /// Why, in words.
+    pub reason: String,
+}
+
+// ANCHOR: integrator_of
+/// The integrator of a scene: the one that its camera names, or the least that shows what the scene holds.
+///
+/// Rough metal, and matter beside a surface that emits, need points and directions by chance, so ways of light; mirrors
+/// and glass lit by lights without an area need nothing by chance; all else is seen straight from the camera.
+pub fn integrator_of(scene: &World) -> ChosenIntegrator {
+    let chosen = |integrator, reason: String| ChosenIntegrator { integrator, reason };
+    let camera = camera_entity(scene).ok();
+    if let Some((camera, &named)) = camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own))) {
+        return chosen(named, format!("named on the camera {}", called(scene, camera)));
+    }
+    let metal = matter_evidence::<Metal>(scene, "rough metal");
+    let lamps = emissive_evidence(scene).and(material_evidence(scene));
+    let polished = matter_evidence::<Mirror>(scene, "mirror").or(matter_evidence::<Glass>(scene, "surface of glass"));
+    let by_chance = metal.or(lamps);
+    if by_chance.needed {
+        return chosen(Integrator::PATH, by_chance.reason);
+    }
+    if polished.needed && has_points(scene) {
+        return chosen(Integrator::WHITTED, polished.reason);
+    }
+    if polished.needed {
+        return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", polished.reason));
+    }
+    chosen(Integrator::RayCasting, polished.reason)
+}
+// ANCHOR_END: integrator_of
+
+/// Whether there is a light without an area.
+fn has_points(scene: &World) -> bool {
+    !entities::<With<PointLight>>(scene).is_empty()
+        || !entities::<With<DirectionalLight>>(scene).is_empty()
+        || !entities::<With<SpotLight>>(scene).is_empty()
+}
+
+/// Evidence that light is followed beyond the first surface, or from it to the sky.
+pub fn followed_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| integrator != Integrator::RayCasting)
+}
+
+/// Evidence that points on lights with an area are aimed at.
+pub fn aimed_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| match integrator {
+        Integrator::Distribution { .. } => true,
+        Integrator::Path { lights, .. } => lights != LightSampling::ByChance,
+        _ => false,
+    })
+}
+
+/// Evidence that two ways to find a light are weighed against each other.
+pub fn weighed_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightSampling::Weighed, .. }))
+}
+
+/// Evidence that the integrator of a scene is of a kind.
+pub fn needed_if(scene: &World, is_of_kind: impl Fn(Integrator) -> bool) -> Evidence {
+    let ChosenIntegrator { integrator, reason } = integrator_of(scene);
+    let word = match integrator {
+        Integrator::RayCasting => "ray casting",
+        Integrator::Whitted { .. } => "Whitted's rays",
+        Integrator::AmbientOcclusion { .. } => "ambient occlusion",
+        Integrator::Distribution { .. } => "distribution ray tracing",
+        Integrator::Path { .. } => "paths",
+    };
+    Evidence { needed: is_of_kind(integrator), reason: format!("{word}: {reason}"), count: 0 }
+}
