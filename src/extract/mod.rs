@@ -25,6 +25,7 @@ mod gradient;
 mod image_file;
 mod image_texture;
 mod integrator;
+mod integrator_table;
 mod layers;
 mod material;
 mod phong;
@@ -65,7 +66,11 @@ pub use flat::Flat;
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
-pub use integrator::{ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, weighed_evidence};
+pub use integrator::{
+    ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,
+    unless_occlusion, weighed_evidence,
+};
+pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
 pub use phong::{PhongTable, phong_peak};
@@ -105,6 +110,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
+    IntegratorTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     EmissiveTable::extract(scene)?;

@@ -1,0 +1,36 @@
+//! Light goes on: from each surface new rays, leg after leg, until a way ends.
+//!
+//! Reads: what `shade` made of the leg at hand ([`Radiance`](crate::shade::Radiance)), surfaces, the tables of matter.
+//! Writes: [`Scattered`] rays, [`Paths`] with what share of their light reaches the film, [`PathLight`].
+//! Space: render space.
+//!
+//! A later leg runs the very stages that the first one ran, from the start of intersection to the end of shading, over
+//! the rays that are left: so none of them knows of legs, and a row is a ray, not a pixel.
+
+mod draws;
+mod frame;
+mod leg;
+mod matte;
+mod occlusion;
+mod paths;
+mod roulette;
+mod scattered;
+
+pub use draws::{Draws, draws_of_one, draws_of_two};
+pub use frame::{cosine_direction, frame_of, same_side};
+pub use leg::{add_leg, add_leg_stage, follow_legs, follow_stage, gather_light, gather_stage, step_on, step_stage};
+pub use matte::{matte_stage, scatter_matte};
+pub use occlusion::{aim_at_the_sky, show_the_sky, sky_rays_stage, sky_stage};
+pub use paths::{PathLight, Paths, start_paths, start_paths_stage};
+pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
+pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
+
+use crate::plan::Stage;
+
+/// All that follows light beyond the first surface.
+pub fn stages() -> Vec<Stage> {
+    let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage(), roulette_stage()];
+    stages.extend([sky_rays_stage(), sky_stage()]);
+    stages.extend([add_leg_stage(), step_stage(), follow_stage(), gather_stage()]);
+    stages
+}
