@@ -5,7 +5,7 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::{ActivePixels, PixelSamples, SampleNumber, Tile};
+use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_met;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
@@ -111,7 +111,7 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn(Tile::default());
+    let mut tile = world.spawn((Tile::default(), Leg::default()));
     if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
         tile.insert((SampleNumber::default(), ActivePixels::default()));
     }

@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::LIGHTS;
+use super::light::{LIGHTS, or_aimed};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
 };
@@ -138,10 +138,10 @@ pub fn triangle_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
+    let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
-    })
-    .and(material_evidence(scene))
+    });
+    or_aimed(scene, points).and(material_evidence(scene))
 }
