@@ -423,7 +423,7 @@ fn three(noun: &str) -> String {
 fn an_emissive_surface_is_seen_and_lights_nothing() {
     let plan = plan_of(&toggled(&[Toggle::Emissive, Toggle::Plane]));
     let emission = row(&plan, "Add what surfaces emit");
-    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else yet");
+    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else");
     assert!(emission.kept && !row(&plan, "Show surfaces unlit").kept && !row(&plan, "Add the light that arrives").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();

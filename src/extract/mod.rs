@@ -7,6 +7,7 @@
 //! After this no stage looks at a component of the scene again.
 
 mod adaptive;
+mod area_light;
 mod background;
 mod blinn_phong;
 mod bounds;
@@ -17,6 +18,7 @@ mod directional_light;
 mod disk;
 mod ellipsoid;
 mod emissive;
+mod emitter;
 mod environment;
 mod exact_sum;
 mod filter;
@@ -47,6 +49,7 @@ mod uv_slope;
 mod uv_space;
 
 pub use adaptive::{adaptive_of, check_layers};
+pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use bounds::Bounds;
@@ -58,7 +61,8 @@ pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
 pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
-pub use emissive::{EmissiveTable, emissive_evidence};
+pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
+pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};

@@ -1,7 +1,7 @@
-use super::{PathLight, Paths, Scattered};
+use super::Scattered;
 use crate::extract::{IntegratorTable, followed_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
-use crate::rays::{Leg, WorldRays};
+use crate::rays::{Leg, PathLight, Paths, WorldRays};
 use crate::shade::{Footprints, Radiance};
 use bevy_ecs::prelude::*;
 

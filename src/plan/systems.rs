@@ -48,6 +48,8 @@ pub enum TileSystems {
     Unblock,
     /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
     Occlude,
+    /// Light that chance may find too counts for less.
+    Weigh,
     /// Light that arrives is added up.
     Shade,
     /// Rays go on from surfaces, each kind of matter's after the other's.
@@ -91,6 +93,7 @@ impl TileSystems {
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
+        Self::Weigh,
         Self::Shade,
         Self::Scatter,
         Self::Roulette,

@@ -5,8 +5,10 @@
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
 mod camera;
+mod draws;
 mod leg;
 mod ndc;
+mod paths;
 mod place_samples;
 mod raster;
 mod screen;
@@ -16,8 +18,10 @@ pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
-pub use leg::Leg;
+pub use draws::{Draws, draws_of_one, draws_of_two};
+pub use leg::{Leg, pixel_of_row};
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use paths::{PathLight, Paths};
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
     signed_evidence,

@@ -222,7 +222,7 @@ pub fn shining(setup: Setup) -> World {
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
     let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
     let (colour, specular) = (Rgb::new(0.5, 0.2, 0.1), Rgb::new(0.3, 0.4, 0.5));
-    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b) };
+    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() };
     let gold = (Name::new("gold"), Phong { colour, specular, exponent: 9.5 }, glow(0.05, 0.0, 0.1));
     let gold = world.spawn(gold).id();
     world.spawn((Name::new("matte ball"), sphere(0.5), at(-1.77, 0.5, 0.53), Matte { colour }, glow(0.0, 0.1, 0.0)));
@@ -397,7 +397,7 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Emissive) {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
-        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2) }));
+        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
