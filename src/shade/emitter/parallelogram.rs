@@ -1,16 +1,13 @@
-use super::triangle::{TriangleSeen, triangle_solid_angle};
+use super::triangle::{LEAST_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
 use super::{LightPoint, angle_of, density_from_area};
 use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// A rectangle that fills less than this many sr is aimed at by its area.
+/// A rectangle that fills less than this many sr is aimed at as the two triangles that it is.
 ///
-/// Its solid angle is what four angles have more than 360°, so it is off by some 10⁻¹⁵ sr; and seen so small, one
-/// direction is much like another.
-const LEAST_SOLID_ANGLE: f64 = 1e-6;
-/// The same for one whose corners are not square, which is two triangles.
-const LEAST_OF_TRIANGLES: f64 = 1e-4;
+/// Its solid angle is what four angles have more than 360°, so it is off by some 10⁻¹⁵ sr.
+const LEAST_OF_FOUR_ANGLES: f64 = 1e-4;
 
 /// A rectangle as the lit point sees it, in its own axes: from x₀ to x₁, from y₀ to y₁, at the depth z below 0.
 #[derive(Clone, Copy, Debug)]
@@ -189,12 +186,13 @@ impl Seen {
     fn of(shape: &Parallelogram, from: DVec3) -> Self {
         if shape.is_rectangle {
             let seen = RectangleSeen::new(shape.centre, shape.half_edges, from);
-            if seen.solid_angle >= LEAST_SOLID_ANGLE { Self::Rectangle(seen) } else { Self::Small }
-        } else {
-            let solid_angles = halves(shape).map(|half| triangle_solid_angle(&half.map(|corner| corner - from)));
-            let enough = solid_angles[0] + solid_angles[1] >= LEAST_OF_TRIANGLES;
-            if enough { Self::Triangles(solid_angles) } else { Self::Small }
+            if seen.solid_angle >= LEAST_OF_FOUR_ANGLES {
+                return Self::Rectangle(seen);
+            }
         }
+        let solid_angles = halves(shape).map(|half| triangle_solid_angle(&half.map(|corner| corner - from)));
+        let enough = solid_angles[0] + solid_angles[1] >= LEAST_SOLID_ANGLE;
+        if enough { Self::Triangles(solid_angles) } else { Self::Small }
     }
 }
 

@@ -1,19 +1,23 @@
 use super::{LightPoint, angle_of, density_from_area};
 use glam::DVec3;
 
-/// A triangle that fills less than this many sr is aimed at by its area.
-///
-/// Below it the cosine that the method solves for keeps too few digits: at 10⁻⁴ sr the point is good to 10⁻⁸ of an edge.
-const LEAST_SOLID_ANGLE: f64 = 1e-4;
+/// A triangle that fills less than this many sr is aimed at by its area: of a thin one no digits are left for its width.
+pub(super) const LEAST_SOLID_ANGLE: f64 = 1e-9;
 
 /// A triangle as the lit point sees it: on the unit sphere about that point.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleSeen {
     corners: [DVec3; 3],
     cross: DVec3,
-    on_sphere: [DVec3; 3],
+    /// The ways to the first two corners.
+    first: DVec3,
+    second: DVec3,
+    /// Across the way to the first corner, towards the third.
+    to_third: DVec3,
     /// The angle at the first corner.
     alpha: f64,
+    /// The tangent of half the angle from the first corner to the second.
+    tan_half: f64,
     /// What the triangle fills, in sr.
     pub solid_angle: f64,
 }
@@ -37,33 +41,36 @@ impl TriangleSeen {
     /// The triangle whose corners are these steps away from the lit point.
     #[inline(always)]
     pub fn new(corners: [DVec3; 3]) -> Self {
-        let on_sphere = corners.map(|corner| corner / corner.length());
-        let [a, b, c] = on_sphere;
-        let (ab, ca) = (a.cross(b), c.cross(a));
-        let alpha = angle_of(ab.cross(ca).length(), -ab.dot(ca));
-        let cross = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        Self { corners, cross, on_sphere, alpha, solid_angle: triangle_solid_angle(&corners) }
+        let [a, b, c] = corners;
+        // By the edges: the cross product of two ways that hardly differ would lose their difference.
+        let (across_b, across_c) = (a.cross(b - a), a.cross(c - a));
+        Self {
+            corners,
+            cross: (b - a).cross(c - a),
+            first: a.normalize(),
+            second: b.normalize(),
+            to_third: across_c.cross(a).normalize_or_zero(),
+            alpha: angle_of(across_b.cross(across_c).length(), across_b.dot(across_c)),
+            tan_half: across_b.length() / (a.length() * b.length() + a.dot(b)),
+            solid_angle: triangle_solid_angle(&corners),
+        }
     }
 
     // ANCHOR: triangle_at
     /// The way to a point of the triangle, evenly over its solid angle (Arvo 1995).
     ///
-    /// The first number cuts off, with a great circle from b to the edge ac, a triangle that fills that share; the second
-    /// picks a point on the cut, where 1 − cos of the way from b is spread evenly.
+    /// The first number cuts off, with a great circle from b to the edge ac, a triangle that fills that share E: with the
+    /// angle α at a, tan(ab/2) tan(ac'/2) sin(α − E/2) = sin(E/2), which loses no digits however small the triangle.
+    /// The second picks a point on the cut, where 1 − cos of the way from b is spread evenly.
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
-        let [a, b, c] = self.on_sphere;
-        let (sin_alpha, cos_alpha) = (libm::sin(self.alpha), libm::cos(self.alpha));
-        let phi = u[0] * self.solid_angle - self.alpha;
-        let (s, t) = (libm::sin(phi), libm::cos(phi));
-        let (p, q) = (t - cos_alpha, s + sin_alpha * a.dot(b));
-        let cut = ((q * t - p * s) * cos_alpha - q) / ((q * s + p * t) * sin_alpha);
-        let cut = if cut.is_nan() { 1.0 } else { cut.clamp(a.dot(c).min(1.0), 1.0) };
-        let away = (c - a * a.dot(c)).try_normalize().unwrap_or(DVec3::ZERO);
-        let end = (a * cut + away * (1.0 - cut * cut).max(0.0).sqrt()).normalize();
-        let versine = u[1] * 0.5 * (end - b).length_squared();
-        let away = (end - b * b.dot(end)).try_normalize().unwrap_or(DVec3::ZERO);
-        let direction = b * (1.0 - versine) + away * (versine * (2.0 - versine)).max(0.0).sqrt();
+        let half = 0.5 * u[0] * self.solid_angle;
+        let tan = libm::sin(half) / (self.tan_half * libm::sin(self.alpha - half));
+        let tan = if tan >= 0.0 { tan.min(f64::MAX.sqrt()) } else { 0.0 };
+        let end = (self.first * (1.0 - tan * tan) + self.to_third * (2.0 * tan)) / (1.0 + tan * tan);
+        let versine = u[1] * 0.5 * (end - self.second).length_squared();
+        let away = (end - self.second * self.second.dot(end)).normalize_or_zero();
+        let direction = self.second * (1.0 - versine) + away * (versine * (2.0 - versine)).max(0.0).sqrt();
         direction * (self.cross.dot(self.corners[0]) / self.cross.dot(direction))
     }
     // ANCHOR_END: triangle_at
