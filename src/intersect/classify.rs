@@ -1,5 +1,5 @@
 use super::hits::shape_evidence;
-use super::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
+use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
@@ -96,6 +96,7 @@ pub fn classify_hits(
         Option<&mut EmissiveRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
     )>,
 ) {
     for (
@@ -111,6 +112,7 @@ pub fn classify_hits(
         emissive,
         surfaces,
         uvs,
+        sides,
     ) in &mut tiles
     {
         if let Some(mut list) = spheres {
@@ -150,6 +152,9 @@ pub fn classify_hits(
             let (u, v) = uvs.slices_mut(hits.rows());
             u.fill(0.0);
             v.fill(0.0);
+        }
+        if let Some(mut sides) = sides {
+            sides.slices_mut(hits.rows()).fill(0);
         }
     }
 }
@@ -244,6 +249,7 @@ pub fn classify_stage() -> Stage {
         .writes::<EmissiveRows>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<ShapeTable>()
         .when(shape_evidence)
 }
