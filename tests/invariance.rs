@@ -146,11 +146,8 @@ fn every_order_that_the_schedule_allows() {
         // Files are read again for every render, and every kind of stage has more orders than seeds.
         let seeds = if name == "textured" { 8 } else { SEEDS };
         for seed in 0..seeds {
-            for bounces in [None, Some(1)] {
-                let in_one = shuffled(seed, Execution { bounces, ..one_world() });
-                let film = film_by(&timed, &offer(), &in_one).expect("renders");
-                film.assert_is(&expected, &format!("{name} with statistics, shuffled by {seed}, bounces {bounces:?}"));
-            }
+            let film = film_by(&timed, &offer(), &shuffled(seed, one_world())).expect("renders");
+            film.assert_is(&expected, &format!("{name} with statistics, shuffled by {seed}"));
         }
         let mut scene = timed;
         let camera = named(&mut scene, "camera");
@@ -174,7 +171,7 @@ fn every_order_that_the_schedule_allows() {
             let enough = allowed.min(SEEDS as usize) / 2..=allowed;
             assert!(enough.contains(&orders.len()), "{name}: {} of {allowed} orders were seen", orders.len());
         }
-        eprintln!("orders of {name}: {seeds} seeds × 4 renders, {} different orders, all equal", orders.len());
+        eprintln!("orders of {name}: {seeds} seeds × 3 renders, {} different orders, all equal", orders.len());
     }
 }
 
@@ -184,12 +181,12 @@ fn hooks_are_ordered() {
     let scene = with_statistics(turned(Setup::default()));
     let (plan, tables) = prepare(&scene, &offer()).expect("prepares");
     let hook: Hook = Arc::new(|_, _, _| (|_: &mut World| {}).into_configs());
-    let execution = shuffled(7, Execution { bounces: Some(1), ..one_world() });
+    let execution = shuffled(7, one_world());
     let mut frame = RenderWorld::new(&plan, &tables, 1, &execution, &[hook.clone(), hook]);
     if let Err(error) = frame.schedule.initialize(&mut frame.world) {
         panic!("{}", error.to_string(frame.schedule.graph(), &frame.world));
     }
-    assert_eq!(frame.schedule.systems_len(), plan.stages.len() * 4 + 1, "a stage, a clock and two hooks; the bounce");
+    assert_eq!(frame.schedule.systems_len(), plan.stages.len() * 4, "a stage, a clock and two hooks");
 }
 
 #[test]
@@ -220,30 +217,19 @@ fn permuted(stages: Vec<Stage>, seed: u64) -> Vec<Stage> {
 }
 
 #[test]
-fn an_empty_bounce_and_statistics() {
+fn statistics_change_nothing() {
     let mut tried = 0;
     for (name, scene) in pictures() {
         let expected = film(&scene);
         let timed = with_statistics(scene);
-        for bounces in [None, Some(0), Some(1), Some(8)] {
-            for worlds in [Worlds::One, Worlds::PerWorker] {
-                let execution = Execution { bounces, worlds, threads: Some(2), ..Execution::default() };
-                let film = film_by(&timed, &offer(), &execution).expect("renders");
-                film.assert_is(&expected, &format!("{name}, bounces {bounces:?}, {worlds:?}, with statistics"));
-                tried += 1;
-            }
-        }
-        let mut plain = timed;
-        let camera = named(&mut plain, "camera");
-        plain.entity_mut(camera).remove::<Statistics>();
-        for legs in [0, 1, 8] {
-            let execution = Execution { bounces: Some(legs), ..one_world() };
-            let film = film_by(&plain, &offer(), &execution).expect("renders");
-            film.assert_is(&expected, &format!("{name}, {legs} empty bounces"));
+        for worlds in [Worlds::One, Worlds::PerWorker] {
+            let execution = Execution { worlds, threads: Some(2), ..Execution::default() };
+            let film = film_by(&timed, &offer(), &execution).expect("renders");
+            film.assert_is(&expected, &format!("{name}, {worlds:?}, with statistics"));
             tried += 1;
         }
     }
-    eprintln!("bounces and statistics: {tried} renders, all equal");
+    eprintln!("statistics: {tried} renders, all equal");
 }
 
 #[test]

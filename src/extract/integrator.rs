@@ -50,9 +50,22 @@ fn has_points(scene: &World) -> bool {
         || !entities::<With<SpotLight>>(scene).is_empty()
 }
 
-/// Evidence that light is followed beyond the first surface, or from it to the sky.
+/// Evidence that light is followed beyond the first surface.
 pub fn followed_evidence(scene: &World) -> Evidence {
-    needed_if(scene, |integrator| integrator != Integrator::RayCasting)
+    let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
+    needed_if(scene, goes_on)
+}
+
+/// Evidence that the picture shows how much of the sky each point sees.
+pub fn occlusion_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
+}
+
+/// What is needed for light, which ambient occlusion does not show.
+pub fn unless_occlusion(scene: &World, evidence: Evidence) -> Evidence {
+    let occlusion = occlusion_evidence(scene);
+    let instead = || Evidence { needed: false, reason: format!("{} shows no other light", occlusion.reason), count: 0 };
+    if occlusion.needed && evidence.needed { instead() } else { evidence }
 }
 
 /// Evidence that points on lights with an area are aimed at.

@@ -22,10 +22,12 @@ mod exact_sum;
 mod filter;
 mod flat;
 mod glass;
+mod glass_overlap;
 mod gradient;
 mod image_file;
 mod image_texture;
 mod integrator;
+mod integrator_table;
 mod layers;
 mod material;
 mod metal;
@@ -66,10 +68,15 @@ pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use flat::Flat;
 pub use glass::{GlassTable, glass_evidence};
+pub use glass_overlap::{glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
-pub use integrator::{ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, weighed_evidence};
+pub use integrator::{
+    ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,
+    unless_occlusion, weighed_evidence,
+};
+pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
 pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
@@ -111,6 +118,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     camera::check_camera(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
+    IntegratorTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     GlassTable::extract(scene)?;

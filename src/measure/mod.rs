@@ -4,6 +4,7 @@
 //! Nothing here runs in a render.
 
 pub mod chi_squared;
+pub mod closed_form;
 pub mod cost;
 pub mod cuboid_aim;
 pub mod enclosure;

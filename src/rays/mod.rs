@@ -5,6 +5,7 @@
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
 mod camera;
+mod leg;
 mod ndc;
 mod place_samples;
 mod raster;
@@ -15,6 +16,7 @@ pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
+pub use leg::Leg;
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// It may stand beside a material or alone; a shape with an `Emissive` alone reflects nothing.
 /// Put it on the shape, or on the entity whose material the shape uses; the shape's own goes first.
-/// What it emits is seen by camera rays and lights no other surface yet.
+/// What it emits is seen by camera rays; it lights other surfaces where the integrator follows light to it.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Emissive {

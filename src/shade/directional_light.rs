@@ -1,6 +1,6 @@
 use super::LightRays;
 use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
-use crate::extract::{DirectionalLightTable, material_evidence};
+use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
@@ -48,5 +48,10 @@ pub fn directional_light_stage() -> Stage {
         .reads::<MaterialRows>()
         .appends::<LightRays>()
         .table::<DirectionalLightTable>()
-        .when(|scene| Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(
+                scene,
+                Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)),
+            )
+        })
 }

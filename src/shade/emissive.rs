@@ -1,5 +1,5 @@
 use super::Radiance;
-use crate::extract::{EmissiveTable, emissive_evidence};
+use crate::extract::{EmissiveTable, emissive_evidence, followed_evidence, unless_occlusion};
 use crate::intersect::EmissiveRows;
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
@@ -27,7 +27,8 @@ pub fn emissive_stage() -> Stage {
         .table::<EmissiveTable>()
         .when(|scene| {
             let found = emissive_evidence(scene);
-            let unlit = if found.needed { ", seen, but lighting nothing else yet" } else { "" };
-            Evidence { reason: format!("{}{unlit}", found.reason), ..found }
+            let alone = found.needed && !followed_evidence(scene).needed;
+            let unlit = if alone { ", seen, but lighting nothing else" } else { "" };
+            unless_occlusion(scene, Evidence { reason: format!("{}{unlit}", found.reason), ..found })
         })
 }

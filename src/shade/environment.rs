@@ -1,6 +1,6 @@
 use super::Radiance;
 use super::lookup::between;
-use crate::extract::{EnvironmentTable, Texels};
+use crate::extract::{EnvironmentTable, Texels, unless_occlusion};
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -90,9 +90,10 @@ pub fn environment_stage() -> Stage {
         .writes::<Radiance>()
         .table::<EnvironmentTable>()
         .when(|scene| {
-            Evidence::among::<With<Environment>>(scene, "environment", |entity| {
+            let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
-            })
+            });
+            unless_occlusion(scene, found)
         })
 }
 

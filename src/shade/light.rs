@@ -1,5 +1,5 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
-use crate::extract::{MaterialTable, material_evidence};
+use crate::extract::{MaterialTable, material_evidence, occlusion_evidence, unless_occlusion};
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
@@ -203,7 +203,7 @@ pub fn add_light(
 pub fn start_light_stage() -> Stage {
     Stage::new("Start with no light on its way", TileSystems::Start, start_light)
         .writes::<LightRays>()
-        .when(lit_evidence)
+        .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
@@ -220,6 +220,13 @@ pub fn light_stage() -> Stage {
         .when(lit_evidence)
 }
 
+/// Evidence of the one where it is needed, or else the other.
+///
+/// Unlike `or` it says nothing of an integrator that nobody asked for.
+pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
+    if !one.needed && other.needed { other } else { one }
+}
+
 /// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
     light_evidence(scene).and(material_evidence(scene))
@@ -227,7 +234,7 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    Evidence::among_any(scene, "light", &LIGHTS, |_| true)
+    unless_occlusion(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true))
 }
 
 /// Every component that is a light; a new one joins here.

@@ -44,7 +44,9 @@ pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_sur
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
 pub use image_texture::{colour_images, image_stage};
-pub use light::{LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage};
+pub use light::{
+    LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light, start_light_stage,
+};
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};

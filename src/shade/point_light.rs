@@ -1,6 +1,6 @@
 use super::LightRays;
 use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
-use crate::extract::{PointLightTable, material_evidence};
+use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::PointLight;
@@ -49,5 +49,7 @@ pub fn point_light_stage() -> Stage {
         .reads::<MaterialRows>()
         .appends::<LightRays>()
         .table::<PointLightTable>()
-        .when(|scene| Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        })
 }

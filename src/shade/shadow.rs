@@ -1,7 +1,8 @@
 use super::LightRays;
-use super::light::LIGHTS;
+use super::light::{LIGHTS, either};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
+    occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
@@ -138,10 +139,10 @@ pub fn triangle_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
+    let lights = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
-    })
-    .and(material_evidence(scene))
+    });
+    either(unless_occlusion(scene, lights.and(material_evidence(scene))), occlusion_evidence(scene))
 }
