@@ -1,8 +1,9 @@
 use super::camera::camera_entity;
 use super::emissive::emissive_evidence;
-use super::material::{material_evidence, matter_evidence};
+use super::material::material_evidence;
+use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Evidence, entities};
-use crate::scene::{DirectionalLight, Glass, Integrator, LightSampling, Metal, Mirror, PointLight, SpotLight, called};
+use crate::scene::{DirectionalLight, Integrator, LightSampling, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
 /// How light is followed in a scene, and why so.
@@ -25,9 +26,9 @@ pub fn integrator_of(scene: &World) -> ChosenIntegrator {
     if let Some((camera, &named)) = camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own))) {
         return chosen(named, format!("named on the camera {}", called(scene, camera)));
     }
-    let metal = matter_evidence::<Metal>(scene, "rough metal");
+    let metal = metal_evidence(scene);
     let lamps = emissive_evidence(scene).and(material_evidence(scene));
-    let polished = matter_evidence::<Mirror>(scene, "mirror").or(matter_evidence::<Glass>(scene, "surface of glass"));
+    let polished = mirror_evidence(scene).or(glass_evidence(scene));
     let by_chance = metal.or(lamps);
     if by_chance.needed {
         return chosen(Integrator::PATH, by_chance.reason);

@@ -1,8 +1,9 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
+use super::material::{NO_ROW, is_material, material_entities, material_kind, materials_in_words};
 use super::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, unevenly_scaled,
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, PlaneTable, RectangleTable, SphereTable, TriangleTable,
+    unevenly_scaled,
 };
 use crate::plan::{Table, entities};
 use crate::scene::{
@@ -56,6 +57,8 @@ pub struct ShapeTable {
     pub row: Vec<u32>,
     /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
+    /// Whether it has a material, one that spreads light, so that light may be aimed at it.
+    pub spreads: Vec<bool>,
     /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
     pub emissive: Vec<u32>,
     /// How a person calls it.
@@ -119,7 +122,10 @@ impl Table for ShapeTable {
             *rows += 1;
             table.kind.push(kind);
             let name = kind_and_name(scene, written.word, entity);
-            table.material.push(row_in(&materials, material_of(scene, &name, entity)?));
+            let material = material_of(scene, &name, entity)?;
+            let kind = material.and_then(|material| material_kind(scene, material));
+            table.spreads.push(kind.is_some_and(MaterialKind::spreads));
+            table.material.push(row_in(&materials, material));
             table.emissive.push(row_in(&emissive, emissive_of(scene, entity)));
             table.name.push(name);
         }
@@ -127,7 +133,8 @@ impl Table for ShapeTable {
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<ShapeKind>() + 12) + self.name.iter().map(String::len).sum::<usize>()
+        self.kind.len() * (size_of::<ShapeKind>() + size_of::<bool>() + 12)
+            + self.name.iter().map(String::len).sum::<usize>()
     }
 }
 

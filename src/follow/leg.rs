@@ -1,4 +1,5 @@
-use super::Scattered;
+use super::media::media_evidence;
+use super::{Media, Scattered};
 use crate::extract::{IntegratorTable, followed_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
 use crate::rays::{Leg, PathLight, Paths, WorldRays};
@@ -100,6 +101,7 @@ pub fn follow_stage() -> Stage {
     Stage::new("Follow the legs that are left", TileSystems::Follow, follow_legs)
         .on_first_leg()
         .reads::<WorldRays>()
+        .reads_where::<Media>(media_evidence)
         .reads::<PathLight>()
         .writes::<PathLight>()
         .when(followed_evidence)

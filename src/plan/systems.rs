@@ -52,6 +52,8 @@ pub enum TileSystems {
     Weigh,
     /// Light that arrives is added up.
     Shade,
+    /// What light lost on its way here is taken off.
+    Absorb,
     /// Rays go on from surfaces, each kind of matter's after the other's.
     Scatter,
     /// Some of them end by chance.
@@ -95,6 +97,7 @@ impl TileSystems {
         Self::Occlude,
         Self::Weigh,
         Self::Shade,
+        Self::Absorb,
         Self::Scatter,
         Self::Roulette,
         Self::AddLeg,

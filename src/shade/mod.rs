@@ -48,7 +48,8 @@ pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightDensities, LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage,
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light,
+    start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
