@@ -18,6 +18,8 @@ pub enum TileSystems {
     Ndc,
     /// The same points, y up, as wide as the image's shape.
     Screen,
+    /// What else of each camera ray is left to chance: where on the lens it starts.
+    Lens,
     /// Rays of a camera at the origin that looks down −z.
     Camera,
     /// The same rays, turned as the camera is.
@@ -64,6 +66,7 @@ impl TileSystems {
         Self::Raster,
         Self::Ndc,
         Self::Screen,
+        Self::Lens,
         Self::Camera,
         Self::World,
         Self::Start,
@@ -90,7 +93,8 @@ impl TileSystems {
     pub fn order_free(self) -> bool {
         matches!(
             self,
-            Self::Start
+            Self::Lens
+                | Self::Start
                 | Self::Intersect
                 | Self::Surface
                 | Self::Footprint

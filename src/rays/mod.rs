@@ -5,6 +5,8 @@
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
 mod camera;
+mod chance;
+mod lens;
 mod ndc;
 mod place_samples;
 mod raster;
@@ -14,6 +16,10 @@ mod world;
 pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
+};
+pub use lens::{
+    LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point_stage, lens_stage,
+    polygon_point,
 };
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
 pub use place_samples::{
@@ -30,5 +36,6 @@ use crate::plan::Stage;
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
     stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
+    stages.extend([lens_point_stage(), lens_stage()]);
     stages
 }
