@@ -102,6 +102,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
         ("everything, larger", full(Setup { size: [80, 60], ..Setup::default() })),
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
+        ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
     ];
     for stage in &offer {
         let mut powers = Vec::new();
