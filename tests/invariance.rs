@@ -34,6 +34,8 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
+        ("fisheye", scenes::fisheye(Setup::default())),
+        ("all round", scenes::all_round(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -155,7 +157,8 @@ fn every_order_that_the_schedule_allows() {
         let timed = with_statistics(scene);
         let mut orders = BTreeSet::new();
         // Files are read again for every render, and every kind of stage has more orders than seeds.
-        let seeds = if name == "textured" { 8 } else { SEEDS };
+        let textures = matches!(name, "textured" | "fisheye" | "all round");
+        let seeds = if textures { 8 } else { SEEDS };
         for seed in 0..seeds {
             for bounces in [None, Some(1)] {
                 let in_one = shuffled(seed, Execution { bounces, ..one_world() });
@@ -177,7 +180,7 @@ fn every_order_that_the_schedule_allows() {
             }
         }
         let allowed = orders_allowed(&scene);
-        if name == "textured" {
+        if textures {
             assert!(orders.len() > 6, "{name}: only {} orders", orders.len());
         } else if allowed < 20 {
             assert_eq!(orders.len(), allowed, "{name}: not every order that is allowed was seen in {SEEDS} seeds");

@@ -52,6 +52,8 @@ pub enum TileSystems {
     Occlude,
     /// Light that arrives is added up.
     Shade,
+    /// What lies outside a camera's image circle is made black.
+    Mask,
     /// Where a reader asked to see a column, it is painted instead.
     View,
     /// How far radiance lies from the mean of what the film holds, before it joins.
@@ -83,6 +85,7 @@ impl TileSystems {
         Self::Unblock,
         Self::Occlude,
         Self::Shade,
+        Self::Mask,
         Self::View,
         Self::Moments,
         Self::Film,

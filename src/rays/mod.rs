@@ -6,6 +6,8 @@
 
 mod camera;
 mod chance;
+mod equirectangular;
+mod fisheye;
 mod lens;
 mod ndc;
 mod place_samples;
@@ -17,6 +19,10 @@ pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
+pub use equirectangular::{
+    camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
+};
+pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
 pub use lens::{
     LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point_stage, lens_stage,
     polygon_point,
@@ -36,6 +42,6 @@ use crate::plan::Stage;
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
     stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
-    stages.extend([lens_point_stage(), lens_stage()]);
+    stages.extend([lens_point_stage(), lens_stage(), fisheye_stage(), equirectangular_stage()]);
     stages
 }

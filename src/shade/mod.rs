@@ -15,6 +15,7 @@ mod flat;
 mod footprint;
 mod gradient;
 mod highlight;
+mod image_circle;
 mod image_texture;
 mod light;
 mod lookup;
@@ -43,6 +44,7 @@ pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
+pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage};
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
@@ -76,6 +78,7 @@ pub fn stages() -> Vec<Stage> {
         triangle_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
+    stages.push(image_circle_stage());
     stages
 }
 

@@ -150,6 +150,23 @@ pub fn blurred(setup: Setup) -> World {
     world
 }
 
+/// The textured scene by a fisheye that sees more than half of all directions.
+pub fn fisheye(setup: Setup) -> World {
+    other_camera(setup, FisheyeCamera { fov: Degrees(200.0), axis: FovAxis::Smaller })
+}
+
+/// The textured scene in all directions.
+pub fn all_round(setup: Setup) -> World {
+    other_camera(setup, EquirectangularCamera)
+}
+
+fn other_camera(setup: Setup, camera: impl Component) -> World {
+    let mut world = textured(Setup { eye: Eye::Perspective, ..setup });
+    let own = named(&mut world, "camera");
+    world.entity_mut(own).remove::<PerspectiveCamera>().insert(camera);
+    world
+}
+
 /// Spheres that their placements stretch: an egg, a mirrored and turned pancake, a needle, one that a parent shears, and
 /// two that are the same; no sphere among them stays one.
 ///
