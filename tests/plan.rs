@@ -206,8 +206,8 @@ fn stages_declare_what_their_systems_touch() {
         reads.extend(stage.tables.iter().chain(asked).chain(beside).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
-            // Its rays have origins only where the orthographic stage, an alternative, has brought its table.
-            reads.insert("table view rectangle".into());
+            // Its rays have origins only where another stage, an alternative, has brought its table.
+            reads.extend(["table view rectangle".into(), "table lens".into()]);
         }
         assert_eq!(written, writes, "\"{}\" writes", stage.name);
         assert_eq!(read, reads, "\"{}\" reads", stage.name);
@@ -244,6 +244,7 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a glossy ball", add::<(Sphere, Phong)>, take::<(Sphere, Phong)>),
         ("a satin ball", add::<(Sphere, BlinnPhong)>, take::<(Sphere, BlinnPhong)>),
         ("a glow", add::<(Sphere, Emissive)>, take::<(Sphere, Emissive)>),
+        ("a lens", add::<(PerspectiveCamera, Lens)>, take::<(PerspectiveCamera, Lens)>),
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];
     let mut changed = 0;

@@ -17,6 +17,7 @@ mod flat;
 mod footprint;
 mod gradient;
 mod highlight;
+mod image_circle;
 mod image_texture;
 mod light;
 mod lookup;
@@ -46,6 +47,7 @@ pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
+pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
     LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light,
@@ -83,6 +85,7 @@ pub fn stages() -> Vec<Stage> {
         triangle_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
+    stages.push(image_circle_stage());
     stages
 }
 

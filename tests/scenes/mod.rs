@@ -134,6 +134,39 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
 }
 
+/// A lens wide enough to blur these scenes, of as many units to a unit.
+pub fn lens(scale: f64) -> Lens {
+    let aperture = Aperture::Radius { radius: 0.125 * scale };
+    Lens { aperture, focus_distance: 4.0 * scale, blades: 5, turn: Degrees(10.0) }
+}
+
+/// The scene of [`turned`] through a lens, where the camera is a perspective one.
+pub fn blurred(setup: Setup) -> World {
+    let mut world = turned(setup);
+    if setup.eye == Eye::Perspective {
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(lens(setup.scale));
+    }
+    world
+}
+
+/// The textured scene by a fisheye that sees more than half of all directions.
+pub fn fisheye(setup: Setup) -> World {
+    other_camera(setup, FisheyeCamera { fov: Degrees(200.0), axis: FovAxis::Smaller })
+}
+
+/// The textured scene in all directions.
+pub fn all_round(setup: Setup) -> World {
+    other_camera(setup, EquirectangularCamera)
+}
+
+fn other_camera(setup: Setup, camera: impl Component) -> World {
+    let mut world = textured(Setup { eye: Eye::Perspective, ..setup });
+    let own = named(&mut world, "camera");
+    world.entity_mut(own).remove::<PerspectiveCamera>().insert(camera);
+    world
+}
+
 /// Spheres that their placements stretch: an egg, a mirrored and turned pancake, a needle, one that a parent shears, and
 /// two that are the same; no sphere among them stays one.
 ///
@@ -313,6 +346,8 @@ pub enum Toggle {
     BlinnPhong,
     Emissive,
     Samples,
+    /// A lens, where the camera is a perspective one.
+    Lens,
 }
 
 /// All of them.
@@ -333,7 +368,8 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 5] = [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive];
+pub const MORE: [Toggle; 6] =
+    [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive, Toggle::Lens];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -411,6 +447,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Layers) {
         world.entity_mut(camera).insert(Layers::all());
+    }
+    if has(Toggle::Lens) && eye == Eye::Perspective {
+        world.entity_mut(camera).insert(lens(1.0));
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
