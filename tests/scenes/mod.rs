@@ -1,6 +1,7 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod public;
 mod textured;
 
 use bevy_ecs::prelude::*;
@@ -11,7 +12,7 @@ pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade};
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 
@@ -72,6 +73,7 @@ pub fn offer() -> Vec<Stage> {
     let mut offer = rays::stages();
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
+    offer.extend(follow::stages());
     offer.push(view_stage(&offer));
     offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
