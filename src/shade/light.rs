@@ -274,6 +274,11 @@ pub(super) fn light_evidence(scene: &World) -> Evidence {
     unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
 }
 
+/// Evidence that there is a light without an area.
+pub fn point_evidence(scene: &World) -> Evidence {
+    Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
+}
+
 /// The evidence of lights without an area, or else that there are lights with one and that they are aimed at.
 pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
     let areas = area_light_evidence(scene).and(aimed_evidence(scene));

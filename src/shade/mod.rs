@@ -50,8 +50,8 @@ pub use highlight::highlight;
 pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light,
-    start_light_stage,
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_reach,
+    start_light, start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
