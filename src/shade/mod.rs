@@ -13,6 +13,7 @@ mod directional_light;
 mod emissive;
 pub mod emitter;
 mod environment;
+mod environment_light;
 mod flat;
 mod footprint;
 mod gradient;
@@ -42,6 +43,9 @@ pub use directional_light::{aim_at_directional_lights, directional_light_stage, 
 pub use emissive::{add_emission, emissive_stage};
 pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
+};
+pub use environment_light::{
+    aim_at_the_environment, environment_density, environment_direction, environment_light_stage,
 };
 pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
@@ -75,7 +79,7 @@ pub fn stages() -> Vec<Stage> {
     stages.extend(background_stages());
     stages.push(flat_stage());
     stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
-    stages.push(start_shadow_stage());
+    stages.extend([environment_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([
         plane_shadow_stage(),
