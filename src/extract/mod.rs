@@ -29,6 +29,8 @@ mod integrator;
 mod layers;
 mod lens;
 mod material;
+mod motion;
+mod moving;
 mod phong;
 mod pixel_steps;
 mod plane;
@@ -72,6 +74,10 @@ pub use integrator::{ChosenIntegrator, aimed_evidence, followed_evidence, integr
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, check_lens, lens_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
+pub use motion::{
+    ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
+};
+pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
@@ -108,6 +114,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     check_lens(scene)?;
+    check_motion(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;
@@ -120,6 +127,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     RectangleTable::extract(scene)?;
     CuboidTable::extract(scene)?;
     TriangleTable::extract(scene)?;
+    MovingTable::extract(scene)?;
     VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;

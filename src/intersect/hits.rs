@@ -2,6 +2,7 @@ use super::cuboid::cuboid_evidence;
 use super::disk::disk_evidence;
 use super::plane::plane_evidence;
 use super::rectangle::rectangle_evidence;
+use crate::extract::moving_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::scene::{Sphere, Triangle};
@@ -45,6 +46,11 @@ pub struct RayLanes<'a> {
 pub trait RayColumn: Column {
     /// The lanes that are a ray.
     fn ray_lanes(&self) -> RayLanes<'_>;
+
+    /// The row of the tile's rays with which each of these is on its way; none where they are those themselves.
+    fn path_lane(&self) -> Option<&[u32]> {
+        None
+    }
 }
 
 /// A column of hits that kernels narrow: a shape is met only before the distance that the row already holds.
@@ -92,4 +98,5 @@ pub fn shape_evidence(scene: &World) -> Evidence {
         .or(rectangle_evidence(scene))
         .or(cuboid_evidence(scene))
         .or(Evidence::of::<Triangle>(scene, "triangle"))
+        .or(moving_evidence(scene))
 }

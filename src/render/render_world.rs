@@ -58,7 +58,7 @@ impl RenderWorld {
         if let Some(legs) = execution.bounces {
             world.add_schedule(empty_bounce());
             let follow = move |world: &mut World| follow_bounces(world, legs);
-            schedule.add_systems(follow.after(TileSystems::Shade).before(TileSystems::View));
+            schedule.add_systems(follow.after(TileSystems::Shade).before(TileSystems::Mask));
         }
         if let Some(arrange) = &execution.arrange {
             arrange(&mut schedule);
