@@ -111,10 +111,10 @@ use bevy_ecs::prelude::*;
 /// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
+    check_motion(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     check_lens(scene)?;
-    check_motion(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
     ShapeTable::extract(scene)?;

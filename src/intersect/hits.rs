@@ -1,11 +1,8 @@
 use super::cuboid::cuboid_evidence;
-use super::disk::disk_evidence;
 use super::plane::plane_evidence;
-use super::rectangle::rectangle_evidence;
-use crate::extract::moving_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::{Sphere, Triangle};
+use crate::scene::{Disk, Rectangle, Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -94,9 +91,8 @@ pub fn start_stage() -> Stage {
 pub fn shape_evidence(scene: &World) -> Evidence {
     Evidence::of::<Sphere>(scene, "sphere")
         .or(plane_evidence(scene))
-        .or(disk_evidence(scene))
-        .or(rectangle_evidence(scene))
+        .or(Evidence::of::<Disk>(scene, "disk"))
+        .or(Evidence::of::<Rectangle>(scene, "rectangle"))
         .or(cuboid_evidence(scene))
         .or(Evidence::of::<Triangle>(scene, "triangle"))
-        .or(moving_evidence(scene))
 }
