@@ -11,10 +11,10 @@ use pinhole::measure::film_bits::digest;
 use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
-use pinhole::scene::{Filter, Placement, PointLight, Sampling, Statistics};
+use pinhole::scene::{Filter, Motion, Placement, PointLight, Sampling, Shutter, Statistics};
 use scenes::{
-    EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, named, offer, one_world, pieces, shining, stretched,
-    textured, ties, turned,
+    EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, pieces, shining,
+    stretched, textured, ties, turned,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -34,6 +34,7 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
+        ("moving", moving(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
         ("all round", scenes::all_round(Setup::default())),
         ("ties", ties()),
@@ -56,6 +57,15 @@ fn sharp_where_focused(setup: Setup) -> World {
         let camera = named(&mut scene, "camera");
         scene.entity_mut(camera).insert(scenes::lens(setup.scale));
     }
+    scene
+}
+
+/// What is moved exactly, with a ball in motion before a camera in motion.
+fn full_in_motion(setup: Setup) -> World {
+    let mut scene = full(setup);
+    let (camera, ball) = (named(&mut scene, "camera"), named(&mut scene, "left ball"));
+    scene.entity_mut(camera).insert((Shutter::default(), Motion { velocity: DVec3::new(0.25, 0.0, 0.5) }));
+    scene.entity_mut(ball).insert(Motion { velocity: DVec3::new(0.5, -0.25, 0.0) });
     scene
 }
 
@@ -250,7 +260,7 @@ fn statistics_change_nothing() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred] {
+        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred, moving] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -261,7 +271,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 8 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 9 scenes, all equal");
 }
 
 #[test]
@@ -271,7 +281,7 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        for scene in [full, stretched, pieces, textured, shining, sampled, sharp_where_focused] {
+        for scene in [full, stretched, pieces, textured, shining, sampled, sharp_where_focused, full_in_motion] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {
                 for sign in [far, -far] {

@@ -37,6 +37,8 @@ mod lens;
 mod material;
 mod metal;
 mod mirror;
+mod motion;
+mod moving;
 mod phong;
 mod pixel_steps;
 mod plane;
@@ -91,6 +93,10 @@ pub use lens::{LensTable, check_lens, lens_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
 pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
 pub use mirror::{MirrorTable, mirror_evidence};
+pub use motion::{
+    ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
+};
+pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
@@ -124,6 +130,7 @@ use bevy_ecs::prelude::*;
 /// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
+    check_motion(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     check_lens(scene)?;
@@ -141,6 +148,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     RectangleTable::extract(scene)?;
     CuboidTable::extract(scene)?;
     TriangleTable::extract(scene)?;
+    MovingTable::extract(scene)?;
     VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;

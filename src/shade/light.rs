@@ -86,6 +86,10 @@ impl RayColumn for LightRays {
     fn ray_lanes(&self) -> RayLanes<'_> {
         RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
     }
+
+    fn path_lane(&self) -> Option<&[u32]> {
+        Some(&self.path)
+    }
 }
 
 // ANCHOR: matte_radiance

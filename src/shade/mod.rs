@@ -62,8 +62,9 @@ pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
-    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
+    plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    triangle_shadow_stage,
 };
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
@@ -87,6 +88,7 @@ pub fn stages() -> Vec<Stage> {
         rectangle_shadow_stage(),
         cuboid_shadow_stage(),
         triangle_shadow_stage(),
+        moving_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
     stages.push(image_circle_stage());
