@@ -13,8 +13,8 @@ use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{Filter, Placement, PointLight, Sampling, Statistics};
 use scenes::{
-    EYES, Eye, FilmBits, Setup, film, film_by, full, named, offer, one_world, pieces, shining, stretched, textured,
-    ties, turned,
+    EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, named, offer, one_world, pieces, shining, stretched,
+    textured, ties, turned,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -33,6 +33,9 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("pieces", pieces(Setup::default())),
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
+        ("blurred", blurred(Setup::default())),
+        ("fisheye", scenes::fisheye(Setup::default())),
+        ("all round", scenes::all_round(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -43,6 +46,16 @@ fn sampled(setup: Setup) -> World {
     let mut scene = textured(setup);
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert(Sampling { samples: 3, filter: Filter::MITCHELL, ..Sampling::default() });
+    scene
+}
+
+/// What is moved exactly, through a lens and by several samples a pixel.
+fn sharp_where_focused(setup: Setup) -> World {
+    let mut scene = sampled(setup);
+    if setup.eye == Eye::Perspective {
+        let camera = named(&mut scene, "camera");
+        scene.entity_mut(camera).insert(scenes::lens(setup.scale));
+    }
     scene
 }
 
@@ -144,7 +157,8 @@ fn every_order_that_the_schedule_allows() {
         let timed = with_statistics(scene);
         let mut orders = BTreeSet::new();
         // Files are read again for every render, and every kind of stage has more orders than seeds.
-        let seeds = if name == "textured" { 8 } else { SEEDS };
+        let textures = matches!(name, "textured" | "fisheye" | "all round");
+        let seeds = if textures { 8 } else { SEEDS };
         for seed in 0..seeds {
             let film = film_by(&timed, &offer(), &shuffled(seed, one_world())).expect("renders");
             film.assert_is(&expected, &format!("{name} with statistics, shuffled by {seed}"));
@@ -163,7 +177,7 @@ fn every_order_that_the_schedule_allows() {
             }
         }
         let allowed = orders_allowed(&scene);
-        if name == "textured" {
+        if textures {
             assert!(orders.len() > 6, "{name}: only {} orders", orders.len());
         } else if allowed < 20 {
             assert_eq!(orders.len(), allowed, "{name}: not every order that is allowed was seen in {SEEDS} seeds");
@@ -236,7 +250,7 @@ fn statistics_change_nothing() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining, sampled] {
+        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -247,7 +261,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 7 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 8 scenes, all equal");
 }
 
 #[test]
@@ -257,7 +271,7 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        for scene in [full, stretched, pieces, textured, shining, sampled] {
+        for scene in [full, stretched, pieces, textured, shining, sampled, sharp_where_focused] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {
                 for sign in [far, -far] {

@@ -206,8 +206,8 @@ fn stages_declare_what_their_systems_touch() {
         reads.extend(stage.tables.iter().chain(asked).chain(beside).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
         if stage.name == "Turn rays into the world" {
-            // Its rays have origins only where the orthographic stage, an alternative, has brought its table.
-            reads.insert("table view rectangle".into());
+            // Its rays have origins only where another stage, an alternative, has brought its table.
+            reads.extend(["table view rectangle".into(), "table lens".into()]);
         }
         assert_eq!(written, writes, "\"{}\" writes", stage.name);
         assert_eq!(read, reads, "\"{}\" reads", stage.name);
@@ -244,6 +244,7 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a glossy ball", add::<(Sphere, Phong)>, take::<(Sphere, Phong)>),
         ("a satin ball", add::<(Sphere, BlinnPhong)>, take::<(Sphere, BlinnPhong)>),
         ("a glow", add::<(Sphere, Emissive)>, take::<(Sphere, Emissive)>),
+        ("a lens", add::<(PerspectiveCamera, Lens)>, take::<(PerspectiveCamera, Lens)>),
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];
     let mut changed = 0;
@@ -423,7 +424,7 @@ fn three(noun: &str) -> String {
 fn an_emissive_surface_is_seen_and_lights_nothing() {
     let plan = plan_of(&toggled(&[Toggle::Emissive, Toggle::Plane]));
     let emission = row(&plan, "Add what surfaces emit");
-    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else yet");
+    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else");
     assert!(emission.kept && !row(&plan, "Show surfaces unlit").kept && !row(&plan, "Add the light that arrives").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();

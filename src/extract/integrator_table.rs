@@ -2,7 +2,7 @@ use super::camera::camera_entity;
 use super::check::{at_most_one, kind_and_name, positive_length};
 use super::integrator::integrator_of;
 use crate::plan::Table;
-use crate::scene::{Integrator, Refusal};
+use crate::scene::{Integrator, LightSampling, Refusal};
 use bevy_ecs::prelude::*;
 
 /// How far light is followed.
@@ -12,6 +12,8 @@ pub struct IntegratorTable {
     pub legs: u32,
     /// The leg from which ways end by chance.
     pub roulette: u32,
+    /// Whether two ways to find a light are weighed against each other.
+    pub weighed: bool,
     /// How far something still hides the sky, in scene units.
     pub distance: f32,
 }
@@ -36,10 +38,12 @@ impl Table for IntegratorTable {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
             Integrator::Whitted { legs } | Integrator::Distribution { legs } => table.legs = legs,
-            Integrator::Path { legs, roulette, .. } => (table.legs, table.roulette) = (legs, roulette),
+            Integrator::Path { legs, roulette, lights } => {
+                (table.legs, table.roulette, table.weighed) = (legs, roulette, lights == LightSampling::Weighed);
+            }
         }
         if table.legs == 0 {
-            let accepted = "it must be at least 1, the leg from the camera";
+            let accepted = "it must be at least 1, and 2 for light that comes by one surface";
             return Err(Refusal::new(who(), "integrator legs", "0", accepted));
         }
         Ok(table)

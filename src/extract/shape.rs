@@ -138,6 +138,11 @@ impl Table for ShapeTable {
     }
 }
 
+/// Whether an entity, enabled or not, carries a shape.
+pub(super) fn is_shape(scene: &World, entity: Entity) -> bool {
+    WRITTEN.iter().any(|written| (written.carries)(scene, entity))
+}
+
 /// The one shape that an entity is.
 fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, Refusal> {
     let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
@@ -179,7 +184,7 @@ fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>
 }
 
 /// The entity that says what a shape emits: itself, or else the one whose material it uses.
-fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
+pub(super) fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();
     [Some(shape), used].into_iter().flatten().find(emits)

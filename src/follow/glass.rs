@@ -1,10 +1,10 @@
-use super::draws::{Draws, draws_of_one};
 use super::media::media_evidence;
 use super::mirror::mirroring_normal;
-use super::{GlassRows, Media, Paths, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
+use super::{GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
 use crate::extract::{GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if};
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Draws, Paths, draws_of_one};
 use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::sample::Purpose;
 use crate::scene::Integrator;

@@ -1,8 +1,8 @@
 use super::media::media_evidence;
-use super::{Media, PathLight, Paths, Scattered};
+use super::{Media, Scattered};
 use crate::extract::{IntegratorTable, followed_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
-use crate::rays::{Leg, WorldRays};
+use crate::rays::{Leg, PathLight, Paths, WorldRays};
 use crate::shade::{Footprints, Radiance};
 use bevy_ecs::prelude::*;
 

@@ -1,10 +1,9 @@
-use super::draws::{Draws, draws_of_two};
 use super::frame::{cosine_direction, frame_of};
-use super::{Paths, Scattered, ScatteredRay};
+use super::{Scattered, ScatteredRay};
 use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile};
+use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::SurfaceColours;

@@ -1,8 +1,8 @@
-use super::{GlassRows, MediumStack, Paths, Scattered, transmittance};
+use super::{GlassRows, MediumStack, Scattered, transmittance};
 use crate::extract::{GlassTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that};
 use crate::intersect::{Hits, SurfaceSides, Surfaces};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
-use crate::rays::WorldRays;
+use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

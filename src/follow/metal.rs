@@ -1,8 +1,8 @@
-use super::draws::{Draws, draws_of_two};
-use super::{MetalRows, Paths, Scattered, ScatteredRay, frame_of, ggx_brdf, ggx_sample};
+use super::{MetalRows, Scattered, ScatteredRay, frame_of, ggx_brdf, ggx_sample};
 use crate::extract::{MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, needed_if};
 use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Draws, Paths, draws_of_two};
 use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::sample::Purpose;
 use crate::scene::Integrator;

@@ -1,8 +1,8 @@
-use super::{MirrorRows, Paths, Scattered, ScatteredRay, mirror_direction};
+use super::{MirrorRows, Scattered, ScatteredRay, mirror_direction};
 use crate::extract::{MirrorTable, followed_evidence, mirror_evidence};
 use crate::intersect::{ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Shared, Stage, TileSystems};
-use crate::rays::WorldRays;
+use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

@@ -1,9 +1,8 @@
-use super::draws::{Draws, draws_of_two};
 use super::frame::{cosine_direction, frame_of};
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, offset_origin, shape_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile};
+use crate::rays::{Draws, Leg, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;

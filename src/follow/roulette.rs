@@ -1,8 +1,7 @@
-use super::draws::{Draws, draws_of_one};
-use super::{Paths, Scattered};
+use super::Scattered;
 use crate::extract::{IntegratorTable, SamplingTable, needed_if};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile};
+use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use bevy_ecs::prelude::*;

@@ -1,6 +1,5 @@
-use crate::follow::{PathLight, Paths};
 use crate::plan::{Column, ColumnKind, Lifetime, Plan, Stage};
-use crate::rays::{Leg, Tile};
+use crate::rays::{Leg, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_tile};
 use crate::scene::{Refusal, TracePixel};
 use crate::{Error, Result};

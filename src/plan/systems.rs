@@ -18,6 +18,8 @@ pub enum TileSystems {
     Ndc,
     /// The same points, y up, as wide as the image's shape.
     Screen,
+    /// What else of each camera ray is left to chance: where on the lens it starts.
+    Lens,
     /// Rays of a camera at the origin that looks down −z.
     Camera,
     /// The same rays, turned as the camera is.
@@ -48,6 +50,8 @@ pub enum TileSystems {
     Unblock,
     /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
     Occlude,
+    /// Light that chance may find too counts for less.
+    Weigh,
     /// Light that arrives is added up.
     Shade,
     /// What light lost on its way here is taken off.
@@ -64,6 +68,8 @@ pub enum TileSystems {
     Follow,
     /// The light of all legs becomes the radiance of the first.
     Gather,
+    /// What lies outside a camera's image circle is made black.
+    Mask,
     /// Where a reader asked to see a column, it is painted instead.
     View,
     /// How far radiance lies from the mean of what the film holds, before it joins.
@@ -78,6 +84,7 @@ impl TileSystems {
         Self::Raster,
         Self::Ndc,
         Self::Screen,
+        Self::Lens,
         Self::Camera,
         Self::World,
         Self::Start,
@@ -93,6 +100,7 @@ impl TileSystems {
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
+        Self::Weigh,
         Self::Shade,
         Self::Absorb,
         Self::Scatter,
@@ -101,6 +109,7 @@ impl TileSystems {
         Self::Step,
         Self::Follow,
         Self::Gather,
+        Self::Mask,
         Self::View,
         Self::Moments,
         Self::Film,
@@ -116,7 +125,8 @@ impl TileSystems {
     pub fn order_free(self) -> bool {
         matches!(
             self,
-            Self::Start
+            Self::Lens
+                | Self::Start
                 | Self::Intersect
                 | Self::Surface
                 | Self::Footprint

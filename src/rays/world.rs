@@ -1,5 +1,5 @@
 use super::CameraRays;
-use crate::extract::{CameraAxes, ViewRectangle};
+use crate::extract::{CameraAxes, LensTable, ViewRectangle};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
@@ -35,12 +35,12 @@ impl WorldRays {
 /// The camera's position does not occur: render space has it at the origin.
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
-    many_origins: Option<Res<Shared<ViewRectangle>>>,
+    many_origins: (Option<Res<Shared<ViewRectangle>>>, Option<Res<Shared<LensTable>>>),
     mut tiles: Query<(&CameraRays, &mut WorldRays)>,
 ) {
     for (camera, mut world) in &mut tiles {
         direction_rows(camera, axes.world_from_camera, &mut world);
-        if many_origins.is_some() {
+        if many_origins.0.is_some() || many_origins.1.is_some() {
             origin_rows(camera, axes.world_from_camera, &mut world);
         }
     }

@@ -112,12 +112,9 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn(Tile::default());
+    let mut tile = world.spawn((Tile::default(), Leg::default()));
     if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
         tile.insert((SampleNumber::default(), ActivePixels::default()));
-    }
-    if plan.stages.iter().any(|stage| stage.set == TileSystems::Step) {
-        tile.insert(Leg::default());
     }
     for column in &plan.columns {
         (column.insert)(&mut tile);

@@ -1,5 +1,7 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
-use crate::extract::{MaterialTable, material_evidence, occlusion_evidence, unless_occlusion};
+use crate::extract::{
+    MaterialTable, aimed_evidence, area_light_evidence, material_evidence, occlusion_evidence, unless_occlusion,
+};
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
@@ -37,6 +39,22 @@ column! {
     }
 }
 
+column! {
+    /// How likely each light ray was to be sent where it goes; beside the light rays, where something reads it.
+    pub struct LightDensities("light density", "directions", "1/sr", Ray) {
+        /// Per unit of solid angle, the chance of having chosen that light included; 0 for a light without an area, which
+        /// no other ray can find by chance.
+        density: f64,
+    }
+}
+
+impl LightDensities {
+    /// Grey, the brighter the likelier.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [(self.density[row] / (1.0 + self.density[row])) as f32; 3]
+    }
+}
+
 impl LightRays {
     /// The direction: each part from −1 to 1 becomes 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
@@ -47,6 +65,13 @@ impl LightRays {
     #[inline(always)]
     pub fn direction_of(&self, ray: usize) -> DVec3 {
         DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
+    }
+
+    /// Lets a ray bring only this share of what it would.
+    #[inline(always)]
+    pub fn weigh(&mut self, ray: usize, share: f64) {
+        let weighed = |part: f32| (f64::from(part) * share) as f32;
+        (self.r[ray], self.g[ray], self.b[ray]) = (weighed(self.r[ray]), weighed(self.g[ray]), weighed(self.b[ray]));
     }
 
     /// The irradiance that a ray brings.
@@ -123,13 +148,16 @@ pub(super) struct LitRows<'a> {
     pub rows: &'a [u32],
 }
 
+/// The lists that rays to lights are appended to.
+pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightDensities>);
+
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
 /// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
     lit: &LitRows<'_>,
-    rays: &mut LightRays,
+    (rays, densities): RayLists<'_>,
     casts_shadows: bool,
     ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
@@ -142,6 +170,9 @@ pub(super) fn append_rays(
         Some(normals) => {
             append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
+    }
+    if let Some(densities) = densities {
+        densities.slices_mut(rays.rows());
     }
 }
 
@@ -169,11 +200,16 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
 }
 
 /// The most light that a ray brings: what is more than f32 holds counts as its largest number.
-const MOST: f64 = f32::MAX as f64;
+pub(super) const MOST: f64 = f32::MAX as f64;
 
 /// Empties every tile's list of light rays.
-pub fn start_light(mut tiles: Query<&mut LightRays>) {
-    tiles.iter_mut().for_each(|mut rays| rays.clear());
+pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightDensities>)>) {
+    for (mut rays, densities) in &mut tiles {
+        rays.clear();
+        if let Some(mut densities) = densities {
+            densities.clear();
+        }
+    }
 }
 
 // ANCHOR: add_light
@@ -203,6 +239,7 @@ pub fn add_light(
 pub fn start_light_stage() -> Stage {
     Stage::new("Start with no light on its way", TileSystems::Start, start_light)
         .writes::<LightRays>()
+        .writes::<LightDensities>()
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
@@ -232,11 +269,17 @@ pub fn lit_evidence(scene: &World) -> Evidence {
     light_evidence(scene).and(material_evidence(scene))
 }
 
-/// Evidence that there is a light of any kind.
+/// Evidence that there is a light of any kind that rays are sent to.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    unless_occlusion(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true))
+    unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
 }
 
-/// Every component that is a light; a new one joins here.
+/// The evidence of lights without an area, or else that there are lights with one and that they are aimed at.
+pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
+    let areas = area_light_evidence(scene).and(aimed_evidence(scene));
+    if areas.needed { points.or(areas) } else { points }
+}
+
+/// Every component that is a light without an area; a new one joins here.
 pub(super) const LIGHTS: [Carried; 3] =
     [Carried::of::<PointLight>(), Carried::of::<DirectionalLight>(), Carried::of::<SpotLight>()];

@@ -4,17 +4,20 @@
 //! Writes: [`LightRays`] towards lights, [`ShadowHits`] on the way there, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
 
+mod area_light;
 mod background;
 mod blinn_phong;
 mod checker;
 mod colour;
 mod directional_light;
 mod emissive;
+pub mod emitter;
 mod environment;
 mod flat;
 mod footprint;
 mod gradient;
 mod highlight;
+mod image_circle;
 mod image_texture;
 mod light;
 mod lookup;
@@ -27,6 +30,7 @@ mod surface_colour;
 mod texture_point;
 mod unmet;
 
+pub use area_light::{aim_at_area_lights, area_light_density, area_light_stage, irradiance_from_area};
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
 pub use checker::{
@@ -43,9 +47,11 @@ pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
+pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light, start_light_stage,
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light,
+    start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
@@ -68,7 +74,8 @@ pub fn stages() -> Vec<Stage> {
     stages.extend(colour_stages());
     stages.extend(background_stages());
     stages.push(flat_stage());
-    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), start_shadow_stage()]);
+    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
+    stages.push(start_shadow_stage());
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([
         plane_shadow_stage(),
@@ -78,6 +85,7 @@ pub fn stages() -> Vec<Stage> {
         triangle_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
+    stages.push(image_circle_stage());
     stages
 }
 

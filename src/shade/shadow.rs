@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::{LIGHTS, either};
+use super::light::{LIGHTS, either, or_aimed};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
     occlusion_evidence, unless_occlusion,
@@ -139,10 +139,11 @@ pub fn triangle_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    let lights = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
+    let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     });
-    either(unless_occlusion(scene, lights.and(material_evidence(scene))), occlusion_evidence(scene))
+    let lit = or_aimed(scene, points).and(material_evidence(scene));
+    either(unless_occlusion(scene, lit), occlusion_evidence(scene))
 }

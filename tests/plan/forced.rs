@@ -102,6 +102,9 @@ fn forcing_a_needed_stage_off_shows() {
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
         ("everything, larger", full(Setup { size: [80, 60], ..Setup::default() })),
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
+        ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),
+        ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
+        ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
     ];
     for stage in &offer {
         let mut powers = Vec::new();

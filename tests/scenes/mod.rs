@@ -1,6 +1,7 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod public;
 mod textured;
 
 use bevy_ecs::prelude::*;
@@ -11,7 +12,7 @@ pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade};
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 
@@ -72,6 +73,7 @@ pub fn offer() -> Vec<Stage> {
     let mut offer = rays::stages();
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
+    offer.extend(follow::stages());
     offer.push(view_stage(&offer));
     offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
@@ -132,6 +134,39 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
+}
+
+/// A lens wide enough to blur these scenes, of as many units to a unit.
+pub fn lens(scale: f64) -> Lens {
+    let aperture = Aperture::Radius { radius: 0.125 * scale };
+    Lens { aperture, focus_distance: 4.0 * scale, blades: 5, turn: Degrees(10.0) }
+}
+
+/// The scene of [`turned`] through a lens, where the camera is a perspective one.
+pub fn blurred(setup: Setup) -> World {
+    let mut world = turned(setup);
+    if setup.eye == Eye::Perspective {
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(lens(setup.scale));
+    }
+    world
+}
+
+/// The textured scene by a fisheye that sees more than half of all directions.
+pub fn fisheye(setup: Setup) -> World {
+    other_camera(setup, FisheyeCamera { fov: Degrees(200.0), axis: FovAxis::Smaller })
+}
+
+/// The textured scene in all directions.
+pub fn all_round(setup: Setup) -> World {
+    other_camera(setup, EquirectangularCamera)
+}
+
+fn other_camera(setup: Setup, camera: impl Component) -> World {
+    let mut world = textured(Setup { eye: Eye::Perspective, ..setup });
+    let own = named(&mut world, "camera");
+    world.entity_mut(own).remove::<PerspectiveCamera>().insert(camera);
+    world
 }
 
 /// Spheres that their placements stretch: an egg, a mirrored and turned pancake, a needle, one that a parent shears, and
@@ -222,7 +257,7 @@ pub fn shining(setup: Setup) -> World {
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
     let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
     let (colour, specular) = (Rgb::new(0.5, 0.2, 0.1), Rgb::new(0.3, 0.4, 0.5));
-    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b) };
+    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() };
     let gold = (Name::new("gold"), Phong { colour, specular, exponent: 9.5 }, glow(0.05, 0.0, 0.1));
     let gold = world.spawn(gold).id();
     world.spawn((Name::new("matte ball"), sphere(0.5), at(-1.77, 0.5, 0.53), Matte { colour }, glow(0.0, 0.1, 0.0)));
@@ -313,6 +348,8 @@ pub enum Toggle {
     BlinnPhong,
     Emissive,
     Samples,
+    /// A lens, where the camera is a perspective one.
+    Lens,
 }
 
 /// All of them.
@@ -333,7 +370,8 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 5] = [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive];
+pub const MORE: [Toggle; 6] =
+    [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive, Toggle::Lens];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -397,7 +435,7 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Emissive) {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
-        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2) }));
+        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
@@ -411,6 +449,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Layers) {
         world.entity_mut(camera).insert(Layers::all());
+    }
+    if has(Toggle::Lens) && eye == Eye::Perspective {
+        world.entity_mut(camera).insert(lens(1.0));
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });

@@ -32,6 +32,6 @@ pub(super) const FORMS: &[ClosedForm] = &[
 fn room(world: &mut World, albedo: f64) {
     let integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
     world.spawn((PerspectiveCamera::default(), Placement::at(0.2, -0.1, 0.3), integrator));
-    let wall = (Matte { colour: Rgb::grey(albedo) }, Emissive { radiance: Rgb::grey(1.0) });
+    let wall = (Matte { colour: Rgb::grey(albedo) }, Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
     world.spawn((Sphere { radius: 1.0 }, wall));
 }

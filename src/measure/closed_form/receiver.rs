@@ -8,7 +8,8 @@ use crate::scene::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-macro_rules! three_ways {
+/// A light in the three ways in which its light is found.
+macro_rules! found_in_three_ways {
     ($($name:literal, $formula:literal, $truth:expr, $few:expr, $light:expr;)+) => {
         &[$(
             ClosedForm {
@@ -18,11 +19,25 @@ macro_rules! three_ways {
                 few: $few,
                 scene: |world| lit(world, LightSampling::ByChance, $light),
             },
+            ClosedForm {
+                name: concat!($name, ", aimed at"),
+                formula: $formula,
+                truth: $truth,
+                few: $few,
+                scene: |world| lit(world, LightSampling::Aimed, $light),
+            },
+            ClosedForm {
+                name: concat!($name, ", weighed"),
+                formula: $formula,
+                truth: $truth,
+                few: $few,
+                scene: |world| lit(world, LightSampling::Weighed, $light),
+            },
         )+]
     };
 }
 
-pub(super) const FORMS: &[ClosedForm] = three_ways![
+pub(super) const FORMS: &[ClosedForm] = found_in_three_ways![
     "ball light overhead", "L (r / h)²", || 0.25, 1 << 16, |world| {
         world.spawn((Sphere { radius: 0.5 }, Placement::at(0.0, 1.0, 0.0), shining()));
     };
@@ -41,7 +56,7 @@ fn square() -> f64 {
 }
 
 fn shining() -> Emissive {
-    Emissive { radiance: Rgb::grey(1.0) }
+    Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() }
 }
 
 fn lit(world: &mut World, lights: LightSampling, light: fn(&mut World)) {

@@ -46,6 +46,13 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut camera) = entity.get_mut::<OrthographicCamera>() {
             camera.view_height *= scale;
         }
+        if let Some(mut lens) = entity.get_mut::<Lens>() {
+            lens.focus_distance *= scale;
+            match &mut lens.aperture {
+                Aperture::Radius { radius } => *radius *= scale,
+                Aperture::FNumber { focal_length, .. } => *focal_length *= scale,
+            }
+        }
         let stronger = |Rgb { r, g, b }: Rgb| Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
         if let Some(mut light) = entity.get_mut::<PointLight>() {
             light.intensity = stronger(light.intensity);

@@ -1,6 +1,5 @@
-use super::Paths;
+use super::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::extract::SamplingTable;
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
 
@@ -23,9 +22,7 @@ pub struct Draws<'a> {
 impl Draws<'_> {
     fn keys<'r>(&'r self, rows: &'r [u32]) -> impl Iterator<Item = PixelKey> + 'r {
         rows.iter().map(|&row| {
-            let first = self.paths.map_or(row, |paths| paths.first[row as usize]) as usize;
-            let pixel = self.samples.map_or(first, |samples| samples.pixel[first] as usize);
-            PixelKey::new(self.sampling.seed, self.tile.pixel_of(pixel))
+            PixelKey::new(self.sampling.seed, pixel_of_row(self.tile, self.samples, self.paths, row as usize))
         })
     }
 
