@@ -56,6 +56,12 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/exercise.rs"]
+pub mod mirrors;
+
+#[path = "20_glass/exercise.rs"]
+pub mod glass;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -109,3 +115,9 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 19.
+pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
+
+/// Chapter 20.
+pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);

@@ -107,7 +107,6 @@ impl Met<'_> {
     }
 }
 
-// ANCHOR: scatter_glass
 /// Sends a ray on from every surface of glass, mirrored or bent by chance.
 pub fn scatter_glass(
     sampling: Res<Shared<SamplingTable>>,
@@ -131,7 +130,6 @@ pub fn scatter_glass(
         });
     }
 }
-// ANCHOR_END: scatter_glass
 
 // ANCHOR: split_at_glass
 /// Sends both rays on from every surface of glass (Whitted 1980).

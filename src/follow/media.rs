@@ -45,7 +45,6 @@ pub fn start_media(mut tiles: Query<(&WorldRays, &mut Media)>) {
     }
 }
 
-// ANCHOR: absorb_in_glass
 /// Leaves of each ray's share what the glass on its way lets through; on a way without end that is nothing.
 pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
     for (hits, media, mut paths) in &mut tiles {
@@ -58,9 +57,7 @@ pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, 
         }
     }
 }
-// ANCHOR_END: absorb_in_glass
 
-// ANCHOR: carry_media
 /// Gives each scattered ray the media of the ray that it came of, with what it entered or left where it went through
 /// glass.
 pub fn carry_media(
@@ -85,7 +82,6 @@ pub fn carry_media(
         std::mem::swap(&mut *kept, &mut *media);
     }
 }
-// ANCHOR_END: carry_media
 
 /// The stage that starts.
 pub fn start_media_stage() -> Stage {

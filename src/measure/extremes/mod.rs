@@ -19,6 +19,7 @@ mod frame;
 mod lamp;
 mod light;
 mod light_albedo;
+mod matter;
 mod plane;
 mod print;
 mod sampling;
@@ -74,6 +75,8 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Mirrors, glass and rough metal.
+    Matter,
 }
 
 impl Group {
@@ -93,6 +96,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Matter,
     ];
 
     /// Its cases.
@@ -114,6 +118,7 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Matter => matter::trials(),
         }
     }
 }
@@ -134,6 +139,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Matter => "matter",
         })
     }
 }
