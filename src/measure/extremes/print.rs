@@ -20,6 +20,7 @@ impl Group {
             Self::Disk => ["disks", "to judge", "wrong"],
             Self::Rectangle => ["rectangles", "to judge", "wrong"],
             Self::Cuboid => ["cuboids", "to judge", "wrong"],
+            Self::Matter => ["mirrors, glass and metal", "to judge", "wrong"],
         }
     }
 
