@@ -12,6 +12,7 @@ use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{Filter, Placement, PointLight, Sampling, Statistics};
+use scenes::matter::{brushed, polished};
 use scenes::{
     EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, named, offer, one_world, pieces, shining, stretched,
     textured, ties, turned,
@@ -34,6 +35,8 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
+        ("polished", polished(Setup::default())),
+        ("brushed", brushed(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
         ("all round", scenes::all_round(Setup::default())),
         ("ties", ties()),
@@ -250,7 +253,7 @@ fn statistics_change_nothing() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred] {
+        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred, polished, brushed] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -261,7 +264,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 8 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 10 scenes, all equal");
 }
 
 #[test]
@@ -271,7 +274,7 @@ fn moved_by_two_to_the_twentieth() {
     for eye in EYES {
         // Off the coarse grid of the scene itself by one step of the finest one that must hold.
         let setup = Setup { eye, size: [48, 33], shift: DVec3::new(fine, -fine, 5.0 * fine), ..Setup::default() };
-        for scene in [full, stretched, pieces, textured, shining, sampled, sharp_where_focused] {
+        for scene in [full, stretched, pieces, textured, shining, sampled, sharp_where_focused, polished, brushed] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {
                 for sign in [far, -far] {
