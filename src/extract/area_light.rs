@@ -2,7 +2,7 @@ use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
 use super::shape::{emissive_of, is_shape};
 use super::{
     CuboidTable, DiskTable, EmissiveTable, Flat, NO_ROW, RectangleTable, ShapeKind, ShapeTable, SphereTable,
-    TriangleTable, shape_entities, unevenly_scaled,
+    TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
 };
 use crate::plan::{Evidence, Table, counted};
 use crate::scene::{Emissive, Placement, Plane, Refusal, Rgb, Sphere, called};
@@ -14,8 +14,8 @@ const PARTS: u64 = 1 << 32;
 
 /// Lights with an area whose points can be aimed at, in spawn order of their shapes.
 ///
-/// Planes have no end and unevenly scaled spheres no even spread of points that is known; what these emit is met by chance
-/// only.
+/// Planes have no end, unevenly scaled spheres no even spread of points that is known, and what moves is elsewhere for
+/// every ray; what these emit is met by chance only.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AreaLightTable {
     /// Their shapes.
@@ -99,7 +99,7 @@ impl Table for AreaLightTable {
                     let slabs = &cuboids.slabs[row];
                     Emitter::Cuboid(EmittingCuboid::new(slabs.centre, slabs.half_edges()))
                 }
-                ShapeKind::Plane | ShapeKind::Ellipsoid => continue,
+                ShapeKind::Plane | ShapeKind::Ellipsoid | ShapeKind::Moving => continue,
             };
             let one_sided = emissive.one_sided[emits as usize];
             let sides = if one_sided { 1.0 } else { 2.0 };
@@ -130,8 +130,11 @@ fn about_ellipse(flat: &Flat) -> Parallelogram {
 
 /// Evidence that a shape emits light and can be aimed at; shapes that emit and cannot are told too.
 pub fn area_light_evidence(scene: &World) -> Evidence {
+    let moves = moves_while_open(scene);
     let endless = |shape: Entity| {
-        scene.get::<Plane>(shape).is_some() || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
+        moves(shape)
+            || scene.get::<Plane>(shape).is_some()
+            || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
     };
     let shines = |shape: Entity| {
         let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));

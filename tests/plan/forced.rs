@@ -106,6 +106,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
         ("polished", scenes::matter::polished(Setup { size, ..Setup::default() })),
         ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
+        ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
     ];
     for stage in &offer {

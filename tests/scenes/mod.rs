@@ -153,6 +153,33 @@ pub fn blurred(setup: Setup) -> World {
     world
 }
 
+/// The scene of [`turned`] while its camera and some of its balls move.
+pub fn moving(setup: Setup) -> World {
+    let mut world = turned(setup);
+    set_in_motion(&mut world, &setup);
+    world
+}
+
+/// Lets the camera move, and of these things those that there are.
+fn set_in_motion(world: &mut World, setup: &Setup) {
+    let velocity = |x, y, z| Motion { velocity: DVec3::new(x, y, z) * setup.scale };
+    let camera = named(world, "camera");
+    world.entity_mut(camera).insert((Shutter { open: 0.0, close: 0.5 }, velocity(0.25, 0.0, -0.125)));
+    for (name, motion) in [
+        ("ball", velocity(0.5, 0.25, 0.0)),
+        ("left ball", velocity(0.5, 0.25, 0.0)),
+        ("double", velocity(0.0, 0.5, 0.25)),
+        ("coin", velocity(-0.5, 0.0, 0.5)),
+        ("mat", velocity(0.0, 0.25, 0.0)),
+    ] {
+        let mut names = world.query::<(Entity, &Name)>();
+        let found = names.iter(world).find(|(_, own)| own.as_str() == name).map(|(entity, _)| entity);
+        if let Some(entity) = found {
+            world.entity_mut(entity).insert(motion);
+        }
+    }
+}
+
 /// The textured scene by a fisheye that sees more than half of all directions.
 pub fn fisheye(setup: Setup) -> World {
     other_camera(setup, FisheyeCamera { fov: Degrees(200.0), axis: FovAxis::Smaller })
@@ -351,6 +378,8 @@ pub enum Toggle {
     Samples,
     /// A lens, where the camera is a perspective one.
     Lens,
+    /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
+    Motion,
     Mirror,
     /// Glass that absorbs.
     Glass,
@@ -375,13 +404,14 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 9] = [
+pub const MORE: [Toggle; 10] = [
     Toggle::Sun,
     Toggle::Spot,
     Toggle::Phong,
     Toggle::BlinnPhong,
     Toggle::Emissive,
     Toggle::Lens,
+    Toggle::Motion,
     Toggle::Mirror,
     Toggle::Glass,
     Toggle::Metal,
@@ -476,6 +506,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Lens) && eye == Eye::Perspective {
         world.entity_mut(camera).insert(lens(1.0));
+    }
+    if has(Toggle::Motion) {
+        set_in_motion(&mut world, &setup);
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });

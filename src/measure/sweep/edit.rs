@@ -46,6 +46,9 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut camera) = entity.get_mut::<OrthographicCamera>() {
             camera.view_height *= scale;
         }
+        if let Some(mut motion) = entity.get_mut::<Motion>() {
+            motion.velocity *= scale;
+        }
         if let Some(mut lens) = entity.get_mut::<Lens>() {
             lens.focus_distance *= scale;
             match &mut lens.aperture {
@@ -101,6 +104,11 @@ pub fn lay_on_grid(scene: &mut World) {
 /// The whole scene turned about the world's origin.
 pub fn turn(scene: &mut World, by: DQuat) {
     edit_places(scene, |point| by * point);
+    for entity in entities::<With<Motion>>(scene) {
+        if let Some(mut motion) = scene.entity_mut(entity).get_mut::<Motion>() {
+            motion.velocity = by * motion.velocity;
+        }
+    }
     for entity in roots(scene) {
         let mut entity = scene.entity_mut(entity);
         if let Some(mut look) = entity.get_mut::<LookAt>() {
