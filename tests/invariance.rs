@@ -13,6 +13,7 @@ use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{Filter, Integrator, Motion, Placement, PointLight, Sampling, Shutter, Statistics};
 use scenes::followed::{INTEGRATORS, followed};
+use scenes::matter::{brushed, polished};
 use scenes::{
     EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, pieces, shining,
     stretched, textured, ties, turned,
@@ -35,6 +36,8 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
+        ("polished", polished(Setup::default())),
+        ("brushed", brushed(Setup::default())),
         ("moving", moving(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
         ("all round", scenes::all_round(Setup::default())),
@@ -279,8 +282,10 @@ fn statistics_change_nothing() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred, moving, paths, whitted, sky]
-        {
+        for scene in [
+            full, turned, stretched, pieces, textured, shining, sampled, blurred, moving, paths, whitted, sky,
+            polished, brushed,
+        ] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -291,7 +296,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 12 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 14 scenes, all equal");
 }
 
 #[test]
@@ -313,6 +318,8 @@ fn moved_by_two_to_the_twentieth() {
             paths,
             whitted,
             sky,
+            polished,
+            brushed,
         ] {
             let expected = film(&scene(setup));
             for axes in 1..8_u32 {

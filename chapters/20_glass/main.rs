@@ -51,8 +51,9 @@ fn scene(world: &mut World) {
 
     let tiles = Checker { first: Rgb::new(0.6, 0.6, 0.58), second: Rgb::new(0.15, 0.2, 0.3), ..Checker::default() };
     world.spawn((Name::new("floor"), Plane::default(), Matte::default(), tiles));
-    let lamp = PointLight { intensity: Rgb::grey(70.0), ..PointLight::default() };
-    world.spawn((Name::new("lamp"), lamp, Placement::at(-3.0, 5.5, 4.0)));
+    let sun = DirectionalLight { irradiance: Rgb::grey(2.6), ..DirectionalLight::default() };
+    let high = LookAt { eye: [-3.0, 5.5, 3.0].into(), target: [0.0, 0.0, 0.0].into(), ..LookAt::default() };
+    world.spawn((Name::new("sun"), sun, high));
     world.spawn((Name::new("sky"), Gradient::default()));
 }
 // ANCHOR_END: scene

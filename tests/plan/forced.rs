@@ -105,6 +105,8 @@ fn forcing_a_needed_stage_off_shows() {
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
         ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),
         ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
+        ("polished", scenes::matter::polished(Setup { size, ..Setup::default() })),
+        ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 pub mod followed;
+pub mod matter;
 pub mod public;
 mod textured;
 
@@ -380,6 +381,10 @@ pub enum Toggle {
     Lens,
     /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
     Motion,
+    Mirror,
+    /// Glass that absorbs.
+    Glass,
+    Metal,
 }
 
 /// All of them.
@@ -400,8 +405,18 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 7] =
-    [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive, Toggle::Lens, Toggle::Motion];
+pub const MORE: [Toggle; 10] = [
+    Toggle::Sun,
+    Toggle::Spot,
+    Toggle::Phong,
+    Toggle::BlinnPhong,
+    Toggle::Emissive,
+    Toggle::Lens,
+    Toggle::Motion,
+    Toggle::Mirror,
+    Toggle::Glass,
+    Toggle::Metal,
+];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -466,6 +481,16 @@ pub fn toggled(on: &[Toggle]) -> World {
     if has(Toggle::Emissive) {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
         world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
+    }
+    if has(Toggle::Mirror) {
+        matter::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
+    }
+    if has(Toggle::Glass) {
+        let absorption = Rgb::new(0.2, 0.4, 0.8);
+        matter::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
+    }
+    if has(Toggle::Metal) {
+        matter::ball_of(&mut world, "metal ball", 1.5, Metal::default());
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));

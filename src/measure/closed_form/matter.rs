@@ -23,11 +23,11 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || 0.72,
         few: 1 << 10,
         scene: |world| {
-            // The first turns the view upward, the second, which faces down, sends it to the side.
+            // The first turns the view upward, the second sends it to the side, and upward still.
             view(world, DVec3::Z, 0.1);
             let slanted = |normal: DVec3, colour| (Plane { normal }, Mirror { colour: Rgb::grey(colour) });
             world.spawn(slanted(DVec3::new(0.0, 1.0, 1.0), 0.9));
-            world.spawn((slanted(DVec3::new(1.0, -1.0, 0.0), 0.8), Placement::at(0.0, 40.0, 0.0)));
+            world.spawn((slanted(DVec3::new(3.0, -1.0, 0.0), 0.8), Placement::at(0.0, 40.0, 0.0)));
         },
     },
     ClosedForm {

@@ -14,13 +14,13 @@ impl Group {
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
             Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Light => ["highlights and lights", "to judge", "wrong"],
+            Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
             Self::Disk => ["disks", "to judge", "wrong"],
             Self::Rectangle => ["rectangles", "to judge", "wrong"],
             Self::Cuboid => ["cuboids", "to judge", "wrong"],
-            Self::Matter => ["mirrors, glass and metal", "to judge", "wrong"],
         }
     }
 
