@@ -1,6 +1,7 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+mod soft;
 mod textured;
 
 use bevy_ecs::prelude::*;
@@ -12,6 +13,8 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::{intersect, rays, shade};
+#[allow(unused_imports, reason = "each test takes what it needs")]
+pub use soft::soft;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 
