@@ -56,6 +56,9 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "21_soft_shadows/exercise.rs"]
+pub mod soft_shadows;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -109,3 +112,6 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 21.
+pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);

@@ -60,6 +60,9 @@ pub mod sampling;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
 
+#[path = "21_soft_shadows/main.rs"]
+pub mod soft_shadows;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -84,5 +87,6 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
     ]
 }

@@ -28,6 +28,7 @@ mod sampling;
 mod screen;
 mod shapes;
 mod shown;
+mod soft_shadows;
 mod textures;
 mod transforms;
 mod turn;
@@ -63,5 +64,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
     }
 }

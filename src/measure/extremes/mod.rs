@@ -12,6 +12,7 @@ mod camera_ndc;
 mod camera_table;
 mod case;
 mod cuboid;
+mod emitter;
 mod film;
 mod film_bytes;
 mod flat;
@@ -74,6 +75,8 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Lights with an area: points on them, and how likely each was.
+    Emitter,
 }
 
 impl Group {
@@ -93,6 +96,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Emitter,
     ];
 
     /// Its cases.
@@ -114,6 +118,7 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Emitter => emitter::trials(),
         }
     }
 }
@@ -134,6 +139,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Emitter => "emitter",
         })
     }
 }
