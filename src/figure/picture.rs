@@ -72,6 +72,8 @@ impl Picture {
 
 /// The chapter with every stage that the kit has.
 fn all_stages(chapter: &Chapter) -> Chapter {
-    let offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
-    Chapter { view: None, offer, ..chapter.clone() }
+    let mut whole = chapter.clone();
+    whole.view = None;
+    whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+    whole
 }
