@@ -1,5 +1,5 @@
 //! Lamps with an area: a shadow's edge is as soft as the lamp is wide. One point of one lamp is asked at a time, at random.
-//! A wide lamp overhead, a small one aside: the box and the ball have a shadow of each.
+//! A wide lamp on one side, a bulb on the other: the post and the ball have a shadow of each.
 //! New here: `Emissive` lights other surfaces; the stage "Aim at lights with area"; the camera's `Integrator`.
 
 use bevy_ecs::prelude::*;
@@ -35,23 +35,21 @@ fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.3, 2.1, 6.2].into(), target: [0.1, 0.85, 0.0].into(), ..LookAt::default() },
+        LookAt { eye: [0.4, 2.9, 6.0].into(), target: [0.3, 0.62, 0.0].into(), ..LookAt::default() },
         Sampling { samples: 64, seed: 21, sampler: Sampler::Sobol, filter: Filter::GAUSSIAN },
         Integrator::Distribution { legs: 1 },
     ));
     world.spawn((Name::new("floor"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
-    let ball = (Sphere { radius: 0.7 }, Placement::at(-0.9, 0.7, 0.2), Matte { colour: Rgb::new(0.7, 0.35, 0.2) });
-    world.spawn((Name::new("ball"), ball));
-    let turned = DQuat::from_xyzw(0.0, 0.26, 0.0, 0.966).normalize();
-    let on_floor = Placement { orientation: turned, ..Placement::at(1.0, 0.6, -0.4) };
-    let size = [0.5, 1.2, 0.5].into();
-    world.spawn((Name::new("box"), Cuboid { size }, on_floor, Matte { colour: Rgb::grey(0.7) }));
-    // Its own +y, where it shines, looks down and to the right.
-    let downward = DQuat::from_xyzw(0.0, 0.0, 0.955, -0.296).normalize();
-    let overhead = Placement { orientation: downward, ..Placement::at(-1.6, 2.6, 0.3) };
-    let shade = Emissive { radiance: Rgb::new(9.0, 7.5, 5.5), sides: Sides::Front };
-    world.spawn((Name::new("wide lamp"), Rectangle { width: 1.0, depth: 1.6 }, overhead, shade));
-    let bulb = Emissive { radiance: Rgb::new(150.0, 200.0, 300.0), ..Emissive::default() };
-    world.spawn((Name::new("bulb"), Sphere { radius: 0.09 }, Placement::at(2.6, 2.3, 1.2), bulb));
+    let clay = Matte { colour: Rgb::new(0.7, 0.35, 0.2) };
+    world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, Placement::at(-1.0, 0.6, 0.5), clay));
+    let size = [0.3, 1.8, 0.3].into();
+    world.spawn((Name::new("post"), Cuboid { size }, Placement::at(0.6, 0.9, 0.1), Matte { colour: Rgb::grey(0.7) }));
+    // Its own +y, where it shines, looks down at the middle of the floor.
+    let downward = DQuat::from_xyzw(-0.166, 0.0, -0.886, 0.434).normalize();
+    let aside = Placement { orientation: downward, ..Placement::at(-3.2, 2.9, 0.6) };
+    let warm = Emissive { radiance: Rgb::new(9.0, 7.0, 4.5), sides: Sides::Front };
+    world.spawn((Name::new("wide lamp"), Rectangle { width: 1.2, depth: 1.6 }, aside, warm));
+    let cool = Emissive { radiance: Rgb::new(90.0, 120.0, 180.0), ..Emissive::default() };
+    world.spawn((Name::new("bulb"), Sphere { radius: 0.08 }, Placement::at(2.0, 1.5, -0.9), cool));
 }
 // ANCHOR_END: scene
