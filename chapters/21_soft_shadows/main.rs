@@ -35,21 +35,21 @@ fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.4, 2.9, 6.0].into(), target: [0.3, 0.62, 0.0].into(), ..LookAt::default() },
+        LookAt { eye: [0.0, 3.2, 6.0].into(), target: [0.0, 0.5, 0.2].into(), ..LookAt::default() },
         Sampling { samples: 64, seed: 21, sampler: Sampler::Sobol, filter: Filter::GAUSSIAN },
         Integrator::Distribution { legs: 1 },
     ));
     world.spawn((Name::new("floor"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
     let clay = Matte { colour: Rgb::new(0.7, 0.35, 0.2) };
-    world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, Placement::at(-1.0, 0.6, 0.5), clay));
-    let size = [0.3, 1.8, 0.3].into();
-    world.spawn((Name::new("post"), Cuboid { size }, Placement::at(0.6, 0.9, 0.1), Matte { colour: Rgb::grey(0.7) }));
-    // Its own +y, where it shines, looks down at the middle of the floor.
-    let downward = DQuat::from_xyzw(-0.166, 0.0, -0.886, 0.434).normalize();
-    let aside = Placement { orientation: downward, ..Placement::at(-3.2, 2.9, 0.6) };
-    let warm = Emissive { radiance: Rgb::new(9.0, 7.0, 4.5), sides: Sides::Front };
-    world.spawn((Name::new("wide lamp"), Rectangle { width: 1.2, depth: 1.6 }, aside, warm));
-    let cool = Emissive { radiance: Rgb::new(90.0, 120.0, 180.0), ..Emissive::default() };
-    world.spawn((Name::new("bulb"), Sphere { radius: 0.08 }, Placement::at(2.0, 1.5, -0.9), cool));
+    world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, Placement::at(-1.2, 0.6, 0.1), clay));
+    let size = [0.3, 1.5, 0.3].into();
+    world.spawn((Name::new("post"), Cuboid { size }, Placement::at(0.8, 0.75, -0.1), Matte { colour: Rgb::grey(0.7) }));
+    // Its own +y, where it shines, looks down at the floor before the things.
+    let downward = DQuat::from_xyzw(0.502, 0.0, -0.754, 0.424).normalize();
+    let behind = Placement { orientation: downward, ..Placement::at(-3.0, 3.0, -1.5) };
+    let warm = Emissive { radiance: Rgb::new(34.0, 26.0, 17.0), sides: Sides::Front };
+    world.spawn((Name::new("wide lamp"), Rectangle { width: 1.2, depth: 1.6 }, behind, warm));
+    let cool = Emissive { radiance: Rgb::new(220.0, 300.0, 450.0), ..Emissive::default() };
+    world.spawn((Name::new("bulb"), Sphere { radius: 0.12 }, Placement::at(2.3, 1.6, -1.7), cool));
 }
 // ANCHOR_END: scene
