@@ -56,6 +56,12 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/exercise.rs"]
+pub mod mirrors;
+
+#[path = "20_glass/exercise.rs"]
+pub mod glass;
+
 #[path = "21_soft_shadows/exercise.rs"]
 pub mod soft_shadows;
 
@@ -112,6 +118,12 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 19.
+pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
+
+/// Chapter 20.
+pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
 
 /// Chapter 21.
 pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);

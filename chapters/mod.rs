@@ -60,6 +60,12 @@ pub mod sampling;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/main.rs"]
+pub mod mirrors;
+
+#[path = "20_glass/main.rs"]
+pub mod glass;
+
 #[path = "21_soft_shadows/main.rs"]
 pub mod soft_shadows;
 
@@ -87,6 +93,8 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        mirrors::chapter().exercise(exercises::MIRRORS),
+        glass::chapter().exercise(exercises::GLASS),
         soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
     ]
 }

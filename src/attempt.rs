@@ -40,6 +40,10 @@ pub enum Attempt {
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
+    /// Chapter 19: a direction, a normal.
+    Mirrored(fn([f64; 3], [f64; 3]) -> [f64; 3]),
+    /// Chapter 20: a direction, a normal, the far side's index over the near side's.
+    Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
     /// Chapter 21: the lit point, a light's point, its normal, its area.
     SolidAngleDensity(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
 }
@@ -66,6 +70,8 @@ impl Attempt {
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
+            Self::Mirrored(_) => "mirrored",
+            Self::Refracted(_) => "refracted",
             Self::SolidAngleDensity(_) => "solid_angle_density",
         }
     }

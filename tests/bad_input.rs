@@ -4,6 +4,8 @@
 mod chapters;
 mod scenes;
 
+#[path = "bad_input/cameras.rs"]
+mod cameras;
 #[path = "bad_input/cases.rs"]
 mod cases;
 #[path = "bad_input/textures.rs"]

@@ -26,6 +26,7 @@ fn scene(world: &mut World) {
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(34.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.0, 1.9, 6.4].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
+        Integrator::RayCasting,
     ));
     let (colour, specular) = (Rgb::new(0.55, 0.16, 0.1), Rgb::grey(0.3));
     let ball = |x| (Sphere { radius: 0.9 }, Placement::at(x, 0.9, 0.0));

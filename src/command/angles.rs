@@ -2,7 +2,7 @@ use super::options::SceneOptions;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
 use crate::plan::Table;
-use crate::scene::{FovAxis, PerspectiveCamera};
+use crate::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
 use std::io::Write;
 
@@ -12,8 +12,12 @@ use std::io::Write;
 pub fn print_angles(chapter: &Chapter, options: &SceneOptions, out: &mut dyn Write) -> Result {
     let scene = chapter.world(&options.asked(false));
     validate(&scene)?;
-    let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera_entity(&scene)?) else {
-        return Err(Error::Usage(format!("the camera of {} is orthographic and has no angle", chapter.name)));
+    let camera = camera_entity(&scene)?;
+    let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera) else {
+        let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
+        let told =
+            if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
+        return Err(Error::Usage(format!("the camera of {} {told}", chapter.name)));
     };
     let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
     let aspect = image.aspect();

@@ -11,11 +11,13 @@ mod camera_to_world;
 mod conventions;
 mod error_and_time;
 mod field_of_view;
+mod glass;
 mod hit;
 mod how_it_is_built;
 mod image;
 mod judge;
 mod light_and_shadow;
+mod mirrors;
 mod ndc;
 mod orthographic;
 mod pinhole;
@@ -64,6 +66,8 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::Mirrored(yours) => mirrors::check(yours, patience),
+        Attempt::Refracted(yours) => glass::check(yours, patience),
         Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
     }
 }

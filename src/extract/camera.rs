@@ -1,7 +1,11 @@
+use super::ImageCircle;
 use super::check::{kind_and_name, number, positive_length, triple};
 use super::pose::world_from_entity;
 use crate::plan::{Table, counted, entities};
-use crate::scene::{Degrees, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution, called};
+use crate::scene::{
+    Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution,
+    called,
+};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -14,16 +18,27 @@ const LONGEST_SIDE: u32 = 65_536;
 /// The most pixels of one film; its sums take 28 bytes each.
 const MOST_PIXELS: u64 = 1 << 30;
 
+/// Every component that is a camera, with its article, and who carries it; a new one joins with a line.
+const CAMERAS: [(&str, fn(&World) -> Vec<Entity>); 4] = [
+    ("a PerspectiveCamera", entities::<With<PerspectiveCamera>>),
+    ("an OrthographicCamera", entities::<With<OrthographicCamera>>),
+    ("a FisheyeCamera", entities::<With<FisheyeCamera>>),
+    ("an EquirectangularCamera", entities::<With<EquirectangularCamera>>),
+];
+
 /// The one camera of the scene.
 pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
-    let mut cameras = entities::<With<PerspectiveCamera>>(scene);
-    cameras.extend(entities::<With<OrthographicCamera>>(scene));
-    let accepted = "exactly one entity must carry a PerspectiveCamera or an OrthographicCamera";
+    let kinds = CAMERAS.iter().flat_map(|&(kind, carrying)| carrying(scene).into_iter().map(move |own| (kind, own)));
+    let kinds: Vec<(&str, Entity)> = kinds.collect();
+    let cameras: Vec<Entity> = kinds.iter().map(|&(_, camera)| camera).collect();
+    let accepted = "exactly one entity must carry a PerspectiveCamera, an OrthographicCamera, a FisheyeCamera or an \
+                    EquirectangularCamera";
     match cameras[..] {
         [camera] => Ok(camera),
         [] => Err(Refusal::new("the scene", "camera", "missing", accepted)),
-        [one, other] if one == other => {
-            let value = format!("a PerspectiveCamera and an OrthographicCamera at once, on {}", called(scene, one));
+        [one, ..] if cameras.iter().all(|&other| other == one) => {
+            let kinds: Vec<&str> = kinds.iter().map(|&(kind, _)| kind).collect();
+            let value = format!("{} at once, on {}", kinds.join(" and "), called(scene, one));
             Err(Refusal::new("the scene", "camera", value, accepted))
         }
         _ => {
@@ -47,10 +62,16 @@ fn named_camera(scene: &World) -> Result<(String, Entity), Refusal> {
 
 /// The checks of the kind of camera that there is.
 pub fn check_camera(scene: &World) -> Result<(), Refusal> {
-    match scene.get::<PerspectiveCamera>(camera_entity(scene)?) {
-        Some(_) => PinholeLens::extract(scene).map(|_| ()),
-        None => ViewRectangle::extract(scene).map(|_| ()),
+    let camera = scene.entity(camera_entity(scene)?);
+    if camera.contains::<PerspectiveCamera>() {
+        PinholeLens::extract(scene)?;
+    } else if camera.contains::<FisheyeCamera>() {
+        ImageCircle::extract(scene)?;
+    } else if camera.contains::<OrthographicCamera>() {
+        ViewRectangle::extract(scene)?;
     }
+    // An image of all directions has no number of its own, and at most 65536 pixels to 360°.
+    Ok(())
 }
 
 /// How many pixels the image has.

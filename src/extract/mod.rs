@@ -23,13 +23,22 @@ mod environment;
 mod environment_light;
 mod exact_sum;
 mod filter;
+mod fisheye;
 mod flat;
+mod glass;
+mod glass_overlap;
 mod gradient;
 mod image_file;
 mod image_texture;
 mod integrator;
+mod integrator_table;
 mod layers;
+mod lens;
 mod material;
+mod metal;
+mod mirror;
+mod motion;
+mod moving;
 mod phong;
 mod pixel_steps;
 mod plane;
@@ -67,13 +76,27 @@ pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use flat::Flat;
+pub use glass::{GlassTable, glass_evidence};
+pub use glass_overlap::{glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
-pub use integrator::{ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, weighed_evidence};
+pub use integrator::{
+    ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,
+    unless_occlusion, weighed_evidence,
+};
+pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
-pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
+pub use lens::{LensTable, check_lens, lens_evidence};
+pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
+pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
+pub use mirror::{MirrorTable, mirror_evidence};
+pub use motion::{
+    ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
+};
+pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
@@ -107,12 +130,16 @@ use bevy_ecs::prelude::*;
 /// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
+    check_motion(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
+    check_lens(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
+    IntegratorTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
+    GlassTable::extract(scene)?;
     EmissiveTable::extract(scene)?;
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;
@@ -121,6 +148,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     RectangleTable::extract(scene)?;
     CuboidTable::extract(scene)?;
     TriangleTable::extract(scene)?;
+    MovingTable::extract(scene)?;
     VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;

@@ -1,8 +1,9 @@
-use super::{CameraAxes, ImageShape, PinholeLens, SamplingTable, ViewRectangle, camera_entity};
+use super::{CameraAxes, ImageCircle, ImageShape, PinholeLens, SamplingTable, ViewRectangle, camera_entity};
 use crate::plan::Table;
-use crate::scene::{OrthographicCamera, Refusal};
+use crate::scene::{EquirectangularCamera, FisheyeCamera, OrthographicCamera, Refusal};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// The least share of a pixel that a sample stands for, however many there are, as in pbrt-v4: neighbouring samples are
 /// drawn at random, and so further apart than the pixel's side over the root of their number.
@@ -17,6 +18,8 @@ pub struct PixelSteps {
     pub origin: [DVec3; 2],
     /// The direction in which the camera looks, a unit vector.
     pub ahead: DVec3,
+    /// How far apart neighbouring rays are, in radians, where the camera has no image plane: about the same everywhere.
+    pub angle: Option<f64>,
 }
 
 impl Table for PixelSteps {
@@ -28,13 +31,20 @@ impl Table for PixelSteps {
         let share = (1.0 / f64::from(SamplingTable::extract(scene)?.samples).sqrt()).max(LEAST_SHARE);
         let pixel = 2.0 / f64::from(image.height) * share;
         let steps = |length: f64| [axes.x_axis * length, -axes.y_axis * length];
-        let parallel = scene.get::<OrthographicCamera>(camera_entity(scene)?).is_some();
-        let (direction, origin) = if parallel {
-            ([DVec3::ZERO; 2], steps(pixel * ViewRectangle::extract(scene)?.half_height))
+        let camera = scene.entity(camera_entity(scene)?);
+        let none = [DVec3::ZERO; 2];
+        let (mut direction, mut origin, mut angle) = (none, none, None);
+        if camera.contains::<OrthographicCamera>() {
+            origin = steps(pixel * ViewRectangle::extract(scene)?.half_height);
+        } else if camera.contains::<FisheyeCamera>() {
+            angle = Some(ImageCircle::extract(scene)?.pixel(image) * share);
+        } else if camera.contains::<EquirectangularCamera>() {
+            // At the horizon; towards the poles the step to the right is shorter, and that down stays.
+            angle = Some((2.0 * PI / f64::from(image.width)).max(PI / f64::from(image.height)) * share);
         } else {
-            (steps(pixel * PinholeLens::extract(scene)?.tan_half_vertical), [DVec3::ZERO; 2])
-        };
-        Ok(Self { direction, origin, ahead: -axes.z_axis })
+            direction = steps(pixel * PinholeLens::extract(scene)?.tan_half_vertical);
+        }
+        Ok(Self { direction, origin, ahead: -axes.z_axis, angle })
     }
 
     fn bytes(&self) -> usize {

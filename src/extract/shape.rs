@@ -1,8 +1,9 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
+use super::material::{NO_ROW, is_material, material_entities, material_kind, materials_in_words};
 use super::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, unevenly_scaled,
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MovingTable, PlaneTable, RectangleTable, SphereTable,
+    TriangleTable, moves_while_open, unevenly_scaled,
 };
 use crate::plan::{Table, entities};
 use crate::scene::{
@@ -27,11 +28,13 @@ pub enum ShapeKind {
     Cuboid,
     /// A row of the triangle table.
     Triangle,
+    /// A row of the table of moving shapes.
+    Moving,
 }
 
 impl ShapeKind {
     /// How many kinds there are.
-    const COUNT: usize = 7;
+    const COUNT: usize = 8;
 
     /// The name of the table that it is laid in.
     pub const fn table(self) -> &'static str {
@@ -43,6 +46,7 @@ impl ShapeKind {
             Self::Rectangle => RectangleTable::NAME,
             Self::Cuboid => CuboidTable::NAME,
             Self::Triangle => TriangleTable::NAME,
+            Self::Moving => MovingTable::NAME,
         }
     }
 }
@@ -56,6 +60,8 @@ pub struct ShapeTable {
     pub row: Vec<u32>,
     /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
+    /// Whether it has a material, one that spreads light, so that light may be aimed at it.
+    pub spreads: Vec<bool>,
     /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
     pub emissive: Vec<u32>,
     /// How a person calls it.
@@ -110,16 +116,19 @@ impl Table for ShapeTable {
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let mut table = Self::default();
-        let mut rows_of_kind = [0; ShapeKind::COUNT];
+        let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
         for entity in shape_entities(scene) {
             let written = one_shape(scene, entity)?;
-            let kind = (written.kind)(scene, entity);
+            let kind = if moves(entity) { ShapeKind::Moving } else { (written.kind)(scene, entity) };
             let rows = &mut rows_of_kind[kind as usize];
             table.row.push(*rows);
             *rows += 1;
             table.kind.push(kind);
             let name = kind_and_name(scene, written.word, entity);
-            table.material.push(row_in(&materials, material_of(scene, &name, entity)?));
+            let material = material_of(scene, &name, entity)?;
+            let kind = material.and_then(|material| material_kind(scene, material));
+            table.spreads.push(kind.is_some_and(MaterialKind::spreads));
+            table.material.push(row_in(&materials, material));
             table.emissive.push(row_in(&emissive, emissive_of(scene, entity)));
             table.name.push(name);
         }
@@ -127,7 +136,8 @@ impl Table for ShapeTable {
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<ShapeKind>() + 12) + self.name.iter().map(String::len).sum::<usize>()
+        self.kind.len() * (size_of::<ShapeKind>() + size_of::<bool>() + 12)
+            + self.name.iter().map(String::len).sum::<usize>()
     }
 }
 

@@ -8,8 +8,8 @@ use crate::intersect::Hits;
 use crate::plan::Table;
 use crate::rays::WorldRays;
 use crate::render::{Inspection, inspect};
-use crate::scene::{PerspectiveCamera, Resolution};
-use crate::{Result, intersect, rays, shade};
+use crate::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
+use crate::{Error, Result, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -136,7 +136,10 @@ fn lens(scene: &World) -> Result<Lens> {
     let camera = camera_entity(scene)?;
     Ok(match scene.get::<PerspectiveCamera>(camera) {
         Some(_) => Lens::Perspective(PinholeLens::extract(scene)?.tan_half_vertical),
-        None => Lens::Orthographic(ViewRectangle::extract(scene)?.half_height),
+        None if scene.get::<OrthographicCamera>(camera).is_some() => {
+            Lens::Orthographic(ViewRectangle::extract(scene)?.half_height)
+        }
+        None => return Err(Error::Usage("figures are drawn of perspective and orthographic cameras only".into())),
     })
 }
 

@@ -61,7 +61,7 @@ column! {
 }
 
 column! {
-    /// The rows whose surface sends on light, ascending.
+    /// The rows whose surface spreads light that falls on it, ascending: all matter but mirrors and glass.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
@@ -137,7 +137,7 @@ pub fn classify_hits(
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |shape| shapes.material[shape] != NO_ROW);
+            list_rows(hits, &mut list.row, |shape| shapes.spreads[shape]);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;

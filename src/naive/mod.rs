@@ -15,6 +15,7 @@ pub mod field_of_view;
 pub mod film;
 pub mod flat;
 pub mod light;
+pub mod matter;
 pub mod ndc;
 pub mod plane;
 pub mod sampling;

@@ -1,5 +1,5 @@
 use super::ScreenPoints;
-use crate::extract::{PinholeLens, ViewRectangle};
+use crate::extract::{PinholeLens, ViewRectangle, lens_evidence};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use bevy_ecs::prelude::*;
@@ -86,7 +86,10 @@ pub fn perspective_stage() -> Stage {
         .reads::<ScreenPoints>()
         .writes::<CameraRays>()
         .table::<PinholeLens>()
-        .when(|scene| Evidence::of::<PerspectiveCamera>(scene, "perspective camera"))
+        .when(|scene| match lens_evidence(scene) {
+            lens if lens.needed => Evidence { needed: false, ..lens },
+            _ => Evidence::of::<PerspectiveCamera>(scene, "perspective camera"),
+        })
 }
 
 /// The stage on offer for orthographic cameras.

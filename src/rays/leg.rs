@@ -1,12 +1,13 @@
-use super::{PixelSamples, Tile};
+use super::{Paths, PixelSamples, Tile};
 use bevy_ecs::prelude::*;
 
-/// On a tile's entity: which leg of the light's way its rays are on, counted from the one to the eye, which is 0.
+/// On a tile's entity: which leg of light's way its rays are; 0 is the one from the camera.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Leg(pub u32);
 
 /// The pixel of the image that a row of a tile belongs to, and so whose random numbers it has.
 #[inline(always)]
-pub fn pixel_of_row(tile: &Tile, samples: Option<&PixelSamples>, row: usize) -> [u32; 2] {
-    tile.pixel_of(samples.map_or(row, |samples| samples.pixel[row] as usize))
+pub fn pixel_of_row(tile: &Tile, samples: Option<&PixelSamples>, paths: Option<&Paths>, row: usize) -> [u32; 2] {
+    let first = paths.map_or(row, |paths| paths.first[row] as usize);
+    tile.pixel_of(samples.map_or(first, |samples| samples.pixel[first] as usize))
 }

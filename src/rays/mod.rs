@@ -5,25 +5,43 @@
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
 mod camera;
+mod chance;
+mod draws;
+mod equirectangular;
+mod fisheye;
 mod leg;
+mod lens;
 mod ndc;
+mod paths;
 mod place_samples;
 mod raster;
 mod screen;
+mod times;
 mod world;
 
 pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
+pub use draws::{Draws, draws_of_one, draws_of_two};
+pub use equirectangular::{
+    camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
+};
+pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
 pub use leg::{Leg, pixel_of_row};
+pub use lens::{
+    LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point_stage, lens_stage,
+    polygon_point,
+};
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use paths::{PathLight, Paths};
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
     signed_evidence,
 };
 pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
+pub use times::{RayTimes, draw_times, time_stage};
 pub use world::{WorldRays, fill_world, world_stage};
 
 use crate::plan::Stage;
@@ -32,5 +50,7 @@ use crate::plan::Stage;
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
     stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
+    stages.extend([lens_point_stage(), lens_stage(), fisheye_stage(), equirectangular_stage()]);
+    stages.push(time_stage());
     stages
 }

@@ -4,7 +4,7 @@ use super::{LightDensities, LightRays};
 use crate::extract::{AreaLightTable, SamplingTable, aimed_evidence, area_light_evidence, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
 use bevy_ecs::prelude::*;
@@ -68,7 +68,7 @@ pub fn aim_at_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(
-        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>),
+        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>, Option<&Paths>),
         (&Surfaces, Option<&ShadingNormals>, &MaterialRows),
         &mut LightRays,
         Option<&mut LightDensities>,
@@ -77,9 +77,9 @@ pub fn aim_at_area_lights(
     if lights.emitter.is_empty() {
         return;
     }
-    for ((tile, number, leg, samples), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
+    for ((tile, number, leg, samples, paths), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
-        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, row));
+        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, leg) = (number.map_or(0, |number| number.0), leg.map_or(0, |leg| leg.0));
         let to = (&mut *rays, densities.as_deref_mut());
         let purposes = [Purpose::LightChoice, Purpose::LightPoint];
@@ -121,6 +121,7 @@ pub fn area_light_stage() -> Stage {
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .reads_if::<PixelSamples>()
+        .reads_if::<Paths>()
         .appends::<LightRays>()
         .writes::<LightDensities>()
         .table::<AreaLightTable>()

@@ -1,6 +1,6 @@
 use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
 use super::{LightDensities, LightRays};
-use crate::extract::{DirectionalLightTable, material_evidence};
+use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
@@ -49,5 +49,10 @@ pub fn directional_light_stage() -> Stage {
         .appends::<LightRays>()
         .writes::<LightDensities>()
         .table::<DirectionalLightTable>()
-        .when(|scene| Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(
+                scene,
+                Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)),
+            )
+        })
 }

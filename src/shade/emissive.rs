@@ -1,5 +1,7 @@
 use super::Radiance;
-use crate::extract::{EmissiveTable, emissive_evidence, followed_evidence, one_sided_evidence};
+use crate::extract::{
+    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, unless_occlusion,
+};
 use crate::intersect::{EmissiveRows, SurfaceSides};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
@@ -35,7 +37,11 @@ pub fn emissive_stage() -> Stage {
         .when(|scene| {
             let found = emissive_evidence(scene);
             let follows = followed_evidence(scene).needed;
+            if found.needed && follows && aimed_evidence(scene).needed {
+                let reason = "added as far as it is not aimed at".into();
+                return Evidence { needed: false, reason, count: 0 };
+            }
             let unlit = if found.needed && !follows { ", seen, but lighting nothing else" } else { "" };
-            Evidence { reason: format!("{}{unlit}", found.reason), ..found }
+            unless_occlusion(scene, Evidence { reason: format!("{}{unlit}", found.reason), ..found })
         })
 }

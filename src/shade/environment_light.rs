@@ -6,7 +6,7 @@ use crate::extract::{
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
 use crate::scene::Sampler;
 use bevy_ecs::prelude::*;
@@ -74,15 +74,15 @@ pub fn aim_at_the_environment(
     light: Res<Shared<EnvironmentLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(
-        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>),
+        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>, Option<&Paths>),
         (&Surfaces, Option<&ShadingNormals>, &MaterialRows),
         &mut LightRays,
         Option<&mut LightDensities>,
     )>,
 ) {
-    for ((tile, number, leg, samples), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
+    for ((tile, number, leg, samples, paths), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
-        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, row));
+        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, leg) = (number.map_or(0, |number| number.0), leg.map_or(0, |leg| leg.0));
         let (to, purpose) = ((&mut *rays, densities.as_deref_mut()), Purpose::EnvironmentPoint);
         let aim = |surface: &Surface, normal, u| aim_at_environment(&environment, &light, surface, normal, u);
@@ -117,6 +117,7 @@ pub fn environment_light_stage() -> Stage {
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .reads_if::<PixelSamples>()
+        .reads_if::<Paths>()
         .appends::<LightRays>()
         .writes::<LightDensities>()
         .table::<EnvironmentTable>()

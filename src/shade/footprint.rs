@@ -70,11 +70,15 @@ pub fn measure_footprints(
             let normal = surfaces.get(row).normal.as_dvec3();
             // The steps are those of a direction that reaches the image plane at distance 1; this one has length 1.
             let distance = hits.t[row] * direction.dot(steps.ahead);
-            let step = |way: usize| {
-                step_on_surface(steps.origin[way] + steps.direction[way] * distance, direction, normal).into()
+            let moved = match steps.angle {
+                None => [0, 1].map(|way| steps.origin[way] + steps.direction[way] * distance),
+                Some(angle) => {
+                    <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|way| way * (angle * hits.t[row]))
+                }
             };
-            (rx[row], ry[row], rz[row]) = step(0);
-            (dx[row], dy[row], dz[row]) = step(1);
+            let [right, down] = moved.map(|moved| step_on_surface(moved, direction, normal));
+            (rx[row], ry[row], rz[row]) = right.into();
+            (dx[row], dy[row], dz[row]) = down.into();
         }
     }
 }

@@ -1,6 +1,7 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
     MaterialTable, aimed_evidence, area_light_evidence, environment_light_evidence, material_evidence,
+    occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
@@ -67,6 +68,13 @@ impl LightRays {
         DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
+    /// Lets a ray bring only this share of what it would.
+    #[inline(always)]
+    pub fn weigh(&mut self, ray: usize, share: f64) {
+        let weighed = |part: f32| (f64::from(part) * share) as f32;
+        (self.r[ray], self.g[ray], self.b[ray]) = (weighed(self.r[ray]), weighed(self.g[ray]), weighed(self.b[ray]));
+    }
+
     /// The irradiance that a ray brings.
     #[inline(always)]
     pub fn irradiance(&self, ray: usize) -> [f64; 3] {
@@ -77,6 +85,10 @@ impl LightRays {
 impl RayColumn for LightRays {
     fn ray_lanes(&self) -> RayLanes<'_> {
         RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    }
+
+    fn path_lane(&self) -> Option<&[u32]> {
+        Some(&self.path)
     }
 }
 
@@ -267,7 +279,7 @@ pub fn start_light_stage() -> Stage {
     Stage::new("Start with no light on its way", TileSystems::Start, start_light)
         .writes::<LightRays>()
         .writes::<LightDensities>()
-        .when(lit_evidence)
+        .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
@@ -284,6 +296,13 @@ pub fn light_stage() -> Stage {
         .when(lit_evidence)
 }
 
+/// Evidence of the one where it is needed, or else the other.
+///
+/// Unlike `or` it says nothing of an integrator that nobody asked for.
+pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
+    if !one.needed && other.needed { other } else { one }
+}
+
 /// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
     light_evidence(scene).and(material_evidence(scene))
@@ -291,7 +310,12 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind that rays are sent to.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true))
+    unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
+}
+
+/// Evidence that there is a light without an area.
+pub fn point_evidence(scene: &World) -> Evidence {
+    Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
 }
 
 /// The evidence of lights without an area, or else that there are others and that they are aimed at.

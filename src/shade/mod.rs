@@ -18,6 +18,7 @@ mod flat;
 mod footprint;
 mod gradient;
 mod highlight;
+mod image_circle;
 mod image_texture;
 mod light;
 mod lookup;
@@ -50,17 +51,20 @@ pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
+pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightDensities, LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage,
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_reach,
+    start_light, start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
-    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
+    plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    triangle_shadow_stage,
 };
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
@@ -84,8 +88,10 @@ pub fn stages() -> Vec<Stage> {
         rectangle_shadow_stage(),
         cuboid_shadow_stage(),
         triangle_shadow_stage(),
+        moving_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
+    stages.push(image_circle_stage());
     stages
 }
 

@@ -1,6 +1,6 @@
 use super::light::{LightRay, LitRows, RayLists, aim, append_rays, shadow_reach};
 use super::{LightDensities, LightRays};
-use crate::extract::{PointLightTable, material_evidence};
+use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::PointLight;
@@ -50,5 +50,7 @@ pub fn point_light_stage() -> Stage {
         .appends::<LightRays>()
         .writes::<LightDensities>()
         .table::<PointLightTable>()
-        .when(|scene| Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        })
 }

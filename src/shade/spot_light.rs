@@ -1,6 +1,6 @@
 use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
 use super::{LightDensities, LightRays, irradiance_from_point};
-use crate::extract::{SpotLightTable, material_evidence};
+use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::SpotLight;
@@ -67,7 +67,9 @@ pub fn spot_light_stage() -> Stage {
         .appends::<LightRays>()
         .writes::<LightDensities>()
         .table::<SpotLightTable>()
-        .when(|scene| Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+        })
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod followed;
+pub mod matter;
+pub mod public;
 mod soft;
 mod textured;
 
@@ -12,7 +15,7 @@ pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade};
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use soft::soft;
 #[allow(unused_imports, reason = "each test takes what it needs")]
@@ -75,6 +78,7 @@ pub fn offer() -> Vec<Stage> {
     let mut offer = rays::stages();
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
+    offer.extend(follow::stages());
     offer.push(view_stage(&offer));
     offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
@@ -135,6 +139,66 @@ fn add_things(world: &mut World, setup: &Setup) {
     world.spawn((Name::new("cellar lamp"), setup.light(20.0, true), at(0.07, -1.01, 2.53)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
+}
+
+/// A lens wide enough to blur these scenes, of as many units to a unit.
+pub fn lens(scale: f64) -> Lens {
+    let aperture = Aperture::Radius { radius: 0.125 * scale };
+    Lens { aperture, focus_distance: 4.0 * scale, blades: 5, turn: Degrees(10.0) }
+}
+
+/// The scene of [`turned`] through a lens, where the camera is a perspective one.
+pub fn blurred(setup: Setup) -> World {
+    let mut world = turned(setup);
+    if setup.eye == Eye::Perspective {
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(lens(setup.scale));
+    }
+    world
+}
+
+/// The scene of [`turned`] while its camera and some of its balls move.
+pub fn moving(setup: Setup) -> World {
+    let mut world = turned(setup);
+    set_in_motion(&mut world, &setup);
+    world
+}
+
+/// Lets the camera move, and of these things those that there are.
+fn set_in_motion(world: &mut World, setup: &Setup) {
+    let velocity = |x, y, z| Motion { velocity: DVec3::new(x, y, z) * setup.scale };
+    let camera = named(world, "camera");
+    world.entity_mut(camera).insert((Shutter { open: 0.0, close: 0.5 }, velocity(0.25, 0.0, -0.125)));
+    for (name, motion) in [
+        ("ball", velocity(0.5, 0.25, 0.0)),
+        ("left ball", velocity(0.5, 0.25, 0.0)),
+        ("double", velocity(0.0, 0.5, 0.25)),
+        ("coin", velocity(-0.5, 0.0, 0.5)),
+        ("mat", velocity(0.0, 0.25, 0.0)),
+    ] {
+        let mut names = world.query::<(Entity, &Name)>();
+        let found = names.iter(world).find(|(_, own)| own.as_str() == name).map(|(entity, _)| entity);
+        if let Some(entity) = found {
+            world.entity_mut(entity).insert(motion);
+        }
+    }
+}
+
+/// The textured scene by a fisheye that sees more than half of all directions.
+pub fn fisheye(setup: Setup) -> World {
+    other_camera(setup, FisheyeCamera { fov: Degrees(200.0), axis: FovAxis::Smaller })
+}
+
+/// The textured scene in all directions.
+pub fn all_round(setup: Setup) -> World {
+    other_camera(setup, EquirectangularCamera)
+}
+
+fn other_camera(setup: Setup, camera: impl Component) -> World {
+    let mut world = textured(Setup { eye: Eye::Perspective, ..setup });
+    let own = named(&mut world, "camera");
+    world.entity_mut(own).remove::<PerspectiveCamera>().insert(camera);
+    world
 }
 
 /// Spheres that their placements stretch: an egg, a mirrored and turned pancake, a needle, one that a parent shears, and
@@ -316,6 +380,14 @@ pub enum Toggle {
     BlinnPhong,
     Emissive,
     Samples,
+    /// A lens, where the camera is a perspective one.
+    Lens,
+    /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
+    Motion,
+    Mirror,
+    /// Glass that absorbs.
+    Glass,
+    Metal,
 }
 
 /// All of them.
@@ -336,7 +408,18 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 5] = [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive];
+pub const MORE: [Toggle; 10] = [
+    Toggle::Sun,
+    Toggle::Spot,
+    Toggle::Phong,
+    Toggle::BlinnPhong,
+    Toggle::Emissive,
+    Toggle::Lens,
+    Toggle::Motion,
+    Toggle::Mirror,
+    Toggle::Glass,
+    Toggle::Metal,
+];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -402,6 +485,16 @@ pub fn toggled(on: &[Toggle]) -> World {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
         world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
     }
+    if has(Toggle::Mirror) {
+        matter::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
+    }
+    if has(Toggle::Glass) {
+        let absorption = Rgb::new(0.2, 0.4, 0.8);
+        matter::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
+    }
+    if has(Toggle::Metal) {
+        matter::ball_of(&mut world, "metal ball", 1.5, Metal::default());
+    }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
     }
@@ -414,6 +507,12 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Layers) {
         world.entity_mut(camera).insert(Layers::all());
+    }
+    if has(Toggle::Lens) && eye == Eye::Perspective {
+        world.entity_mut(camera).insert(lens(1.0));
+    }
+    if has(Toggle::Motion) {
+        set_in_motion(&mut world, &setup);
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });

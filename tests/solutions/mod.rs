@@ -56,6 +56,12 @@ pub mod sampling;
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors.rs"]
+pub mod mirrors;
+
+#[path = "20_glass.rs"]
+pub mod glass;
+
 #[path = "21_soft_shadows.rs"]
 pub mod soft_shadows;
 
@@ -79,5 +85,7 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
+    ("20_glass", Attempt::Refracted(glass::refracted)),
     ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
 ];

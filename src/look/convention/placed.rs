@@ -1,6 +1,6 @@
 use crate::extract::{CameraAxes, ImageShape, PinholeLens, camera_entity, eye};
 use crate::plan::Table;
-use crate::scene::{ChildOf, LookAt, PerspectiveCamera};
+use crate::scene::{ChildOf, LookAt, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use glam::DMat3;
@@ -25,8 +25,10 @@ impl PlacedCamera {
     pub fn of(scene: &World) -> Result<Self> {
         let camera = camera_entity(scene)?;
         if scene.get::<PerspectiveCamera>(camera).is_none() {
-            let told = "the conventions are those of perspective cameras, and this scene's camera is orthographic";
-            return Err(Error::Usage(told.into()));
+            let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
+            let kind = if orthographic { "orthographic" } else { "none" };
+            let told = format!("the conventions are those of perspective cameras, and this scene's camera is {kind}");
+            return Err(Error::Usage(told));
         }
         let world_from_camera = CameraAxes::extract(scene)?.world_from_camera;
         let eye = eye(scene)?;

@@ -1,8 +1,8 @@
 use crate::scene::{
-    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, Glass, Gradient,
-    ImageTexture, Integrator, Layers, LookAt, Matte, Metal, Mirror, OrthographicCamera, PerspectiveCamera, Phong,
-    Placement, Plane, PointLight, Rectangle, Resolution, Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle,
-    View,
+    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment,
+    EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LookAt, Matte,
+    Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle,
+    Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -18,6 +18,9 @@ use std::any::TypeId;
 const WORDS: &[Word] = &[
     Word::of::<PerspectiveCamera>("perspective_camera"),
     Word::of::<OrthographicCamera>("orthographic_camera"),
+    Word::of::<FisheyeCamera>("fisheye_camera"),
+    Word::of::<EquirectangularCamera>("equirectangular_camera"),
+    Word::of::<Lens>("lens"),
     Word::of::<Sphere>("sphere"),
     Word::of::<Plane>("plane"),
     Word::of::<Disk>("disk"),
@@ -30,6 +33,8 @@ const WORDS: &[Word] = &[
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
+    Word::of::<Motion>("motion"),
+    Word::of::<Shutter>("shutter"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Integrator>("integrator"),

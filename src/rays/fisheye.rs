@@ -1,0 +1,51 @@
+use super::{CameraRays, ScreenPoints};
+use crate::extract::{ImageCircle, fisheye_evidence};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
+
+// ANCHOR: camera_ray_fisheye
+/// The direction at a screen point of a fisheye: as far from the axis, as an angle, as the point is from the centre.
+///
+/// Beyond the circle's edge it is that of the edge; what comes back from there is not shown.
+#[inline(always)]
+pub fn camera_ray_fisheye(screen: DVec2, circle: &ImageCircle) -> DVec3 {
+    let distance = screen.length();
+    if distance == 0.0 {
+        return DVec3::NEG_Z;
+    }
+    let angle = (distance / circle.radius).min(1.0) * circle.half_angle;
+    let (sine, cosine) = libm::sincos(angle);
+    DVec3::new(sine * (screen.x / distance), sine * (screen.y / distance), -cosine)
+}
+// ANCHOR_END: camera_ray_fisheye
+
+/// The screen point at which a fisheye shows a direction: what `camera_ray_fisheye` undoes.
+pub fn screen_from_fisheye(direction: DVec3, circle: &ImageCircle) -> DVec2 {
+    let across = libm::hypot(direction.x, direction.y);
+    let angle = libm::atan2(across, -direction.z);
+    let way = if across > 0.0 { DVec2::new(direction.x, direction.y) / across } else { DVec2::X };
+    way * (angle / circle.half_angle * circle.radius)
+}
+
+/// Fills a tile's camera rays for a fisheye; their origins stay 0.
+pub fn fill_fisheye(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+    for (screen, mut rays) in &mut tiles {
+        let (x, y) = screen.slices();
+        let (_, _, _, dx, dy, dz) = rays.slices_mut(screen.rows());
+        for row in 0..screen.rows() {
+            let direction = camera_ray_fisheye(DVec2::new(x[row], y[row]), &circle);
+            (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+        }
+    }
+}
+
+/// The stage on offer for fisheye cameras.
+pub fn fisheye_stage() -> Stage {
+    Stage::new("Aim rays by angle", TileSystems::Camera, fill_fisheye)
+        .kind(StageKind::Alternative)
+        .reads::<ScreenPoints>()
+        .writes::<CameraRays>()
+        .table::<ImageCircle>()
+        .when(fisheye_evidence)
+}

@@ -1,0 +1,140 @@
+use super::chance::{Rows, draw_two};
+use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
+use crate::extract::{LensTable, PinholeLens, SamplingTable, lens_evidence};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::sample::Purpose;
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+column! {
+    /// Where on the lens each ray starts: from the eye, across the direction in which the camera looks.
+    pub struct LensPoints("lens", "camera", "scene units", Pixel) {
+        /// To the right.
+        x: f64,
+        /// Upward.
+        y: f64,
+    }
+}
+
+impl LensPoints {
+    /// The direction from the lens's centre: right as red, up as green.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        let length = libm::hypot(self.x[row], self.y[row]);
+        let part = |part: f64| if length > 0.0 { (0.5 + 0.5 * part / length) as f32 } else { 0.5 };
+        [part(self.x[row]), part(self.y[row]), 0.5]
+    }
+}
+
+// ANCHOR: disk_point
+/// A point of the unit square on the disk of radius 1, equal areas to equal areas, neighbours to neighbours (Shirley and
+/// Chiu 1997).
+///
+/// Squares about the centre become circles: how far out decides the radius, how far along the square's side the angle.
+#[inline(always)]
+pub fn disk_point(u: DVec2) -> DVec2 {
+    let at = DVec2::new(2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
+    let across = at.x.abs() > at.y.abs();
+    let (radius, along) = if across { (at.x, at.y) } else { (at.y, at.x) };
+    if radius == 0.0 {
+        return DVec2::ZERO;
+    }
+    let (sine, cosine) = libm::sincos(along / radius * (PI / 4.0));
+    if across { DVec2::new(cosine, sine) * radius } else { DVec2::new(sine, cosine) * radius }
+}
+// ANCHOR_END: disk_point
+
+// ANCHOR: polygon_point
+/// A point of the unit square on a regular polygon about the origin, equal areas to equal areas.
+///
+/// The square is cut into as many strips as there are edges, and each strip becomes the triangle from the centre to its
+/// edge: the area within a distance grows with its square, so the root is taken.
+#[inline(always)]
+pub fn polygon_point(u: DVec2, corners: &[DVec2]) -> DVec2 {
+    let edges = corners.len() - 1;
+    let strip = u.x * edges as f64;
+    let edge = (strip as usize).min(edges - 1);
+    let along = strip - edge as f64;
+    (corners[edge] + along * (corners[edge + 1] - corners[edge])) * u.y.sqrt()
+}
+// ANCHOR_END: polygon_point
+
+// ANCHOR: camera_ray_lens
+/// The direction from a point of the lens to where the pinhole's ray through the same screen point meets the plane in
+/// focus.
+///
+/// The pinhole's ray is at (x, y, −1) f where it is in focus, and from there the lens point is taken; all is divided by
+/// f, which no direction minds.
+#[inline(always)]
+pub fn camera_ray_lens(screen: DVec2, tan_half_vertical: f64, lens: DVec2, focus_distance: f64) -> DVec3 {
+    let point = DVec3::new(
+        screen.x * tan_half_vertical - lens.x / focus_distance,
+        screen.y * tan_half_vertical - lens.y / focus_distance,
+        -1.0,
+    );
+    point / (point.x * point.x + point.y * point.y + 1.0).sqrt()
+}
+// ANCHOR_END: camera_ray_lens
+
+/// Fills a tile's lens points.
+pub fn draw_lens_points(
+    lens: Res<Shared<LensTable>>,
+    sampling: Res<Shared<SamplingTable>>,
+    mut tiles: Query<(&Tile, Option<&SampleNumber>, Option<&PixelSamples>, &RasterPoints, &mut LensPoints)>,
+) {
+    for (tile, number, samples, raster, mut points) in &mut tiles {
+        let rows = Rows { sampling: &sampling, tile, number, samples };
+        let (xs, ys) = points.slices_mut(raster.rows());
+        draw_two(rows, Purpose::Lens, xs, ys);
+        for (x, y) in xs.iter_mut().zip(ys) {
+            let u = DVec2::new(*x, *y);
+            let point = if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) };
+            (*x, *y) = (point.x * lens.radius, point.y * lens.radius);
+        }
+    }
+}
+
+// ANCHOR: fill_lens_rays
+/// Fills a tile's camera rays for a camera with a lens: each starts on it.
+pub fn fill_lens_rays(
+    pinhole: Res<Shared<PinholeLens>>,
+    lens: Res<Shared<LensTable>>,
+    mut tiles: Query<(&ScreenPoints, &LensPoints, &mut CameraRays)>,
+) {
+    for (screen, points, mut rays) in &mut tiles {
+        let (screen_x, screen_y) = screen.slices();
+        let (lens_x, lens_y) = points.slices();
+        let (ox, oy, _, dx, dy, dz) = rays.slices_mut(screen.rows());
+        for row in 0..screen.rows() {
+            let (screen, point) = (DVec2::new(screen_x[row], screen_y[row]), DVec2::new(lens_x[row], lens_y[row]));
+            let direction = camera_ray_lens(screen, pinhole.tan_half_vertical, point, lens.focus_distance);
+            (ox[row], oy[row]) = (point.x, point.y);
+            (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
+        }
+    }
+}
+// ANCHOR_END: fill_lens_rays
+
+/// The stage that draws points.
+pub fn lens_point_stage() -> Stage {
+    Stage::new("Draw points on the lens", TileSystems::Lens, draw_lens_points)
+        .kind(StageKind::Alternative)
+        .reads::<RasterPoints>()
+        .reads_if::<PixelSamples>()
+        .writes::<LensPoints>()
+        .table::<LensTable>()
+        .table::<SamplingTable>()
+        .when(lens_evidence)
+}
+
+/// The stage on offer for perspective cameras with a lens.
+pub fn lens_stage() -> Stage {
+    Stage::new("Aim rays through the lens", TileSystems::Camera, fill_lens_rays)
+        .kind(StageKind::Alternative)
+        .reads::<ScreenPoints>()
+        .reads::<LensPoints>()
+        .writes::<CameraRays>()
+        .table::<PinholeLens>()
+        .table::<LensTable>()
+        .when(lens_evidence)
+}

@@ -1,0 +1,36 @@
+use super::Radiance;
+use crate::extract::{ImageCircle, fisheye_evidence};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use crate::rays::ScreenPoints;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+/// Whether a fisheye shows what is at a screen point: within its circle, the edge included.
+#[inline(always)]
+pub fn in_image_circle(screen: DVec2, circle: &ImageCircle) -> bool {
+    screen.length() <= circle.radius
+}
+
+/// Blackens what lies outside a fisheye's circle; such samples count, so that the circle's edge is as smooth as others.
+pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
+    for (screen, mut radiance) in &mut tiles {
+        let (x, y) = screen.slices();
+        let (r, g, b) = radiance.slices_mut(screen.rows());
+        for row in 0..screen.rows() {
+            if !in_image_circle(DVec2::new(x[row], y[row]), &circle) {
+                (r[row], g[row], b[row]) = (0.0, 0.0, 0.0);
+            }
+        }
+    }
+}
+
+/// The stage on offer.
+pub fn image_circle_stage() -> Stage {
+    Stage::new("Blacken outside the circle", TileSystems::Mask, blacken_outside)
+        .kind(StageKind::Alternative)
+        .reads::<ScreenPoints>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .table::<ImageCircle>()
+        .when(fisheye_evidence)
+}
