@@ -62,6 +62,9 @@ pub mod mirrors;
 #[path = "20_glass/exercise.rs"]
 pub mod glass;
 
+#[path = "21_soft_shadows/exercise.rs"]
+pub mod soft_shadows;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -121,3 +124,6 @@ pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
 
 /// Chapter 20.
 pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
+
+/// Chapter 21.
+pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);

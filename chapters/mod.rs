@@ -66,6 +66,9 @@ pub mod mirrors;
 #[path = "20_glass/main.rs"]
 pub mod glass;
 
+#[path = "21_soft_shadows/main.rs"]
+pub mod soft_shadows;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -92,5 +95,6 @@ pub fn all() -> Vec<Chapter> {
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
         mirrors::chapter().exercise(exercises::MIRRORS),
         glass::chapter().exercise(exercises::GLASS),
+        soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
     ]
 }

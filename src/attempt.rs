@@ -44,6 +44,8 @@ pub enum Attempt {
     Mirrored(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// Chapter 20: a direction, a normal, the far side's index over the near side's.
     Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
+    /// Chapter 21: the lit point, a light's point, its normal, its area.
+    SolidAngleDensity(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
 }
 
 impl Attempt {
@@ -70,6 +72,7 @@ impl Attempt {
             Self::TentOffset(_) => "tent_offset",
             Self::Mirrored(_) => "mirrored",
             Self::Refracted(_) => "refracted",
+            Self::SolidAngleDensity(_) => "solid_angle_density",
         }
     }
 }

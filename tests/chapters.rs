@@ -54,6 +54,7 @@ test_chapters! {
     chapter_18_error_and_time: error_and_time,
     chapter_19_mirrors: mirrors,
     chapter_20_glass: glass,
+    chapter_21_soft_shadows: soft_shadows,
 }
 
 #[test]

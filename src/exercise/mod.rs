@@ -30,6 +30,7 @@ mod sampling;
 mod screen;
 mod shapes;
 mod shown;
+mod soft_shadows;
 mod textures;
 mod transforms;
 mod turn;
@@ -67,5 +68,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
         Attempt::Mirrored(yours) => mirrors::check(yours, patience),
         Attempt::Refracted(yours) => glass::check(yours, patience),
+        Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
     }
 }

@@ -15,6 +15,7 @@ mod filters;
 mod gallery;
 mod grid;
 mod hit;
+mod jacobian;
 mod label;
 mod lobes;
 mod look_at;
@@ -206,6 +207,12 @@ pub fn figures() -> Vec<Figure> {
             chapter: "17_sampling",
             about: "the variance of a mean over the number of its samples",
             draw: samples::draw_variance,
+        },
+        Figure {
+            name: "21_jacobian",
+            chapter: "21_soft_shadows",
+            about: "lamps by the right density, without its cosine, and without its distance too",
+            draw: jacobian::draw,
         },
     ]
 }

@@ -27,13 +27,27 @@ impl Picture {
         instead: Option<Stage>,
         change: impl FnOnce(&mut EntityWorldMut<'_>),
     ) -> Result<Self> {
-        let mut whole = chapter.clone();
-        whole.view = None;
-        whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+        let mut whole = all_stages(chapter);
         if let Some(stage) = instead {
             whole.offer.retain(|other| other.set != stage.set);
             whole.offer.push(stage);
         }
+        Self::rendered(&whole, size, change)
+    }
+
+    /// The same with one stage more.
+    pub fn beside(
+        chapter: &Chapter,
+        size: [u32; 2],
+        beside: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        whole.offer.extend(beside);
+        Self::rendered(&whole, size, change)
+    }
+
+    fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorldMut<'_>)) -> Result<Self> {
         let [width, height] = size;
         let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
         let mut scene = whole.world(&asked);
@@ -54,4 +68,12 @@ impl Picture {
         }
         Ok(Self { size, url: png_url(&png_bytes(&film, Curve::Srgb)?) })
     }
+}
+
+/// The chapter with every stage that the kit has.
+fn all_stages(chapter: &Chapter) -> Chapter {
+    let mut whole = chapter.clone();
+    whole.view = None;
+    whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+    whole
 }

@@ -7,6 +7,7 @@ pub mod adaptive;
 pub mod camera;
 pub mod cuboid;
 pub mod ellipsoid;
+pub mod emitter;
 pub mod entity_per_ray;
 pub mod error;
 pub mod euler;

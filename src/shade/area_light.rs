@@ -3,7 +3,7 @@ use super::light::{Aimed, LightRay, LitRows, RayLists, append_chosen, cosine_of,
 use super::{LightDensities, LightRays};
 use crate::extract::{AreaLightTable, SamplingTable, aimed_evidence, area_light_evidence, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
-use crate::plan::{Shared, Stage, TileSystems};
+use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
@@ -113,9 +113,10 @@ fn aim_rows<D: Draw>(
     });
 }
 
-/// The stage on offer.
+/// The stage on offer: the alternative to meeting such light by chance.
 pub fn area_light_stage() -> Stage {
     Stage::new("Aim at lights with area", TileSystems::Aim, aim_at_area_lights)
+        .kind(StageKind::Alternative)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()

@@ -5,7 +5,7 @@ use crate::extract::{
     material_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
-use crate::plan::{Shared, Stage, TileSystems};
+use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
 use crate::scene::Sampler;
@@ -109,9 +109,10 @@ pub fn aim_at_the_environment(
     }
 }
 
-/// The stage on offer.
+/// The stage on offer: the alternative to meeting such light by chance.
 pub fn environment_light_stage() -> Stage {
     Stage::new("Aim at the environment", TileSystems::Aim, aim_at_the_environment)
+        .kind(StageKind::Alternative)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()

@@ -65,7 +65,9 @@ fn lamps() -> Vec<(&'static str, f64, fn(&mut World, Emissive))> {
     let edge = libm::atan2(1.0, 2.0_f64.sqrt()) * 2.0;
     let square_above = 0.5 * 4.0 * edge * 0.5_f64.sqrt();
     vec![
-        ("sphere", PI * 0.25 * 0.8, |w, e| drop(w.spawn((Sphere { radius: 1.0 }, Placement::at(1.2, 1.6, 0.0), e)))),
+        ("sphere", PI * 0.25 * 0.8, |w, e| {
+            w.spawn((Sphere { radius: 1.0 }, Placement::at(1.2, 1.6, 0.0), e));
+        }),
         ("tiny sphere", PI * 1e-8 * 0.8, |w, e| {
             w.spawn((Sphere { radius: 2e-4 }, Placement::at(1.2, 1.6, 0.0), e));
         }),

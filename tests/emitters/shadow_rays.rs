@@ -76,13 +76,19 @@ type Lamp = fn(&mut World, Placement, f64);
 
 /// Every kind of light, of about this size.
 const LAMPS: [(&str, Lamp); 8] = [
-    ("sphere", |w, at, size| drop(w.spawn((Sphere { radius: size }, at, Emissive::default())))),
-    ("disk", |w, at, size| drop(w.spawn((Disk { radius: size }, at, Emissive::default())))),
+    ("sphere", |w, at, size| {
+        w.spawn((Sphere { radius: size }, at, Emissive::default()));
+    }),
+    ("disk", |w, at, size| {
+        w.spawn((Disk { radius: size }, at, Emissive::default()));
+    }),
     ("ellipse", |w, at, size| {
         let scale = DVec3::new(1.0, 1.0, 0.3);
         w.spawn((Disk { radius: size }, Placement { scale, ..at }, Emissive::default()));
     }),
-    ("rectangle", |w, at, size| drop(w.spawn((Rectangle { width: size, depth: 2.0 * size }, at, Emissive::default())))),
+    ("rectangle", |w, at, size| {
+        w.spawn((Rectangle { width: size, depth: 2.0 * size }, at, Emissive::default()));
+    }),
     ("parallelogram", |w, at, size| {
         let lean = Placement { orientation: DQuat::from_xyzw(0.1, 0.5, 0.2, 0.8).normalize(), ..Placement::default() };
         let parent = w.spawn(Placement { scale: DVec3::new(1.0, 0.4, 1.0), ..at }).id();

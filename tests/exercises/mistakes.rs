@@ -158,7 +158,38 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("17_sampling", Attempt::TentOffset(|u, _| super::solutions::sampling::tent_offset(u, 1.0)), "radius is left out"),
     ("17_sampling", Attempt::TentOffset(|u, r| r * (1.0 - (1.0 - u).sqrt())), "on one side"),
     ("17_sampling", Attempt::TentOffset(|u, r| super::solutions::sampling::tent_offset(1.0 - u, r)), "swapped"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|_, _, _, a| 1.0 / a), "per unit of area"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 0.0)), "cosine at the light"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 1.0)), "multiplied by"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 0.0, -1.0)), "distance is missing"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 1.0, -1.0)), "not squared"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(signed_density), "negative density"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| signed_density(f, t, n, a).max(0.0)), "has none"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| edge_on(f, t, n, a)), "1 / 0"),
 ];
+
+fn distance_and_cosine(from: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> (f64, f64) {
+    let way = [0, 1, 2].map(|axis| at[axis] - from[axis]);
+    let distance = dot(way, way).sqrt();
+    (distance, dot(normal, way) / distance)
+}
+
+/// Powers of the distance and of the cosine over the area; 0 from the edge.
+fn fills(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64, distances: f64, cosines: f64) -> f64 {
+    let (distance, cosine) = distance_and_cosine(from, at, normal);
+    if cosine == 0.0 { 0.0 } else { distance.powf(distances) * cosine.abs().powf(cosines) / area }
+}
+
+fn signed_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+    let (_, cosine) = distance_and_cosine(from, at, normal);
+    fills(from, at, normal, area, 2.0, -1.0) * -cosine.signum()
+}
+
+fn edge_on(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+    let (distance, cosine) = distance_and_cosine(from, at, normal);
+    distance * distance / (area * cosine.abs())
+}
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
 

@@ -31,6 +31,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("textured, {eye:?}"), textured(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("shining, {eye:?}"), shining(Setup { eye, size: [24, 16], ..Setup::default() })));
+        scenes.push((format!("soft, {eye:?}"), soft(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
     }
     for (name, scene) in &scenes {
@@ -98,6 +99,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("textured", textured(Setup { size, ..Setup::default() })),
         ("textured, orthographic", textured(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("shining", shining(Setup { size, ..Setup::default() })),
+        ("soft", soft(Setup { size, ..Setup::default() })),
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),

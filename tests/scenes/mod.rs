@@ -4,6 +4,7 @@
 pub mod followed;
 pub mod matter;
 pub mod public;
+mod soft;
 mod textured;
 
 use bevy_ecs::prelude::*;
@@ -15,6 +16,8 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::{follow, intersect, rays, shade};
+#[allow(unused_imports, reason = "each test takes what it needs")]
+pub use soft::soft;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 

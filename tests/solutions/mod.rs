@@ -62,6 +62,9 @@ pub mod mirrors;
 #[path = "20_glass.rs"]
 pub mod glass;
 
+#[path = "21_soft_shadows.rs"]
+pub mod soft_shadows;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -84,4 +87,5 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
     ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
     ("20_glass", Attempt::Refracted(glass::refracted)),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
 ];

@@ -12,6 +12,7 @@ mod camera_ndc;
 mod camera_table;
 mod case;
 mod cuboid;
+mod emitter;
 mod film;
 mod film_bytes;
 mod flat;
@@ -77,6 +78,8 @@ pub enum Group {
     Light,
     /// Mirrors, glass and rough metal.
     Matter,
+    /// Lights with an area: points on them, and how likely each was.
+    Emitter,
 }
 
 impl Group {
@@ -97,6 +100,7 @@ impl Group {
         Self::Texture,
         Self::Light,
         Self::Matter,
+        Self::Emitter,
     ];
 
     /// Its cases.
@@ -119,6 +123,7 @@ impl Group {
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
             Self::Matter => matter::trials(),
+            Self::Emitter => emitter::trials(),
         }
     }
 }
@@ -140,6 +145,7 @@ impl fmt::Display for Group {
             Self::Cuboid => "cuboid",
             Self::Light => "light",
             Self::Matter => "matter",
+            Self::Emitter => "emitter",
         })
     }
 }

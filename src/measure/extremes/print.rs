@@ -15,6 +15,7 @@ impl Group {
             Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Light => ["highlights and lights", "to judge", "wrong"],
             Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
+            Self::Emitter => ["lights with an area", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],

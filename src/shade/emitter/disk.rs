@@ -66,6 +66,7 @@ fn disk_area_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint
         (0.0, 0.0)
     };
     let [x, y] = disk.half_edges;
-    let to = disk.centre - from + x * (radius * libm::cos(turn)) + y * (radius * libm::sin(turn));
+    let (sine, cosine) = libm::sincos(turn);
+    let to = disk.centre - from + x * (radius * cosine) + y * (radius * sine);
     LightPoint { to, density: density_from_area(to, disk.normal, PI / 4.0 * disk.area()) }
 }

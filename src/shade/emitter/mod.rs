@@ -76,12 +76,17 @@ pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
     }
 }
 
+// ANCHOR: density_from_area
 /// The density per unit of solid angle of a point chosen evenly on a flat area: d² / (A cos θ), θ at the light.
+///
+/// 0 where the area is seen from its edge, for then it fills no solid angle.
 #[inline(always)]
-fn density_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
+pub fn density_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
+    // Not yet over d.
     let cosine = unit_normal.dot(to).abs();
     if cosine > 0.0 { to.length_squared() * to.length() / (area * cosine) } else { 0.0 }
 }
+// ANCHOR_END: density_from_area
 
 /// The angle whose sine and cosine are in this proportion, from 0 to π.
 #[inline(always)]

@@ -19,8 +19,8 @@ pub struct RectangleSeen {
     y: [f64; 2],
     z: f64,
     axes: [DVec3; 3],
-    /// What the angles at the last two corners leave of a full turn.
-    first_angle: f64,
+    /// Cosine and sine of what the angles at the last two corners leave of a full turn.
+    first_angle: [f64; 2],
     /// Parts along z of the unit normals of the planes through the lit point and the edges y₀ and y₁.
     lean: [f64; 2],
     /// What the rectangle fills, in sr.
@@ -33,6 +33,7 @@ impl RectangleSeen {
     ///
     /// The plane through the lit point and an edge at y leans by −y / √(y² + z²); two such planes meet at the angle whose
     /// cosine is minus the product of how they lean, and the four angles are 2π and the solid angle together.
+    /// They are added as turns, pairs of a cosine and a sine, so that only their sum is asked of an arc tangent.
     #[inline(always)]
     pub fn new(centre: DVec3, half_edges: [DVec3; 2], from: DVec3) -> Self {
         let [a, b] = half_edges.map(|half| half.length());
@@ -49,12 +50,16 @@ impl RectangleSeen {
         let steeps = [steep(y[0]), steep(x[1]), steep(y[1]), steep(x[0])];
         let corner = |i: usize, j: usize| {
             let sine_squared = steeps[i] + leans[i] * leans[i] * steeps[j];
-            angle_of(sine_squared.sqrt(), -leans[i] * leans[j])
+            [-leans[i] * leans[j], sine_squared.sqrt()]
         };
-        let (before, after) = (corner(0, 1) + corner(1, 2), corner(2, 3) + corner(3, 0));
-        let first_angle = TAU - after;
-        let solid_angle = if z < 0.0 { before - first_angle } else { 0.0 };
-        Self { x, y, z, axes, first_angle, lean: [leans[0], leans[2]], solid_angle }
+        let [before, after] = [add_turns(corner(0, 1), corner(1, 2)), add_turns(corner(2, 3), corner(3, 0))];
+        let [cosine, sine] = add_turns(before, after);
+        let angle = angle_of(sine, cosine);
+        // More than half a turn only from near; else less than 0 is rounding.
+        let near = z * z < a * a + b * b;
+        let angle = if angle < 0.0 && near { angle + TAU } else { angle.max(0.0) };
+        let solid_angle = if z < 0.0 { angle } else { 0.0 };
+        Self { x, y, z, axes, first_angle: [after[0], -after[1]], lean: [leans[0], leans[2]], solid_angle }
     }
     // ANCHOR_END: rectangle_seen
 
@@ -66,8 +71,9 @@ impl RectangleSeen {
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
         let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
-        let angle = u[0] * self.solid_angle + self.first_angle;
-        let f = (libm::cos(angle) * self.lean[0] - self.lean[1]) / libm::sin(angle);
+        let (sine, cosine) = libm::sincos(u[0] * self.solid_angle);
+        let [cosine, sine] = add_turns([cosine, sine], self.first_angle);
+        let f = (cosine * self.lean[0] - self.lean[1]) / sine;
         // f² + lean² − 1 with 1 − lean² in one piece.
         let rest = f * f - z * z / (y0 * y0 + z * z);
         let x = -f.signum() * z / rest.max(0.0).sqrt();
@@ -123,6 +129,12 @@ impl RectangleSeen {
     }
 }
 
+/// One turn after another, each as its cosine and sine.
+#[inline(always)]
+fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
 /// A point of a parallelogram: evenly over the directions that it fills, or over its area where it is far.
 #[inline(always)]
 pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
@@ -134,7 +146,7 @@ pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> L
             let (which, before) = if at < solid_angles[0] { (0, 0.0) } else { (1, solid_angles[0]) };
             let first = ((at - before) / solid_angles[which]).clamp(0.0, 1.0);
             let corners = halves(shape)[which].map(|corner| corner - from);
-            LightPoint { to: TriangleSeen::new(corners).at([first, u[1]]), density: 1.0 / whole }
+            LightPoint { to: TriangleSeen::new(corners, solid_angles[which]).at([first, u[1]]), density: 1.0 / whole }
         }
         Seen::Small => parallelogram_area_point(shape, from, u),
     }

@@ -26,7 +26,8 @@ pub fn sphere_point(axis: DVec3, radius: f64, u: [f64; 2]) -> LightPoint {
     let (sine, turn) = ((versine * (2.0 - versine)).max(0.0).sqrt(), TAU * u[1]);
     let ahead = if inside { DVec3::Z } else { axis / dd.sqrt() };
     let (right, up) = ahead.any_orthonormal_pair();
-    let direction = ahead * (1.0 - versine) + (right * libm::cos(turn) + up * libm::sin(turn)) * sine;
+    let (up_share, right_share) = libm::sincos(turn);
+    let direction = ahead * (1.0 - versine) + (right * right_share + up * up_share) * sine;
     let distance = sphere_distance(axis, radius, direction);
     LightPoint { to: direction * distance, density: 1.0 / (TAU * whole) }
 }

@@ -14,15 +14,14 @@ pub struct TriangleSeen {
     second: DVec3,
     /// Across the way to the first corner, towards the third.
     to_third: DVec3,
-    /// The angle at the first corner.
-    alpha: f64,
+    /// Cosine and sine of the angle at the first corner.
+    alpha: [f64; 2],
     /// The tangent of half the angle from the first corner to the second.
     tan_half: f64,
     /// What the triangle fills, in sr.
     pub solid_angle: f64,
 }
 
-// ANCHOR: triangle_solid_angle
 /// The solid angle of the triangle whose corners are these steps away (Van Oosterom and Strackee 1983).
 ///
 /// With unit vectors a, b, c its half has the tangent |a · (b × c)| / (1 + a · b + b · c + c · a).
@@ -35,28 +34,28 @@ pub fn triangle_solid_angle(corners: &[DVec3; 3]) -> f64 {
     let rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * angle_of(volume, rest)
 }
-// ANCHOR_END: triangle_solid_angle
 
 impl TriangleSeen {
-    /// The triangle whose corners are these steps away from the lit point.
+    /// The triangle whose corners are these steps away from the lit point, and which fills so many sr.
     #[inline(always)]
-    pub fn new(corners: [DVec3; 3]) -> Self {
+    pub fn new(corners: [DVec3; 3], solid_angle: f64) -> Self {
         let [a, b, c] = corners;
         // By the edges: the cross product of two ways that hardly differ would lose their difference.
         let (across_b, across_c) = (a.cross(b - a), a.cross(c - a));
+        let (sine, cosine) = (across_b.cross(across_c).length(), across_b.dot(across_c));
+        let whole = (sine * sine + cosine * cosine).sqrt();
         Self {
             corners,
             cross: (b - a).cross(c - a),
             first: a.normalize(),
             second: b.normalize(),
             to_third: across_c.cross(a).normalize_or_zero(),
-            alpha: angle_of(across_b.cross(across_c).length(), across_b.dot(across_c)),
+            alpha: [cosine / whole, sine / whole],
             tan_half: across_b.length() / (a.length() * b.length() + a.dot(b)),
-            solid_angle: triangle_solid_angle(&corners),
+            solid_angle,
         }
     }
 
-    // ANCHOR: triangle_at
     /// The way to a point of the triangle, evenly over its solid angle (Arvo 1995).
     ///
     /// The first number cuts off, with a great circle from b to the edge ac, a triangle that fills that share E: with the
@@ -64,8 +63,8 @@ impl TriangleSeen {
     /// The second picks a point on the cut, where 1 − cos of the way from b is spread evenly.
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
-        let half = 0.5 * u[0] * self.solid_angle;
-        let tan = libm::sin(half) / (self.tan_half * libm::sin(self.alpha - half));
+        let (sine, cosine) = libm::sincos(0.5 * u[0] * self.solid_angle);
+        let tan = sine / (self.tan_half * (self.alpha[1] * cosine - self.alpha[0] * sine));
         let tan = if tan >= 0.0 { tan.min(f64::MAX.sqrt()) } else { 0.0 };
         let end = (self.first * (1.0 - tan * tan) + self.to_third * (2.0 * tan)) / (1.0 + tan * tan);
         let versine = u[1] * 0.5 * (end - self.second).length_squared();
@@ -73,18 +72,17 @@ impl TriangleSeen {
         let direction = self.second * (1.0 - versine) + away * (versine * (2.0 - versine)).max(0.0).sqrt();
         direction * (self.cross.dot(self.corners[0]) / self.cross.dot(direction))
     }
-    // ANCHOR_END: triangle_at
 }
 
 /// A point of a triangle: evenly over the directions that it fills, or over its area where it fills hardly any.
 #[inline(always)]
 pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
     let there = corners.map(|corner| corner - from);
-    if triangle_solid_angle(&there) < LEAST_SOLID_ANGLE {
+    let solid_angle = triangle_solid_angle(&there);
+    if solid_angle < LEAST_SOLID_ANGLE {
         return triangle_area_point(corners, from, u);
     }
-    let seen = TriangleSeen::new(there);
-    LightPoint { to: seen.at(u), density: 1.0 / seen.solid_angle }
+    LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), density: 1.0 / solid_angle }
 }
 
 /// How likely [`triangle_point`] was to choose a direction, in 1/sr; `to` leads to the triangle's point there.
