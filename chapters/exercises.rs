@@ -56,6 +56,9 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "23_depth_of_field/exercise.rs"]
+pub mod depth_of_field;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -109,3 +112,6 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 23.
+pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);

@@ -57,6 +57,8 @@ pub mod textures;
 #[path = "17_sampling/main.rs"]
 pub mod sampling;
 
+#[path = "23_depth_of_field/main.rs"]
+pub mod depth_of_field;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
 
@@ -84,5 +86,6 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
     ]
 }

@@ -40,6 +40,8 @@ pub enum Attempt {
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
+    /// Chapter 23: a screen point, the tangent of half the vertical angle, a point of the lens, the focus distance.
+    LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
 }
 
 impl Attempt {
@@ -64,6 +66,7 @@ impl Attempt {
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
+            Self::LensDirection(_) => "lens_direction",
         }
     }
 }

@@ -52,6 +52,7 @@ test_chapters! {
     chapter_16_textures: textures,
     chapter_17_sampling: sampling,
     chapter_18_error_and_time: error_and_time,
+    chapter_23_depth_of_field: depth_of_field,
 }
 
 #[test]

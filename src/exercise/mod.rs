@@ -9,6 +9,7 @@ mod answers;
 mod apart;
 mod camera_to_world;
 mod conventions;
+mod depth_of_field;
 mod error_and_time;
 mod field_of_view;
 mod hit;
@@ -63,5 +64,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
     }
 }

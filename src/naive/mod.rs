@@ -13,6 +13,7 @@ pub mod euler;
 pub mod field_of_view;
 pub mod film;
 pub mod flat;
+pub mod lens;
 pub mod light;
 pub mod ndc;
 pub mod plane;

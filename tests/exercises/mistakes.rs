@@ -141,6 +141,12 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
     ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, _, f| lens_direction(s, t, [0.0; 2], f)), "the pinhole's"),
+    ("23_depth_of_field", Attempt::LensDirection(a_sphere_in_focus), "along the ray"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, l, _| lens_direction(s, t, l, 1.0)), "distance 1"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, [x, y], f| lens_direction(s, t, [-x, -y], f)), "is added"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, _, l, f| lens_direction(s, 1.0, l, f)), "tangent is left out"),
+    ("23_depth_of_field", Attempt::LensDirection(not_of_length_1), "length 1"),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -148,6 +154,17 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("17_sampling", Attempt::TentOffset(|u, r| r * (1.0 - (1.0 - u).sqrt())), "on one side"),
     ("17_sampling", Attempt::TentOffset(|u, r| super::solutions::sampling::tent_offset(1.0 - u, r)), "swapped"),
 ];
+
+use super::solutions::depth_of_field::lens_direction;
+
+fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
+    lens_direction(screen, tangent, lens, focus / slant)
+}
+
+fn not_of_length_1(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    lens_direction(screen, tangent, lens, focus).map(|part| 2.0 * part)
+}
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
 

@@ -56,6 +56,9 @@ pub mod sampling;
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
+#[path = "23_depth_of_field.rs"]
+pub mod depth_of_field;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -76,4 +79,5 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
 ];

@@ -17,6 +17,7 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod lens;
 mod light;
 mod light_albedo;
 mod plane;
@@ -74,6 +75,8 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Lenses: where rays meet, where they start, how wide what is out of focus is.
+    Lens,
 }
 
 impl Group {
@@ -93,6 +96,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Lens,
     ];
 
     /// Its cases.
@@ -114,6 +118,7 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Lens => lens::trials(),
         }
     }
 }
@@ -134,6 +139,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Lens => "lens",
         })
     }
 }

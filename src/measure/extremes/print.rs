@@ -15,6 +15,7 @@ impl Group {
             Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Light => ["highlights and lights", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
+            Self::Lens => ["rays through lenses", "judged", "wrong"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
             Self::Disk => ["disks", "to judge", "wrong"],
