@@ -59,6 +59,9 @@ pub mod error_and_time;
 #[path = "23_depth_of_field/exercise.rs"]
 pub mod depth_of_field;
 
+#[path = "24_motion_blur/exercise.rs"]
+pub mod motion_blur;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -115,3 +118,6 @@ pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_ti
 
 /// Chapter 23.
 pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);
+
+/// Chapter 24.
+pub const MOTION_BLUR: Attempt = Attempt::MovingSphereT(motion_blur::moving_sphere_t);

@@ -61,6 +61,8 @@ pub mod sampling;
 pub mod depth_of_field;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
+#[path = "24_motion_blur/main.rs"]
+pub mod motion_blur;
 
 pub mod exercises;
 
@@ -87,5 +89,6 @@ pub fn all() -> Vec<Chapter> {
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
         depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
+        motion_blur::chapter().exercise(exercises::MOTION_BLUR),
     ]
 }

@@ -42,6 +42,8 @@ pub enum Attempt {
     TentOffset(fn(f64, f64) -> f64),
     /// Chapter 23: a screen point, the tangent of half the vertical angle, a point of the lens, the focus distance.
     LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
+    /// Chapter 24: origin, direction, centre, radius, velocity, time.
+    MovingSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Option<f64>),
 }
 
 impl Attempt {
@@ -67,6 +69,7 @@ impl Attempt {
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
             Self::LensDirection(_) => "lens_direction",
+            Self::MovingSphereT(_) => "moving_sphere_t",
         }
     }
 }

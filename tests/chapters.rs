@@ -53,6 +53,7 @@ test_chapters! {
     chapter_17_sampling: sampling,
     chapter_18_error_and_time: error_and_time,
     chapter_23_depth_of_field: depth_of_field,
+    chapter_24_motion_blur: motion_blur,
 }
 
 #[test]

@@ -3,7 +3,6 @@
 //! New here: the `Lens` on the camera, and the stages "Draw points on the lens" and "Aim rays through the lens".
 
 use bevy_ecs::prelude::*;
-use pinhole::rays::LensPoints;
 use pinhole::scene::*;
 use pinhole::{Chapter, intersect, rays, shade};
 
@@ -18,7 +17,6 @@ pub fn chapter() -> Chapter {
         .offer(rays::stages())
         .offer(intersect::stages())
         .offer(shade::stages())
-        .show::<LensPoints>()
 }
 // ANCHOR_END: chapter
 

@@ -17,6 +17,7 @@ mod how_it_is_built;
 mod image;
 mod judge;
 mod light_and_shadow;
+mod motion_blur;
 mod ndc;
 mod orthographic;
 mod pinhole;
@@ -65,5 +66,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
         Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
+        Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
     }
 }

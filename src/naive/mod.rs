@@ -15,6 +15,7 @@ pub mod film;
 pub mod flat;
 pub mod lens;
 pub mod light;
+pub mod motion;
 pub mod ndc;
 pub mod plane;
 pub mod sampling;

@@ -147,6 +147,13 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("23_depth_of_field", Attempt::LensDirection(|s, t, [x, y], f| lens_direction(s, t, [-x, -y], f)), "is added"),
     ("23_depth_of_field", Attempt::LensDirection(|s, _, l, f| lens_direction(s, 1.0, l, f)), "tangent is left out"),
     ("23_depth_of_field", Attempt::LensDirection(not_of_length_1), "length 1"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, _, _| nearest_sphere_t(o, d, c, r)), "stands still"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, v, s| moving_sphere_t(o, d, c, r, v, -s)), "wrong way"),
+    (
+        "24_motion_blur",
+        Attempt::MovingSphereT(|o, d, c, r, v, _| moving_sphere_t(o, d, c, r, v, 1.0)),
+        "time is left out",
+    ),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -156,6 +163,8 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
 ];
 
 use super::solutions::depth_of_field::lens_direction;
+use super::solutions::hit::nearest_sphere_t;
+use super::solutions::motion_blur::moving_sphere_t;
 
 fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
     let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();

@@ -59,6 +59,9 @@ pub mod error_and_time;
 #[path = "23_depth_of_field.rs"]
 pub mod depth_of_field;
 
+#[path = "24_motion_blur.rs"]
+pub mod motion_blur;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -80,4 +83,5 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
     ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
+    ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
 ];
