@@ -65,6 +65,12 @@ pub mod glass;
 #[path = "21_soft_shadows/exercise.rs"]
 pub mod soft_shadows;
 
+#[path = "23_depth_of_field/exercise.rs"]
+pub mod depth_of_field;
+
+#[path = "24_motion_blur/exercise.rs"]
+pub mod motion_blur;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -127,3 +133,9 @@ pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
 
 /// Chapter 21.
 pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);
+
+/// Chapter 23.
+pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);
+
+/// Chapter 24.
+pub const MOTION_BLUR: Attempt = Attempt::MovingSphereT(motion_blur::moving_sphere_t);

@@ -57,8 +57,12 @@ pub mod textures;
 #[path = "17_sampling/main.rs"]
 pub mod sampling;
 
+#[path = "23_depth_of_field/main.rs"]
+pub mod depth_of_field;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
+#[path = "24_motion_blur/main.rs"]
+pub mod motion_blur;
 
 #[path = "19_mirrors/main.rs"]
 pub mod mirrors;
@@ -96,5 +100,7 @@ pub fn all() -> Vec<Chapter> {
         mirrors::chapter().exercise(exercises::MIRRORS),
         glass::chapter().exercise(exercises::GLASS),
         soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
+        depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
+        motion_blur::chapter().exercise(exercises::MOTION_BLUR),
     ]
 }

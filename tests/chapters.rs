@@ -55,6 +55,8 @@ test_chapters! {
     chapter_19_mirrors: mirrors,
     chapter_20_glass: glass,
     chapter_21_soft_shadows: soft_shadows,
+    chapter_23_depth_of_field: depth_of_field,
+    chapter_24_motion_blur: motion_blur,
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod answers;
 mod apart;
 mod camera_to_world;
 mod conventions;
+mod depth_of_field;
 mod error_and_time;
 mod field_of_view;
 mod glass;
@@ -18,6 +19,7 @@ mod image;
 mod judge;
 mod light_and_shadow;
 mod mirrors;
+mod motion_blur;
 mod ndc;
 mod orthographic;
 mod pinhole;
@@ -69,5 +71,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::Mirrored(yours) => mirrors::check(yours, patience),
         Attempt::Refracted(yours) => glass::check(yours, patience),
         Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
+        Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
+        Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
     }
 }

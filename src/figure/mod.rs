@@ -9,6 +9,7 @@
 
 mod acne;
 mod aliasing;
+mod cameras;
 mod drawn_image;
 mod field_of_view;
 mod filters;
@@ -213,6 +214,36 @@ pub fn figures() -> Vec<Figure> {
             chapter: "21_soft_shadows",
             about: "lamps by the right density, without its cosine, and without its distance too",
             draw: jacobian::draw,
+        },
+        Figure {
+            name: "23_focus",
+            chapter: "23_depth_of_field",
+            about: "a lens focused near, focused far, and closed to a pinhole",
+            draw: cameras::draw_focus,
+        },
+        Figure {
+            name: "23_openings",
+            chapter: "23_depth_of_field",
+            about: "a round opening filled evenly and unevenly, and one of three edges",
+            draw: cameras::draw_openings,
+        },
+        Figure {
+            name: "23_cameras",
+            chapter: "23_depth_of_field",
+            about: "one scene through a lens, through a fisheye and in all directions",
+            draw: cameras::draw_cameras,
+        },
+        Figure {
+            name: "24_frames",
+            chapter: "24_motion_blur",
+            about: "one motion as the mean of few moments, of more, and of times at random",
+            draw: cameras::draw_frames,
+        },
+        Figure {
+            name: "24_shutters",
+            chapter: "24_motion_blur",
+            about: "one motion, seen for a moment, for a while and for longer",
+            draw: cameras::draw_shutters,
         },
     ]
 }

@@ -1,5 +1,8 @@
 //! Typical wrong solutions, written as a reader would, and a word of what must be said of each.
 
+use super::solutions::depth_of_field::lens_direction;
+use super::solutions::hit::nearest_sphere_t;
+use super::solutions::motion_blur::moving_sphere_t;
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
 use std::f64::consts::PI;
@@ -152,6 +155,19 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
     ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, _, f| lens_direction(s, t, [0.0; 2], f)), "the pinhole's"),
+    ("23_depth_of_field", Attempt::LensDirection(a_sphere_in_focus), "along the ray"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, l, _| lens_direction(s, t, l, 1.0)), "distance 1"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, [x, y], f| lens_direction(s, t, [-x, -y], f)), "is added"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, _, l, f| lens_direction(s, 1.0, l, f)), "tangent is left out"),
+    ("23_depth_of_field", Attempt::LensDirection(not_of_length_1), "length 1"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, _, _| nearest_sphere_t(o, d, c, r)), "stands still"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, v, s| moving_sphere_t(o, d, c, r, v, -s)), "wrong way"),
+    (
+        "24_motion_blur",
+        Attempt::MovingSphereT(|o, d, c, r, v, _| moving_sphere_t(o, d, c, r, v, 1.0)),
+        "time is left out",
+    ),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -189,6 +205,15 @@ fn signed_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> 
 fn edge_on(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
     let (distance, cosine) = distance_and_cosine(from, at, normal);
     distance * distance / (area * cosine.abs())
+}
+
+fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
+    lens_direction(screen, tangent, lens, focus / slant)
+}
+
+fn not_of_length_1(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    lens_direction(screen, tangent, lens, focus).map(|part| 2.0 * part)
 }
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];

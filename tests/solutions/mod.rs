@@ -65,6 +65,12 @@ pub mod glass;
 #[path = "21_soft_shadows.rs"]
 pub mod soft_shadows;
 
+#[path = "23_depth_of_field.rs"]
+pub mod depth_of_field;
+
+#[path = "24_motion_blur.rs"]
+pub mod motion_blur;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -88,4 +94,6 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
     ("20_glass", Attempt::Refracted(glass::refracted)),
     ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
+    ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
+    ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
 ];

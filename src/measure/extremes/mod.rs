@@ -18,6 +18,7 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod lens;
 mod light;
 mod light_albedo;
 mod matter;
@@ -80,6 +81,8 @@ pub enum Group {
     Matter,
     /// Lights with an area: points on them, and how likely each was.
     Emitter,
+    /// Lenses: where rays meet, where they start, how wide what is out of focus is.
+    Lens,
 }
 
 impl Group {
@@ -101,6 +104,7 @@ impl Group {
         Self::Light,
         Self::Matter,
         Self::Emitter,
+        Self::Lens,
     ];
 
     /// Its cases.
@@ -124,6 +128,7 @@ impl Group {
             Self::Light => light::trials(),
             Self::Matter => matter::trials(),
             Self::Emitter => emitter::trials(),
+            Self::Lens => lens::trials(),
         }
     }
 }
@@ -146,6 +151,7 @@ impl fmt::Display for Group {
             Self::Light => "light",
             Self::Matter => "matter",
             Self::Emitter => "emitter",
+            Self::Lens => "lens",
         })
     }
 }

@@ -17,6 +17,7 @@ impl Group {
             Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
             Self::Emitter => ["lights with an area", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
+            Self::Lens => ["rays through lenses", "judged", "wrong"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
             Self::Film => ["samples and bytes of films", "judged", "wrong"],
             Self::Disk => ["disks", "to judge", "wrong"],
