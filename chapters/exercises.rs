@@ -56,6 +56,15 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "22_ambient_occlusion/exercise.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing/exercise.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/exercise.rs"]
+pub mod choosing_samples;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -109,3 +118,12 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 22.
+pub const AMBIENT_OCCLUSION: Attempt = Attempt::CosineDirection(ambient_occlusion::cosine_direction);
+
+/// Chapter 25.
+pub const PATH_TRACING: Attempt = Attempt::AfterRoulette(path_tracing::after_roulette);
+
+/// Chapter 26.
+pub const CHOOSING_SAMPLES: Attempt = Attempt::PowerHeuristic(choosing_samples::power_heuristic);

@@ -60,6 +60,15 @@ pub mod sampling;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
 
+#[path = "22_ambient_occlusion/main.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing/main.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/main.rs"]
+pub mod choosing_samples;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -84,5 +93,8 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
+        path_tracing::chapter().exercise(exercises::PATH_TRACING),
+        choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),
     ]
 }

@@ -40,6 +40,12 @@ pub enum Attempt {
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
+    /// Chapter 22: two numbers from 0 to below 1.
+    CosineDirection(fn(f64, f64) -> [f64; 3]),
+    /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
+    AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
+    /// Chapter 26: two densities, that of the way's own chance first.
+    PowerHeuristic(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -64,6 +70,9 @@ impl Attempt {
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
+            Self::CosineDirection(_) => "cosine_direction",
+            Self::AfterRoulette(_) => "after_roulette",
+            Self::PowerHeuristic(_) => "power_heuristic",
         }
     }
 }

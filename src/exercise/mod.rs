@@ -5,9 +5,11 @@
 //! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
 //! Nothing here runs in a render.
 
+mod ambient_occlusion;
 mod answers;
 mod apart;
 mod camera_to_world;
+mod choosing_samples;
 mod conventions;
 mod error_and_time;
 mod field_of_view;
@@ -18,6 +20,7 @@ mod judge;
 mod light_and_shadow;
 mod ndc;
 mod orthographic;
+mod path_tracing;
 mod pinhole;
 mod progress;
 mod question;
@@ -63,5 +66,8 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
+        Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
+        Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
     }
 }

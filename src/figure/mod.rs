@@ -15,6 +15,7 @@ mod filters;
 mod gallery;
 mod grid;
 mod hit;
+mod integrators;
 mod label;
 mod lobes;
 mod look_at;
@@ -206,6 +207,24 @@ pub fn figures() -> Vec<Figure> {
             chapter: "17_sampling",
             about: "the variance of a mean over the number of its samples",
             draw: samples::draw_variance,
+        },
+        Figure {
+            name: "22_distance",
+            chapter: "22_ambient_occlusion",
+            about: "how much of the sky points see, with what is near alone in the way, and with all",
+            draw: integrators::draw_distance,
+        },
+        Figure {
+            name: "25_legs",
+            chapter: "25_path_tracing",
+            about: "one scene by ray casting, and by ways of light of two, three and many legs",
+            draw: integrators::draw_legs,
+        },
+        Figure {
+            name: "26_ways",
+            chapter: "26_choosing_samples",
+            about: "lamps found by chance, by aiming, and by both, weighed",
+            draw: integrators::draw_ways,
         },
     ]
 }

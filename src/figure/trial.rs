@@ -26,6 +26,7 @@ pub fn chapters() -> Vec<Chapter> {
         .into_iter()
         .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
         .chain(["17_sampling"])
+        .chain(["22_ambient_occlusion", "25_path_tracing", "26_choosing_samples"])
         .map(chapter)
         .collect()
 }

@@ -15,6 +15,7 @@ pub mod film;
 pub mod flat;
 pub mod light;
 pub mod ndc;
+pub mod path;
 pub mod plane;
 pub mod sampling;
 pub mod screen;

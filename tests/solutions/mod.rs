@@ -56,6 +56,15 @@ pub mod sampling;
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
+#[path = "22_ambient_occlusion.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples.rs"]
+pub mod choosing_samples;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -76,4 +85,7 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
+    ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
+    ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
 ];

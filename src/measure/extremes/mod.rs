@@ -31,6 +31,7 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod transport;
 mod triangle;
 mod triangle_aim;
 mod triangle_limits;
@@ -74,6 +75,8 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Ways of light: what they bring, how they end, what they count for.
+    Transport,
 }
 
 impl Group {
@@ -93,6 +96,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Transport,
     ];
 
     /// Its cases.
@@ -114,6 +118,7 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Transport => transport::trials(),
         }
     }
 }
@@ -134,6 +139,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Transport => "transport",
         })
     }
 }
