@@ -31,7 +31,7 @@ fn scene(world: &mut World) {
         Integrator::AmbientOcclusion { distance: f64::INFINITY },
     ));
     world.spawn((Name::new("ground"), Plane::default(), Matte::default()));
-    let mut block = |name: &str, size: [f64; 3], [x, y, z]: [f64; 3]| {
+    let mut block = |name: &'static str, size: [f64; 3], [x, y, z]: [f64; 3]| {
         world.spawn((Name::new(name), Cuboid { size: size.into() }, Placement::at(x, y, z), Matte::default()));
     };
     block("back wall", [6.4, 2.6, 0.3], [0.0, 1.3, -2.6]);

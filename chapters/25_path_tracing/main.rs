@@ -31,7 +31,7 @@ fn scene(world: &mut World) {
         Sampling { samples: 64, seed: 25, ..Sampling::default() },
     ));
     let (white, orange, blue) = (Rgb::new(0.75, 0.73, 0.7), Rgb::new(0.7, 0.25, 0.1), Rgb::new(0.1, 0.35, 0.55));
-    let mut board = |name: &str, width, [x, y, z]: [f64; 3], orientation, colour| {
+    let mut board = |name: &'static str, width, [x, y, z]: [f64; 3], orientation, colour| {
         let place = Placement { orientation, ..Placement::at(x, y, z) };
         world.spawn((Name::new(name), Rectangle { width, depth: 2.0 }, place, Matte { colour }));
     };

@@ -7,7 +7,6 @@ use super::svg::Drawing;
 use crate::Result;
 use crate::chapter::Chapter;
 use crate::scene::{Integrator, LightSampling, Sampling};
-use bevy_ecs::prelude::*;
 
 /// Three in a row.
 const SMALL: [u32; 2] = [276, 155];
