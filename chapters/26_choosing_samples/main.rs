@@ -25,8 +25,8 @@ pub fn chapter() -> Chapter {
 fn scene(world: &mut World) {
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(28.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 2.0, 7.5].into(), target: [0.0, 1.35, 0.0].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(32.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 2.0, 7.5].into(), target: [0.0, 1.3, 0.0].into(), ..LookAt::default() },
         Sampling { samples: 32, seed: 26, ..Sampling::default() },
         Integrator::Path { legs: 100, lights: LightSampling::Weighed, roulette: 5 },
     ));
