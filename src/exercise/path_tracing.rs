@@ -35,7 +35,7 @@ fn question() -> Question<Input, [f64; 3]> {
         },
         apart: |yours, right| relative(yours, right),
         allowed: 1e-12,
-        measured: "of the largest part",
+        measured: "of each part",
         mistakes: vec![
             Mistake::new("a way that goes on counts as before, so the light of those that ended is lost", |input| {
                 played(input, chance_to_go_on(input.0), 1.0)

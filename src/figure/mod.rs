@@ -9,6 +9,7 @@
 
 mod acne;
 mod aliasing;
+mod broken_paths;
 mod drawn_image;
 mod field_of_view;
 mod filters;
@@ -219,6 +220,12 @@ pub fn figures() -> Vec<Figure> {
             chapter: "25_path_tracing",
             about: "one scene by ray casting, and by ways of light of two, three and many legs",
             draw: integrators::draw_legs,
+        },
+        Figure {
+            name: "25_broken",
+            chapter: "25_path_tracing",
+            about: "one scene by paths with a factor too few or too many, and encoded twice",
+            draw: broken_paths::draw,
         },
         Figure {
             name: "26_ways",
