@@ -56,8 +56,14 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/exercise.rs"]
+pub mod mirrors;
+
+
 #[path = "22_ambient_occlusion/exercise.rs"]
 pub mod ambient_occlusion;
+#[path = "20_glass/exercise.rs"]
+pub mod glass;
 
 #[path = "25_path_tracing/exercise.rs"]
 pub mod path_tracing;
@@ -118,6 +124,12 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
+
+/// Chapter 19.
+pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
+
+/// Chapter 20.
+pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
 
 /// Chapter 22.
 pub const AMBIENT_OCCLUSION: Attempt = Attempt::CosineDirection(ambient_occlusion::cosine_direction);

@@ -60,8 +60,14 @@ pub mod sampling;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/main.rs"]
+pub mod mirrors;
+
+
 #[path = "22_ambient_occlusion/main.rs"]
 pub mod ambient_occlusion;
+#[path = "20_glass/main.rs"]
+pub mod glass;
 
 #[path = "25_path_tracing/main.rs"]
 pub mod path_tracing;
@@ -93,6 +99,8 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        mirrors::chapter().exercise(exercises::MIRRORS),
+        glass::chapter().exercise(exercises::GLASS),
         ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
         path_tracing::chapter().exercise(exercises::PATH_TRACING),
         choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),

@@ -40,6 +40,10 @@ pub enum Attempt {
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
+    /// Chapter 19: a direction, a normal.
+    Mirrored(fn([f64; 3], [f64; 3]) -> [f64; 3]),
+    /// Chapter 20: a direction, a normal, the far side's index over the near side's.
+    Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
     /// Chapter 22: two numbers from 0 to below 1.
     CosineDirection(fn(f64, f64) -> [f64; 3]),
     /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
@@ -70,6 +74,8 @@ impl Attempt {
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
+            Self::Mirrored(_) => "mirrored",
+            Self::Refracted(_) => "refracted",
             Self::CosineDirection(_) => "cosine_direction",
             Self::AfterRoulette(_) => "after_roulette",
             Self::PowerHeuristic(_) => "power_heuristic",

@@ -52,6 +52,8 @@ test_chapters! {
     chapter_16_textures: textures,
     chapter_17_sampling: sampling,
     chapter_18_error_and_time: error_and_time,
+    chapter_19_mirrors: mirrors,
+    chapter_20_glass: glass,
     chapter_22_ambient_occlusion: ambient_occlusion,
     chapter_25_path_tracing: path_tracing,
     chapter_26_choosing_samples: choosing_samples,

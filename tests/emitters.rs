@@ -4,6 +4,8 @@
 mod closed_forms;
 #[path = "emitters/densities.rs"]
 mod densities;
+#[path = "emitters/environment.rs"]
+mod environment;
 #[path = "emitters/pictures.rs"]
 mod pictures;
 #[path = "emitters/shadow_rays.rs"]

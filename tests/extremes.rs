@@ -57,6 +57,11 @@ fn transforms_hold() {
 }
 
 #[test]
+fn matter_holds() {
+    holds(Group::Matter, 2048);
+}
+
+#[test]
 fn textures_hold() {
     holds(Group::Texture, 1024);
 }

@@ -2,6 +2,8 @@
 
 mod scenes;
 
+#[path = "plan/followed.rs"]
+mod followed;
 #[path = "plan/forced.rs"]
 mod forced;
 #[path = "plan/textures.rs"]
@@ -39,6 +41,9 @@ fn pictureless(on: &[Toggle]) -> bool {
         Toggle::Phong,
         Toggle::BlinnPhong,
         Toggle::Emissive,
+        Toggle::Mirror,
+        Toggle::Glass,
+        Toggle::Metal,
     ];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
@@ -244,6 +249,9 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a glossy ball", add::<(Sphere, Phong)>, take::<(Sphere, Phong)>),
         ("a satin ball", add::<(Sphere, BlinnPhong)>, take::<(Sphere, BlinnPhong)>),
         ("a glow", add::<(Sphere, Emissive)>, take::<(Sphere, Emissive)>),
+        ("a mirror", add::<(Sphere, Mirror)>, take::<(Sphere, Mirror)>),
+        ("a ball of glass", add::<(Sphere, Glass)>, take::<(Sphere, Glass)>),
+        ("rough metal", add::<(Sphere, Metal)>, take::<(Sphere, Metal)>),
         ("a lens", add::<(PerspectiveCamera, Lens)>, take::<(PerspectiveCamera, Lens)>),
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];

@@ -13,11 +13,13 @@ mod choosing_samples;
 mod conventions;
 mod error_and_time;
 mod field_of_view;
+mod glass;
 mod hit;
 mod how_it_is_built;
 mod image;
 mod judge;
 mod light_and_shadow;
+mod mirrors;
 mod ndc;
 mod orthographic;
 mod path_tracing;
@@ -66,6 +68,8 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::Mirrored(yours) => mirrors::check(yours, patience),
+        Attempt::Refracted(yours) => glass::check(yours, patience),
         Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
         Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
         Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),

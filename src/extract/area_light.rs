@@ -2,7 +2,7 @@ use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
 use super::shape::{emissive_of, is_shape};
 use super::{
     CuboidTable, DiskTable, EmissiveTable, Flat, NO_ROW, RectangleTable, ShapeKind, ShapeTable, SphereTable,
-    TriangleTable, shape_entities, unevenly_scaled,
+    TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
 };
 use crate::plan::{Evidence, Table, counted};
 use crate::scene::{Emissive, Placement, Plane, Refusal, Rgb, Sphere, called};
@@ -14,8 +14,8 @@ const PARTS: u64 = 1 << 32;
 
 /// Lights with an area whose points can be aimed at, in spawn order of their shapes.
 ///
-/// Planes have no end and unevenly scaled spheres no even spread of points that is known; what these emit is met by chance
-/// only.
+/// Planes have no end, unevenly scaled spheres no even spread of points that is known, and what moves is elsewhere for
+/// every ray; what these emit is met by chance only.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AreaLightTable {
     /// Their shapes.
@@ -28,7 +28,7 @@ pub struct AreaLightTable {
     pub one_sided: Vec<bool>,
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
-    /// How likely it is to be chosen: its power's share of all, and at least 2⁻³².
+    /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
     pub chance: Vec<f64>,
     /// The light that a shape is; [`NO_ROW`] for a shape that is none.
     pub light_of_shape: Vec<u32>,
@@ -43,14 +43,17 @@ impl AreaLightTable {
     }
     // ANCHOR_END: choose_light
 
-    /// Shares chance out by power: each light gets one part, and the others go by its share.
+    /// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
+    /// matter most where it does.
     ///
+    /// Each light gets one part, and the others go by its share.
     /// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
     fn share_out(&mut self, powers: &[f64]) {
         let total: f64 = powers.iter().sum();
         let even = !(total > 0.0 && total.is_finite());
         let left = PARTS - powers.len() as u64;
-        let share = |power: f64| if even { 1.0 / powers.len() as f64 } else { power / total };
+        let even_share = 1.0 / powers.len() as f64;
+        let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
         let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
         let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
         let given: u64 = parts.iter().sum();
@@ -99,7 +102,7 @@ impl Table for AreaLightTable {
                     let slabs = &cuboids.slabs[row];
                     Emitter::Cuboid(EmittingCuboid::new(slabs.centre, slabs.half_edges()))
                 }
-                ShapeKind::Plane | ShapeKind::Ellipsoid => continue,
+                ShapeKind::Plane | ShapeKind::Ellipsoid | ShapeKind::Moving => continue,
             };
             let one_sided = emissive.one_sided[emits as usize];
             let sides = if one_sided { 1.0 } else { 2.0 };
@@ -130,8 +133,11 @@ fn about_ellipse(flat: &Flat) -> Parallelogram {
 
 /// Evidence that a shape emits light and can be aimed at; shapes that emit and cannot are told too.
 pub fn area_light_evidence(scene: &World) -> Evidence {
+    let moves = moves_while_open(scene);
     let endless = |shape: Entity| {
-        scene.get::<Plane>(shape).is_some() || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
+        moves(shape)
+            || scene.get::<Plane>(shape).is_some()
+            || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
     };
     let shines = |shape: Entity| {
         let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));

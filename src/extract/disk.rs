@@ -1,11 +1,11 @@
 use super::check::{kind_and_name, positive_length};
 use super::flat::{Flat, flat};
-use super::shape_entities;
+use super::{moves_while_open, shape_entities};
 use crate::plan::Table;
 use crate::scene::{Disk, Refusal};
 use bevy_ecs::prelude::*;
 
-/// Disks in render space, in spawn order: the points of a plane whose two coordinates have squares that sum to 1 at most.
+/// Disks in render space, in spawn order, without those that [move](super::MovingTable): the points of a plane whose two coordinates have squares that sum to 1 at most.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DiskTable {
     /// The plane and the coordinates.
@@ -18,8 +18,8 @@ impl Table for DiskTable {
     const NAME: &'static str = "disks";
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
-        let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+        let (mut table, moves) = (Self::default(), moves_while_open(scene));
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| !moves(entity)) {
             let Some(disk) = scene.get::<Disk>(entity) else { continue };
             let who = kind_and_name(scene, "disk", entity);
             let radius = positive_length(&who, "radius", disk.radius)?;

@@ -87,8 +87,8 @@ fn pieces(scene: &World) -> Result<Vec<Piece>, Refusal> {
                 let [a, b, c] = triangles.facet[row].corners;
                 Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
             }
-            // A plane of glass reaches everywhere; disks and rectangles of glass are refused.
-            ShapeKind::Plane | ShapeKind::Disk | ShapeKind::Rectangle => {
+            // A plane of glass reaches everywhere, and what moves may; disks and rectangles of glass are refused.
+            ShapeKind::Plane | ShapeKind::Disk | ShapeKind::Rectangle | ShapeKind::Moving => {
                 Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY }
             }
         };

@@ -20,6 +20,7 @@ mod ellipsoid;
 mod emissive;
 mod emitter;
 mod environment;
+mod environment_light;
 mod exact_sum;
 mod filter;
 mod fisheye;
@@ -36,6 +37,8 @@ mod lens;
 mod material;
 mod metal;
 mod mirror;
+mod motion;
+mod moving;
 mod phong;
 mod pixel_steps;
 mod plane;
@@ -70,6 +73,7 @@ pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
+pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use fisheye::{ImageCircle, fisheye_evidence};
@@ -89,6 +93,10 @@ pub use lens::{LensTable, check_lens, lens_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
 pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
 pub use mirror::{MirrorTable, mirror_evidence};
+pub use motion::{
+    ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
+};
+pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use plane::PlaneTable;
@@ -122,6 +130,7 @@ use bevy_ecs::prelude::*;
 /// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), Refusal> {
     ImageShape::extract(scene)?;
+    check_motion(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;
     check_lens(scene)?;
@@ -139,6 +148,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     RectangleTable::extract(scene)?;
     CuboidTable::extract(scene)?;
     TriangleTable::extract(scene)?;
+    MovingTable::extract(scene)?;
     VertexNormalTable::extract(scene)?;
     PointLightTable::extract(scene)?;
     DirectionalLightTable::extract(scene)?;

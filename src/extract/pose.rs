@@ -1,4 +1,5 @@
 use super::check::{finite_point, number, triple};
+use super::motion::way_before_opening;
 use crate::scene::{ChildOf, LookAt, Placement, Refusal, called};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -51,6 +52,9 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
         world_from_entity = above.world_from_entity * world_from_entity;
         entity_from_world *= above.entity_from_world;
         child = parent;
+    }
+    if let Some(way) = way_before_opening(scene, entity) {
+        world_from_entity.translation += way;
     }
     let determinant = world_from_entity.matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() || !world_from_entity.translation.is_finite() {

@@ -2,8 +2,8 @@ use super::check::kind_and_name;
 use super::emissive::emissive_entities;
 use super::material::{NO_ROW, is_material, material_entities, material_kind, materials_in_words};
 use super::{
-    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-    unevenly_scaled,
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MovingTable, PlaneTable, RectangleTable, SphereTable,
+    TriangleTable, moves_while_open, unevenly_scaled,
 };
 use crate::plan::{Table, entities};
 use crate::scene::{
@@ -28,11 +28,13 @@ pub enum ShapeKind {
     Cuboid,
     /// A row of the triangle table.
     Triangle,
+    /// A row of the table of moving shapes.
+    Moving,
 }
 
 impl ShapeKind {
     /// How many kinds there are.
-    const COUNT: usize = 7;
+    const COUNT: usize = 8;
 
     /// The name of the table that it is laid in.
     pub const fn table(self) -> &'static str {
@@ -44,6 +46,7 @@ impl ShapeKind {
             Self::Rectangle => RectangleTable::NAME,
             Self::Cuboid => CuboidTable::NAME,
             Self::Triangle => TriangleTable::NAME,
+            Self::Moving => MovingTable::NAME,
         }
     }
 }
@@ -113,10 +116,10 @@ impl Table for ShapeTable {
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let mut table = Self::default();
-        let mut rows_of_kind = [0; ShapeKind::COUNT];
+        let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
         for entity in shape_entities(scene) {
             let written = one_shape(scene, entity)?;
-            let kind = (written.kind)(scene, entity);
+            let kind = if moves(entity) { ShapeKind::Moving } else { (written.kind)(scene, entity) };
             let rows = &mut rows_of_kind[kind as usize];
             table.row.push(*rows);
             *rows += 1;

@@ -1,12 +1,12 @@
 use super::check::{finite_point, kind_and_name, number, positive_length};
-use super::{eye, shape_entities, unevenly_scaled, world_from_entity};
+use super::{eye, moves_while_open, shape_entities, unevenly_scaled, world_from_entity};
 use crate::plan::Table;
 use crate::scene::{Refusal, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 /// Spheres in render space, in spawn order; those that their placement scales unevenly are
-/// [ellipsoids](super::EllipsoidTable).
+/// [ellipsoids](super::EllipsoidTable), and those that move are in [another table](super::MovingTable).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SphereTable {
     /// Centre, x.
@@ -32,26 +32,18 @@ impl Table for SphereTable {
     const NAME: &'static str = "spheres";
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
-        let eye = eye(scene)?;
+        let (eye, moves) = (eye(scene)?, moves_while_open(scene));
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
-            let Some(sphere) = scene.get::<Sphere>(entity).filter(|_| !unevenly_scaled(scene, entity)) else {
+            let still = |_: &&Sphere| !unevenly_scaled(scene, entity) && !moves(entity);
+            let Some(sphere) = scene.get::<Sphere>(entity).filter(still) else {
                 continue;
             };
-            let who = kind_and_name(scene, "sphere", entity);
-            let pose = world_from_entity(scene, &who, entity)?;
-            positive_length(&who, "radius", sphere.radius)?;
-            // The same along all axes, mirrored or not.
-            let scale = pose.matrix3.x_axis.length();
-            let centre = finite_point(&who, "position", pose.translation - eye)?;
+            let (centre, radius) = placed_sphere(scene, entity, sphere, eye)?;
             table.x.push(centre.x);
             table.y.push(centre.y);
             table.z.push(centre.z);
-            let scaled = |refusal: Refusal| {
-                let value = format!("{} scaled by {}", number(sphere.radius), number(scale));
-                Refusal { value, ..refusal }
-            };
-            table.radius.push(positive_length(&who, "radius", sphere.radius * scale).map_err(scaled)?);
+            table.radius.push(radius);
             table.shape.push(shape as u32);
         }
         Ok(table)
@@ -60,4 +52,24 @@ impl Table for SphereTable {
     fn bytes(&self) -> usize {
         self.x.len() * (4 * size_of::<f64>() + size_of::<u32>())
     }
+}
+
+/// Where a sphere's centre is, from the eye, and its radius, both by its placement.
+pub(super) fn placed_sphere(
+    scene: &World,
+    entity: Entity,
+    sphere: &Sphere,
+    eye: DVec3,
+) -> Result<(DVec3, f64), Refusal> {
+    let who = kind_and_name(scene, "sphere", entity);
+    let pose = world_from_entity(scene, &who, entity)?;
+    positive_length(&who, "radius", sphere.radius)?;
+    // The same along all axes, mirrored or not.
+    let scale = pose.matrix3.x_axis.length();
+    let centre = finite_point(&who, "position", pose.translation - eye)?;
+    let scaled = |refusal: Refusal| {
+        let value = format!("{} scaled by {}", number(sphere.radius), number(scale));
+        Refusal { value, ..refusal }
+    };
+    Ok((centre, positive_length(&who, "radius", sphere.radius * scale).map_err(scaled)?))
 }

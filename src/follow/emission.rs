@@ -1,10 +1,11 @@
 use crate::extract::{
-    AreaLightTable, EmissiveTable, IntegratorTable, NO_ROW, aimed_evidence, emissive_evidence, followed_evidence,
+    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, aimed_evidence,
+    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence,
 };
-use crate::intersect::{EmissiveRows, Hits, SurfaceSides};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Paths, WorldRays};
-use crate::shade::{Radiance, area_light_density};
+use crate::shade::{Radiance, area_light_density, environment_density, environment_radiance};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: power_heuristic
@@ -65,7 +66,7 @@ pub fn weighed_emission_stage() -> Stage {
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<EmissiveRows>()
-        .reads_where::<SurfaceSides>(crate::extract::one_sided_evidence)
+        .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads::<Radiance>()
         .writes::<Radiance>()
         .table::<EmissiveTable>()
@@ -77,4 +78,44 @@ pub fn weighed_emission_stage() -> Stage {
 /// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
 fn weighed_emission_evidence(scene: &World) -> Evidence {
     emissive_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene))
+}
+
+/// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.
+pub fn add_weighed_environment(
+    environment: Res<Shared<EnvironmentTable>>,
+    light: Res<Shared<EnvironmentLightTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut tiles: Query<(&Paths, &WorldRays, Option<&Hits>, &mut Radiance)>,
+) {
+    for (paths, rays, hits, mut radiance) in &mut tiles {
+        for row in (0..rays.rows()).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
+            let direction = rays.direction_of(row);
+            let share = if paths.density[row] == f64::INFINITY {
+                1.0
+            } else if integrator.weighed {
+                power_heuristic(paths.density[row], environment_density(&light, environment.turn, direction))
+            } else {
+                0.0
+            };
+            let [r, g, b] = environment_radiance(&environment, direction).map(|part| (share * part) as f32);
+            radiance.r[row] += r;
+            radiance.g[row] += g;
+            radiance.b[row] += b;
+        }
+    }
+}
+
+/// The stage on offer: the alternative to adding all of the environment.
+pub fn weighed_environment_stage() -> Stage {
+    Stage::new("Add the environment, as far as not aimed at", TileSystems::Background, add_weighed_environment)
+        .kind(StageKind::Alternative)
+        .reads::<Paths>()
+        .reads::<WorldRays>()
+        .reads_if::<Hits>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .table::<EnvironmentTable>()
+        .table::<EnvironmentLightTable>()
+        .table::<IntegratorTable>()
+        .when(|scene| environment_light_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene)))
 }

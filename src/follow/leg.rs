@@ -2,7 +2,7 @@ use super::media::media_evidence;
 use super::{Media, Scattered};
 use crate::extract::{IntegratorTable, followed_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
-use crate::rays::{Leg, PathLight, Paths, WorldRays};
+use crate::rays::{Leg, PathLight, Paths, RayTimes, WorldRays};
 use crate::shade::{Footprints, Radiance};
 use bevy_ecs::prelude::*;
 
@@ -25,10 +25,13 @@ pub fn add_leg(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
 /// Makes the scattered rays the rays of the next leg, in the dark; none where this was the last leg.
 pub fn step_on(
     integrator: Res<Shared<IntegratorTable>>,
-    mut kept: Local<Paths>,
-    mut tiles: Query<(&mut Leg, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance, Option<&mut Footprints>)>,
+    (mut kept, mut kept_times): (Local<Paths>, Local<RayTimes>),
+    mut tiles: Query<(
+        (&mut Leg, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance),
+        (Option<&mut RayTimes>, Option<&mut Footprints>),
+    )>,
 ) {
-    for (mut leg, scattered, mut rays, mut paths, mut radiance, footprints) in &mut tiles {
+    for ((mut leg, scattered, mut rays, mut paths, mut radiance), (times, footprints)) in &mut tiles {
         leg.0 += 1;
         let rows = if leg.0 < integrator.legs { scattered.rows() } else { 0 };
         let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
@@ -42,6 +45,11 @@ pub fn step_on(
         let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.density];
         [r, g, b, density].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
         std::mem::swap(&mut *kept, &mut *paths);
+        if let Some(mut times) = times {
+            let next = kept_times.slices_mut(rows);
+            next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
+            std::mem::swap(&mut *kept_times, &mut *times);
+        }
 
         let (r, g, b) = radiance.slices_mut(rows);
         [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));

@@ -26,9 +26,12 @@ impl Media {
         [f32::from(u8::from(self.first[row] != NO_ROW)); 3]
     }
 
-    /// What a row's ray starts in.
+    /// What a row's ray starts in; nothing where no stage has carried it over.
     #[inline(always)]
     pub fn get(&self, row: usize) -> MediumStack {
+        if row >= self.first.len() {
+            return MediumStack::OUTSIDE;
+        }
         MediumStack { rows: [self.first[row], self.second[row], self.third[row], self.fourth[row]] }
     }
 
@@ -45,22 +48,23 @@ pub fn start_media(mut tiles: Query<(&WorldRays, &mut Media)>) {
     }
 }
 
-// ANCHOR: absorb_in_glass
 /// Leaves of each ray's share what the glass on its way lets through; on a way without end that is nothing.
 pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
     for (hits, media, mut paths) in &mut tiles {
         let paths = &mut *paths;
-        for row in (0..hits.rows()).filter(|&row| media.first[row] != NO_ROW) {
-            let absorption = glass.absorption[media.first[row] as usize];
+        for row in 0..hits.rows() {
+            let there = media.get(row).top();
+            if there == NO_ROW {
+                continue;
+            }
+            let absorption = glass.absorption[there as usize];
             paths.r[row] *= transmittance(absorption[0], hits.t[row]);
             paths.g[row] *= transmittance(absorption[1], hits.t[row]);
             paths.b[row] *= transmittance(absorption[2], hits.t[row]);
         }
     }
 }
-// ANCHOR_END: absorb_in_glass
 
-// ANCHOR: carry_media
 /// Gives each scattered ray the media of the ray that it came of, with what it entered or left where it went through
 /// glass.
 pub fn carry_media(
@@ -71,7 +75,7 @@ pub fn carry_media(
 ) {
     for (scattered, surfaces, sides, list, mut media) in &mut tiles {
         glass_of.clear();
-        glass_of.resize(media.rows(), NO_ROW);
+        glass_of.resize(surfaces.rows(), NO_ROW);
         list.row.iter().zip(&list.of).for_each(|(&row, &of)| glass_of[row as usize] = of);
         kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
@@ -85,7 +89,6 @@ pub fn carry_media(
         std::mem::swap(&mut *kept, &mut *media);
     }
 }
-// ANCHOR_END: carry_media
 
 /// The stage that starts.
 pub fn start_media_stage() -> Stage {

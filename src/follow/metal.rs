@@ -9,7 +9,6 @@ use crate::scene::Integrator;
 use crate::shade::{LightRays, Radiance, ShadowHits, lit_evidence};
 use bevy_ecs::prelude::*;
 
-// ANCHOR: scatter_metal
 /// Sends a ray on from rough metal, by a tiny mirror at random among those seen.
 pub fn scatter_metal(
     sampling: Res<Shared<SamplingTable>>,
@@ -44,9 +43,7 @@ pub fn scatter_metal(
         });
     }
 }
-// ANCHOR_END: scatter_metal
 
-// ANCHOR: add_metal
 /// Adds what rough metal sends towards the eye of each light ray's irradiance, unless something stands in between.
 pub fn add_metal(
     materials: Res<Shared<MaterialTable>>,
@@ -79,7 +76,6 @@ pub fn add_metal(
         }
     }
 }
-// ANCHOR_END: add_metal
 
 /// The stage that sends rays on.
 pub fn metal_stage() -> Stage {

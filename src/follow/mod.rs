@@ -29,7 +29,9 @@ mod weigh;
 
 pub use beer::{absorbed, transmittance};
 pub use classify::{GlassRows, MatteRows, MetalRows, MirrorRows, classify_matter, classify_matter_stage};
-pub use emission::{add_weighed_emission, power_heuristic, weighed_emission_stage};
+pub use emission::{
+    add_weighed_emission, add_weighed_environment, power_heuristic, weighed_emission_stage, weighed_environment_stage,
+};
 pub use frame::{cosine_density, cosine_direction, frame_of, same_side};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{Glint, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_density, visible_normal};
@@ -57,7 +59,13 @@ pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage(), roulette_stage()];
     stages.extend(matter_stages());
     stages.extend([sky_rays_stage(), sky_stage()]);
-    stages.extend([last_leg_stage(), weigh_matte_stage(), weigh_metal_stage(), weighed_emission_stage()]);
+    stages.extend([
+        last_leg_stage(),
+        weigh_matte_stage(),
+        weigh_metal_stage(),
+        weighed_emission_stage(),
+        weighed_environment_stage(),
+    ]);
     stages.extend([add_leg_stage(), step_stage(), follow_stage(), gather_stage()]);
     stages
 }

@@ -1,9 +1,10 @@
 use super::{frame_of, power_heuristic, visible_density};
 use crate::extract::{
-    MaterialKind, MaterialTable, MetalTable, area_light_evidence, material_evidence, metal_evidence, weighed_evidence,
+    MaterialKind, MaterialTable, MetalTable, area_light_evidence, environment_light_evidence, material_evidence,
+    metal_evidence, weighed_evidence,
 };
 use crate::intersect::{ShadingNormals, Surfaces};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
 use crate::shade::{LightDensities, LightRays};
 use bevy_ecs::prelude::*;
@@ -31,6 +32,11 @@ pub fn weigh_matte(
 }
 // ANCHOR_END: weigh_matte
 
+/// Evidence that there is a light that chance may find too.
+fn aimed_light_evidence(scene: &World) -> Evidence {
+    area_light_evidence(scene).or(environment_light_evidence(scene))
+}
+
 /// The stage on offer.
 pub fn weigh_matte_stage() -> Stage {
     Stage::new("Weigh light aimed at from matte surfaces", TileSystems::Weigh, weigh_matte)
@@ -41,7 +47,7 @@ pub fn weigh_matte_stage() -> Stage {
         .reads::<LightRays>()
         .writes::<LightRays>()
         .table::<MaterialTable>()
-        .when(|scene| area_light_evidence(scene).and(weighed_evidence(scene)).and(material_evidence(scene)))
+        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(material_evidence(scene)))
 }
 
 /// Takes from every light ray the part that rough metal finds by chance, by its tiny mirrors.
@@ -79,5 +85,5 @@ pub fn weigh_metal_stage() -> Stage {
         .writes::<LightRays>()
         .table::<MaterialTable>()
         .table::<MetalTable>()
-        .when(|scene| area_light_evidence(scene).and(weighed_evidence(scene)).and(metal_evidence(scene)))
+        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(metal_evidence(scene)))
 }

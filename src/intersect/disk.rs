@@ -5,7 +5,7 @@ use super::sphere::{LANES, RayBlock, Verdict};
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::wide_flat::wide_disk_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{DiskTable, Flat, ShapeTable};
+use crate::extract::{DiskTable, Flat, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Disk;
@@ -104,5 +104,6 @@ pub fn disk_surface_stage() -> Stage {
 
 /// Evidence that the scene holds a disk.
 pub fn disk_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Disk>(scene, "disk")
+    let moves = moves_while_open(scene);
+    Evidence::of_kind::<With<Disk>>(scene, "disk", |disk| !moves(disk))
 }

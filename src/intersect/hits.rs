@@ -1,10 +1,8 @@
 use super::cuboid::cuboid_evidence;
-use super::disk::disk_evidence;
 use super::plane::plane_evidence;
-use super::rectangle::rectangle_evidence;
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::{Sphere, Triangle};
+use crate::scene::{Disk, Rectangle, Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -45,6 +43,11 @@ pub struct RayLanes<'a> {
 pub trait RayColumn: Column {
     /// The lanes that are a ray.
     fn ray_lanes(&self) -> RayLanes<'_>;
+
+    /// The row of the tile's rays with which each of these is on its way; none where they are those themselves.
+    fn path_lane(&self) -> Option<&[u32]> {
+        None
+    }
 }
 
 /// A column of hits that kernels narrow: a shape is met only before the distance that the row already holds.
@@ -88,8 +91,8 @@ pub fn start_stage() -> Stage {
 pub fn shape_evidence(scene: &World) -> Evidence {
     Evidence::of::<Sphere>(scene, "sphere")
         .or(plane_evidence(scene))
-        .or(disk_evidence(scene))
-        .or(rectangle_evidence(scene))
+        .or(Evidence::of::<Disk>(scene, "disk"))
+        .or(Evidence::of::<Rectangle>(scene, "rectangle"))
         .or(cuboid_evidence(scene))
         .or(Evidence::of::<Triangle>(scene, "triangle"))
 }

@@ -11,6 +11,7 @@ mod disk;
 mod ellipsoid;
 mod flat;
 mod hits;
+mod moving;
 mod narrow;
 mod plane;
 mod rectangle;
@@ -39,6 +40,7 @@ pub use ellipsoid::{
 };
 pub use flat::{Crossing, crossing};
 pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
+pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
 pub use rectangle::{
     intersect_rectangles, rectangle_evidence, rectangle_stage, rectangle_surface_stage, rectangle_t, rectangle_verdict,
@@ -69,5 +71,6 @@ pub fn stages() -> Vec<Stage> {
     stages.extend([sphere_surface_stage(), ellipsoid_surface_stage(), plane_surface_stage()]);
     stages.extend([disk_surface_stage(), rectangle_surface_stage(), cuboid_surface_stage()]);
     stages.extend([triangle_stage(), triangle_surface_stage(), shading_normal_stage()]);
+    stages.extend([moving_stage(), moving_surface_stage()]);
     stages
 }

@@ -5,7 +5,7 @@ use super::sphere::{LANES, RayBlock, Verdict};
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::wide_flat::wide_rectangle_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{Flat, RectangleTable, ShapeTable};
+use crate::extract::{Flat, RectangleTable, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Rectangle;
@@ -109,5 +109,6 @@ pub fn rectangle_surface_stage() -> Stage {
 
 /// Evidence that the scene holds a rectangle.
 pub fn rectangle_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Rectangle>(scene, "rectangle")
+    let moves = moves_while_open(scene);
+    Evidence::of_kind::<With<Rectangle>>(scene, "rectangle", |rectangle| !moves(rectangle))
 }

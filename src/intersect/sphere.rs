@@ -3,7 +3,7 @@ use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, 
 use super::uv::sphere_uv;
 use super::wide::wide_sphere_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, unevenly_scaled};
+use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
@@ -245,5 +245,6 @@ pub fn sphere_surface_stage() -> Stage {
 
 /// Evidence that the scene holds a sphere that stays one.
 pub fn sphere_evidence(scene: &World) -> Evidence {
-    Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere))
+    let moves = moves_while_open(scene);
+    Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere) && !moves(sphere))
 }

@@ -83,6 +83,10 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
                 let tile = world.entity(tile);
                 let Some(path) = tile.get::<Tile>().and_then(|place| place.row_of(pixel.x, pixel.y)) else { continue };
                 let bounce = tile.get::<Leg>().map_or(0, |leg| leg.0);
+                let is_on_its_way = |paths: &Paths| paths.first.contains(&(path as u32));
+                if bounce > 0 && !tile.get::<Paths>().is_some_and(is_on_its_way) {
+                    continue;
+                }
                 for &column in &columns {
                     let lanes = (column.lanes)(&tile);
                     let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();

@@ -1,6 +1,5 @@
 //! Whether counts are what a density says: Pearson's χ², and how likely one so large is by chance.
 
-// ANCHOR: Bins
 /// How often each of a number of things was expected and how often it was counted.
 #[derive(Clone, Debug)]
 pub struct Bins {
@@ -60,7 +59,6 @@ impl Bins {
         (sum, bins.saturating_sub(1))
     }
 }
-// ANCHOR_END: Bins
 
 /// How likely a χ² of so many degrees of freedom is at least as large by chance: Q(freedom / 2, statistic / 2).
 #[must_use]

@@ -14,6 +14,7 @@ pub mod field_of_view;
 pub mod film;
 pub mod flat;
 pub mod light;
+pub mod matter;
 pub mod ndc;
 pub mod path;
 pub mod plane;

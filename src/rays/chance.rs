@@ -41,3 +41,20 @@ fn key(rows: Rows<'_>, row: usize) -> PixelKey {
     let pixel = rows.samples.map_or(row, |samples| samples.pixel[row] as usize);
     PixelKey::new(rows.sampling.seed, rows.tile.pixel_of(pixel))
 }
+
+/// Draws a number from 0 to below 1 for each row, for leg 0 of its way.
+pub(super) fn draw_one(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64]) {
+    let number = rows.number.map_or(0, |number| number.0);
+    match rows.sampling.sampler {
+        Sampler::Independent => one_rows(Independent::new(number, 0, purpose), rows, xs),
+        Sampler::Stratified => one_rows(Stratified::new(number, rows.sampling.samples, 0, purpose), rows, xs),
+        Sampler::Sobol => one_rows(Sobol::new(number, 0, purpose), rows, xs),
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn one_rows<D: Draw>(draw: D, rows: Rows<'_>, xs: &mut [f64]) {
+    for (row, x) in xs.iter_mut().enumerate() {
+        *x = unit(draw.one(key(rows, row)));
+    }
+}

@@ -1,5 +1,5 @@
-use super::CameraRays;
-use crate::extract::{CameraAxes, LensTable, ViewRectangle};
+use super::{CameraRays, RayTimes};
+use crate::extract::{CameraAxes, LensTable, ShutterTable, ViewRectangle, camera_moves_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
@@ -36,12 +36,16 @@ impl WorldRays {
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
     many_origins: (Option<Res<Shared<ViewRectangle>>>, Option<Res<Shared<LensTable>>>),
-    mut tiles: Query<(&CameraRays, &mut WorldRays)>,
+    moves: Option<Res<Shared<ShutterTable>>>,
+    mut tiles: Query<(&CameraRays, Option<&RayTimes>, &mut WorldRays)>,
 ) {
-    for (camera, mut world) in &mut tiles {
+    for (camera, times, mut world) in &mut tiles {
         direction_rows(camera, axes.world_from_camera, &mut world);
         if many_origins.0.is_some() || many_origins.1.is_some() {
             origin_rows(camera, axes.world_from_camera, &mut world);
+        }
+        if let (Some(shutter), Some(times)) = (&moves, times) {
+            moved_rows(camera, axes.world_from_camera, shutter.velocity, &times.time, &mut world);
         }
     }
 }
@@ -70,10 +74,22 @@ fn origin_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldR
     }
 }
 
+/// Origins of a camera that moves: where it has come at each ray's time.
+fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, times: &[f64], world: &mut WorldRays) {
+    let (x, y, z, _, _, _) = camera.slices();
+    let (ox, oy, oz, _, _, _) = world.slices_mut(camera.rows());
+    for (row, &time) in times.iter().enumerate() {
+        let origin = (world_from_camera * DVec3::new(x[row], y[row], z[row]) + velocity * time).as_vec3();
+        (ox[row], oy[row], oz[row]) = origin.into();
+    }
+}
+
 /// The stage on offer.
 pub fn world_stage() -> Stage {
     Stage::new("Turn rays into the world", TileSystems::World, fill_world)
         .reads::<CameraRays>()
         .writes::<WorldRays>()
         .table::<CameraAxes>()
+        .reads_where::<RayTimes>(camera_moves_evidence)
+        .table_where::<ShutterTable>(camera_moves_evidence)
 }

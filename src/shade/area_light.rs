@@ -1,9 +1,9 @@
 use super::emitter::{density_towards, distance_to, point_on};
-use super::light::{Aimed, LightRay, LitRows, MOST, RayLists, cosine_of, shadow_reach};
+use super::light::{Aimed, LightRay, LitRows, RayLists, append_chosen, cosine_of, shadow_reach};
 use super::{LightDensities, LightRays};
 use crate::extract::{AreaLightTable, SamplingTable, aimed_evidence, area_light_evidence, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
-use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
@@ -98,39 +98,19 @@ pub fn aim_at_area_lights(
     }
 }
 
-/// Every row is written and the next one overwrites it unless it counts.
 #[inline(always)]
 fn aim_rows<D: Draw>(
     [choice, place]: [D; 2],
     key: impl Fn(usize) -> PixelKey,
     lights: &AreaLightTable,
     lit: &LitRows<'_>,
-    (rays, mut densities): RayLists<'_>,
+    to: RayLists<'_>,
 ) {
-    let length = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + lit.rows.len());
-    let mut densities_of_rays = densities.as_deref_mut().map(|densities| densities.slices_mut(length + lit.rows.len()));
-    let mut at = length;
-    for &row in lit.rows {
-        let key = key(row as usize);
+    append_chosen(lit, to, |row, surface, normal| {
+        let key = key(row);
         let light = lights.chosen(choice.one(key));
-        let surface = lit.surfaces.get(row as usize);
-        let normal = lit.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (ray, density) = aim_at_light(lights, light, &surface, normal, place.two(key).map(unit));
-        path[at] = row;
-        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
-        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
-        reach[at] = ray.reach;
-        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
-        if let Some(densities) = &mut densities_of_rays {
-            densities[at] = density;
-        }
-        at += usize::from(ray.aimed.cosine > 0.0);
-    }
-    rays.slices_mut(at);
-    if let Some(densities) = densities {
-        densities.slices_mut(at);
-    }
+        aim_at_light(lights, light, surface, normal, place.two(key).map(unit))
+    });
 }
 
 /// The stage on offer.

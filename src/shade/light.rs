@@ -1,6 +1,7 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
-    MaterialTable, aimed_evidence, area_light_evidence, material_evidence, occlusion_evidence, unless_occlusion,
+    MaterialTable, aimed_evidence, area_light_evidence, environment_light_evidence, material_evidence,
+    occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
@@ -84,6 +85,10 @@ impl LightRays {
 impl RayColumn for LightRays {
     fn ray_lanes(&self) -> RayLanes<'_> {
         RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    }
+
+    fn path_lane(&self) -> Option<&[u32]> {
+        Some(&self.path)
     }
 }
 
@@ -199,8 +204,42 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
     rays.slices_mut(at);
 }
 
+/// Appends one ray a row whose direction was chosen, and beside it how likely that was; all cast shadows.
+///
+/// `ray_of` gets the row, the surface and the normal to shade by.
+#[inline(always)]
+pub(super) fn append_chosen(
+    lit: &LitRows<'_>,
+    (rays, mut densities): RayLists<'_>,
+    ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
+) {
+    let length = rays.rows();
+    let most = length + lit.rows.len();
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
+    let mut likely = densities.as_deref_mut().map(|densities| densities.slices_mut(most));
+    let mut at = length;
+    for &row in lit.rows {
+        let surface = lit.surfaces.get(row as usize);
+        let normal = lit.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
+        let (ray, density) = ray_of(row as usize, &surface, normal);
+        path[at] = row;
+        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
+        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
+        reach[at] = ray.reach;
+        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
+        if let Some(likely) = &mut likely {
+            likely[at] = density;
+        }
+        at += usize::from(ray.aimed.cosine > 0.0);
+    }
+    rays.slices_mut(at);
+    if let Some(densities) = densities {
+        densities.slices_mut(at);
+    }
+}
+
 /// The most light that a ray brings: what is more than f32 holds counts as its largest number.
-pub(super) const MOST: f64 = f32::MAX as f64;
+const MOST: f64 = f32::MAX as f64;
 
 /// Empties every tile's list of light rays.
 pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightDensities>)>) {
@@ -274,10 +313,15 @@ pub(super) fn light_evidence(scene: &World) -> Evidence {
     unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
 }
 
-/// The evidence of lights without an area, or else that there are lights with one and that they are aimed at.
+/// Evidence that there is a light without an area.
+pub fn point_evidence(scene: &World) -> Evidence {
+    Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
+}
+
+/// The evidence of lights without an area, or else that there are others and that they are aimed at.
 pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
-    let areas = area_light_evidence(scene).and(aimed_evidence(scene));
-    if areas.needed { points.or(areas) } else { points }
+    let others = area_light_evidence(scene).or(environment_light_evidence(scene)).and(aimed_evidence(scene));
+    if others.needed { points.or(others) } else { points }
 }
 
 /// Every component that is a light without an area; a new one joins here.

@@ -13,6 +13,7 @@ mod directional_light;
 mod emissive;
 pub mod emitter;
 mod environment;
+mod environment_light;
 mod flat;
 mod footprint;
 mod gradient;
@@ -43,6 +44,9 @@ pub use emissive::{add_emission, emissive_stage};
 pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
 };
+pub use environment_light::{
+    aim_at_the_environment, environment_density, environment_direction, environment_light_stage,
+};
 pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
@@ -50,16 +54,17 @@ pub use highlight::highlight;
 pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_reach, start_light,
-    start_light_stage,
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_reach,
+    start_light, start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
-    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, plane_shadow_stage,
-    rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows, triangle_shadow_stage,
+    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
+    plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
+    triangle_shadow_stage,
 };
 pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
@@ -75,7 +80,7 @@ pub fn stages() -> Vec<Stage> {
     stages.extend(background_stages());
     stages.push(flat_stage());
     stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
-    stages.push(start_shadow_stage());
+    stages.extend([environment_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([
         plane_shadow_stage(),
@@ -83,6 +88,7 @@ pub fn stages() -> Vec<Stage> {
         rectangle_shadow_stage(),
         cuboid_shadow_stage(),
         triangle_shadow_stage(),
+        moving_shadow_stage(),
     ]);
     stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
     stages.push(image_circle_stage());

@@ -1,15 +1,16 @@
 use super::LightRays;
 use super::light::{LIGHTS, either, or_aimed};
 use crate::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable, material_evidence,
-    occlusion_evidence, unless_occlusion,
+    CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
+    material_evidence, moving_evidence, occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
-    intersect_ellipsoids, intersect_planes, intersect_rectangles, intersect_spheres, intersect_triangles,
-    rectangle_evidence, sphere_evidence, triangle_evidence,
+    intersect_ellipsoids, intersect_moving, intersect_planes, intersect_rectangles, intersect_spheres,
+    intersect_triangles, rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::rays::RayTimes;
 use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
@@ -135,6 +136,18 @@ pub fn triangle_shadow_stage() -> Stage {
         .writes::<ShadowHits>()
         .table::<TriangleTable>()
         .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
+}
+
+/// The stage that intersects shadow rays with moving shapes, each at the time of the ray that met the surface.
+pub fn moving_shadow_stage() -> Stage {
+    let intersect = intersect_moving::<LightRays, ShadowHits>;
+    Stage::new("Look for moving shapes in the way", TileSystems::Occlude, intersect)
+        .reads::<LightRays>()
+        .reads::<RayTimes>()
+        .reads::<ShadowHits>()
+        .writes::<ShadowHits>()
+        .table::<MovingTable>()
+        .when(|scene| moving_evidence(scene).and(shadow_evidence(scene)))
 }
 
 /// Evidence that a light casts shadows on matter.

@@ -1,9 +1,10 @@
-//! What a camera carries that is refused: lenses.
+//! What is refused of lenses, shutters and motion.
 
-use super::cases::{Case, Field, good, put};
+use super::cases::{Case, Field, child_of, edit, good, put};
 use super::{kept, refusal};
 use crate::scenes::Eye;
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use pinhole::scene::*;
 
 fn lens(world: &mut World, change: impl FnOnce(&mut Lens)) {
@@ -37,10 +38,43 @@ const PERSPECTIVE: &[Case] = &[
     ("a lens wider than f32 aims", &["\"main\"", "aperture is of radius 1000000", "rad a pixel", "4e-6"], |w| {
         lens(w, |lens| (lens.aperture, lens.focus_distance) = (Aperture::Radius { radius: 1e6 }, 1e-6));
     }),
+    ("a shutter that closes before it opens", &["\"main\"", "close is 0.5", "opens at 1"], |w| shutter(w, 1.0, 0.5)),
+    ("a shutter that opens too late", &["\"main\"", "open is 1e10", "1e9"], |w| shutter(w, 1e10, 2e10)),
+    ("a shutter on a ball", &["\"ball\"", "shutter is given to no camera"], |w| put(w, "ball", Shutter::default())),
+    ("a moving floor", &["shape \"floor\"", "motion is given to another kind", "spheres, disks"], |w| {
+        moves(w, "floor")
+    }),
+    ("a moving egg", &["shape \"ball\"", "motion is given to another kind"], |w| {
+        edit::<Placement>(w, "ball", |place| place.scale = DVec3::new(1.0, 2.0, 1.0));
+        moves(w, "ball");
+    }),
+    ("a moving lamp", &["light \"lamp\"", "motion is given", "no light"], |w| moves(w, "lamp")),
+    ("a moving sun in a moving group", &["light \"sun\"", "motion is given"], |w| {
+        let group = w.spawn((Name::new("group"), Placement::default())).id();
+        child_of(w, "sun", group);
+        moves(w, "group");
+    }),
+    ("a moving texture", &["shape \"ball\"", "motion is given to one with a texture"], |w| {
+        put(w, "ball", Checker::default());
+        moves(w, "ball");
+    }),
     ("a lens on a ball", &["\"ball\"", "lens is given to no camera", "PerspectiveCamera"], |w| {
         put(w, "ball", Lens::default());
     }),
 ];
+
+fn shutter(world: &mut World, open: f64, close: f64) {
+    put(world, "main", Shutter { open, close });
+}
+
+fn moves(world: &mut World, name: &str) {
+    velocity(world, name, DVec3::X);
+    shutter(world, 0.0, 1.0);
+}
+
+fn velocity(world: &mut World, name: &str, velocity: DVec3) {
+    put(world, name, Motion { velocity });
+}
 
 const ORTHOGRAPHIC: &[Case] =
     &[("a lens on parallel rays", &["\"main\"", "lens is given to", "PerspectiveCamera"], |w| {
@@ -49,6 +83,10 @@ const ORTHOGRAPHIC: &[Case] =
 
 const NUMBERS: &[Field] = &[
     ("focus_distance", "main", |w, v| lens(w, |lens| lens.focus_distance = v)),
+    ("open", "main", |w, v| shutter(w, v, v + 1.0)),
+    ("close", "main", |w, v| shutter(w, 0.0, v)),
+    ("velocity", "ball", |w, v| velocity(w, "ball", DVec3::new(0.0, v, 0.0))),
+    ("velocity", "main", |w, v| velocity(w, "main", DVec3::new(v, 0.0, 0.0))),
     ("turn", "main", |w, v| lens(w, |lens| lens.turn = Degrees(v))),
     ("aperture radius", "main", radius),
     ("aperture number", "main", |w, v| f_number(w, v, 0.05)),

@@ -110,6 +110,17 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -2.0)), "unit vector"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -2.0 / dot(n, n)).map(|part| -part)), "goes into"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -1.0 / dot(n, n))), "2 is missing"),
+    ("19_mirrors", Attempt::Mirrored(|d, _| d.map(|part| -part)), "back where it came from"),
+    ("20_glass", Attempt::Refracted(|d, n, eta| Some(through(d, n, eta))), "before you take it"),
+    (
+        "20_glass",
+        Attempt::Refracted(|d, n, eta| passes(d, n, 1.0 / eta).then(|| through(d, n, 1.0 / eta))),
+        "wrong way",
+    ),
+    ("20_glass", Attempt::Refracted(|d, _, _| Some(d)), "straight on"),
     ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
@@ -547,6 +558,24 @@ fn not_unit(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]
 
 fn below_too(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
     cosine(turned(g, mixed(n, s), e), l).max(0.0)
+}
+
+fn off_mirror(d: [f64; 3], n: [f64; 3], times: f64) -> [f64; 3] {
+    let along = times * dot(d, n);
+    [0, 1, 2].map(|part| d[part] + along * n[part])
+}
+
+fn g_squared(d: [f64; 3], n: [f64; 3], eta: f64) -> f64 {
+    eta * eta - 1.0 + dot(d, n) * dot(d, n)
+}
+
+fn passes(d: [f64; 3], n: [f64; 3], eta: f64) -> bool {
+    g_squared(d, n, eta) >= 0.0
+}
+
+fn through(d: [f64; 3], n: [f64; 3], eta: f64) -> [f64; 3] {
+    let along = -dot(d, n) - g_squared(d, n, eta).sqrt();
+    [0, 1, 2].map(|part| (d[part] + along * n[part]) / eta)
 }
 
 fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {

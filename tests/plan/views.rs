@@ -32,7 +32,8 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scene.entity_mut(camera).insert(sampling);
         scene
     };
-    let scenes: [fn(Setup) -> World; 7] = [full, stretched, pieces, shining, textured, sampled, scenes::blurred];
+    let scenes: [fn(Setup) -> World; 8] =
+        [full, stretched, pieces, shining, textured, sampled, scenes::blurred, scenes::moving];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
         let whole = inspect(&scene_of(setup), &offer(), 32).expect("inspects");

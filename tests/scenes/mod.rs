@@ -1,6 +1,8 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod followed;
+pub mod matter;
 pub mod public;
 mod textured;
 
@@ -150,6 +152,33 @@ pub fn blurred(setup: Setup) -> World {
         world.entity_mut(camera).insert(lens(setup.scale));
     }
     world
+}
+
+/// The scene of [`turned`] while its camera and some of its balls move.
+pub fn moving(setup: Setup) -> World {
+    let mut world = turned(setup);
+    set_in_motion(&mut world, &setup);
+    world
+}
+
+/// Lets the camera move, and of these things those that there are.
+fn set_in_motion(world: &mut World, setup: &Setup) {
+    let velocity = |x, y, z| Motion { velocity: DVec3::new(x, y, z) * setup.scale };
+    let camera = named(world, "camera");
+    world.entity_mut(camera).insert((Shutter { open: 0.0, close: 0.5 }, velocity(0.25, 0.0, -0.125)));
+    for (name, motion) in [
+        ("ball", velocity(0.5, 0.25, 0.0)),
+        ("left ball", velocity(0.5, 0.25, 0.0)),
+        ("double", velocity(0.0, 0.5, 0.25)),
+        ("coin", velocity(-0.5, 0.0, 0.5)),
+        ("mat", velocity(0.0, 0.25, 0.0)),
+    ] {
+        let mut names = world.query::<(Entity, &Name)>();
+        let found = names.iter(world).find(|(_, own)| own.as_str() == name).map(|(entity, _)| entity);
+        if let Some(entity) = found {
+            world.entity_mut(entity).insert(motion);
+        }
+    }
 }
 
 /// The textured scene by a fisheye that sees more than half of all directions.
@@ -350,6 +379,12 @@ pub enum Toggle {
     Samples,
     /// A lens, where the camera is a perspective one.
     Lens,
+    /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
+    Motion,
+    Mirror,
+    /// Glass that absorbs.
+    Glass,
+    Metal,
 }
 
 /// All of them.
@@ -370,8 +405,18 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 6] =
-    [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive, Toggle::Lens];
+pub const MORE: [Toggle; 10] = [
+    Toggle::Sun,
+    Toggle::Spot,
+    Toggle::Phong,
+    Toggle::BlinnPhong,
+    Toggle::Emissive,
+    Toggle::Lens,
+    Toggle::Motion,
+    Toggle::Mirror,
+    Toggle::Glass,
+    Toggle::Metal,
+];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -437,6 +482,16 @@ pub fn toggled(on: &[Toggle]) -> World {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
         world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
     }
+    if has(Toggle::Mirror) {
+        matter::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
+    }
+    if has(Toggle::Glass) {
+        let absorption = Rgb::new(0.2, 0.4, 0.8);
+        matter::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
+    }
+    if has(Toggle::Metal) {
+        matter::ball_of(&mut world, "metal ball", 1.5, Metal::default());
+    }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
     }
@@ -452,6 +507,9 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Lens) && eye == Eye::Perspective {
         world.entity_mut(camera).insert(lens(1.0));
+    }
+    if has(Toggle::Motion) {
+        set_in_motion(&mut world, &setup);
     }
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });

@@ -56,8 +56,14 @@ pub mod sampling;
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors.rs"]
+pub mod mirrors;
+
+
 #[path = "22_ambient_occlusion.rs"]
 pub mod ambient_occlusion;
+#[path = "20_glass.rs"]
+pub mod glass;
 
 #[path = "25_path_tracing.rs"]
 pub mod path_tracing;
@@ -85,6 +91,8 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
+    ("20_glass", Attempt::Refracted(glass::refracted)),
     ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
     ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
     ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),

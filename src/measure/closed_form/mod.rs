@@ -4,6 +4,7 @@
 //! A test runs them with few samples, the command `closed-forms` with as many as are asked for.
 
 mod furnace;
+mod matter;
 mod measured;
 mod receiver;
 mod sky;
@@ -11,7 +12,7 @@ mod sky;
 pub use measured::{ClosedForm, Measured};
 
 /// Every closed form that is held against a render.
-pub const CLOSED_FORMS: &[&[ClosedForm]] = &[furnace::FORMS, sky::FORMS, receiver::FORMS];
+pub const CLOSED_FORMS: &[&[ClosedForm]] = &[furnace::FORMS, sky::FORMS, receiver::FORMS, matter::FORMS];
 
 /// All, in order.
 pub fn closed_forms() -> impl Iterator<Item = &'static ClosedForm> {

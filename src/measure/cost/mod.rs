@@ -3,6 +3,7 @@
 //! Reads: a scene and the stages on offer. Writes: a [`Cost`], times from whole renders on one thread, errors from the
 //! columns of that very frame.
 
+mod exact_frame;
 mod probe;
 mod sources;
 

@@ -1,10 +1,7 @@
 //! How far the columns of a frame are off, at a grid of its pixels.
 
+use super::exact_frame::{Exact, ExactShape};
 use crate::Result;
-use crate::extract::{
-    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Facet, Flat, PlaneTable, RectangleTable, ShapeKind,
-    ShapeTable, Slabs, SphereTable, TriangleTable, camera_entity,
-};
 use crate::film::film_stage;
 use crate::intersect::{self, Hits, NO_SHAPE, Surfaces};
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
@@ -17,10 +14,9 @@ use crate::measure::oracle_plane::{Plane, plane_hit};
 use crate::measure::oracle_rectangle::rectangle_hit;
 use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::measure::oracle_triangle::triangle_hit;
-use crate::plan::{Stage, Table};
+use crate::plan::Stage;
 use crate::rays::{self, CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays};
 use crate::render::{Inspection, inspect};
-use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use crate::shade;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -66,55 +62,8 @@ fn probes(frame: &Inspection) -> Vec<(Entity, usize, [u32; 2])> {
     .collect()
 }
 
-/// What the frame is compared with.
-struct Exact {
-    camera: ExactCamera,
-    /// Half the height of an orthographic camera's rectangle.
-    half_height: Option<f64>,
-    shapes: Vec<ExactShape>,
-}
-
-enum ExactShape {
-    Sphere(Sphere),
-    Plane(Plane),
-    Ellipsoid(Ellipsoid),
-    Disk(Flat),
-    Rectangle(Flat),
-    Cuboid(Slabs),
-    Triangle(Facet, DVec3),
-}
-
-/// How many kinds there are.
+/// How many kinds of shape there are.
 const KINDS: usize = 7;
-
-impl Exact {
-    fn of(scene: &World, frame: &Inspection) -> Result<Self> {
-        let camera = camera_entity(scene)?;
-        let (width, height) = (frame.image.width, frame.image.height);
-        let axes = CameraAxes::extract(scene)?.world_from_camera;
-        let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
-        let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
-        let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
-        let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
-        let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
-        let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
-        let shape = |(kind, &row): (&ShapeKind, &u32)| match (kind, row as usize) {
-            (ShapeKind::Sphere, row) => {
-                ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
-            }
-            (ShapeKind::Plane, row) => {
-                ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
-            }
-            (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
-            (ShapeKind::Disk, row) => ExactShape::Disk(disks.flat[row]),
-            (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.flat[row]),
-            (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
-            (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
-        };
-        let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect();
-        Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
-    }
-}
 
 /// The worst errors found: of points and rays in pixels, of hits in u of t, of surfaces in u of their numbers.
 #[derive(Default)]
@@ -164,6 +113,9 @@ fn probe(tile: &EntityRef<'_>, row: usize, pixel: [u32; 2], exact: &Exact, worst
         None if tile.contains::<rays::LensPoints>() => {}
         None => probe_perspective(tile, row, &raster, camera, worst),
         Some(half_height) => probe_orthographic(tile, row, &raster, camera, half_height, worst),
+    }
+    if exact.shapes.is_empty() {
+        return;
     }
     if let (Some(world), Some(hits)) = (tile.get::<WorldRays>(), tile.get::<Hits>()) {
         probe_hit(world, hits, row, exact, worst);

@@ -19,6 +19,7 @@ mod frame;
 mod lamp;
 mod light;
 mod light_albedo;
+mod matter;
 mod plane;
 mod print;
 mod sampling;
@@ -75,6 +76,8 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Mirrors, glass and rough metal.
+    Matter,
     /// Ways of light: what they bring, how they end, what they count for.
     Transport,
 }
@@ -96,6 +99,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Matter,
         Self::Transport,
     ];
 
@@ -118,6 +122,7 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Matter => matter::trials(),
             Self::Transport => transport::trials(),
         }
     }
@@ -139,6 +144,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Matter => "matter",
             Self::Transport => "transport",
         })
     }

@@ -14,6 +14,7 @@ impl Group {
             Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
             Self::Texture => ["textures and environments", "judged", "wrong"],
             Self::Light => ["highlights and lights", "to judge", "wrong"],
+            Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
             Self::Transport => ["ways of light", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],

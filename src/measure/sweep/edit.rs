@@ -46,12 +46,24 @@ pub fn scale(scene: &mut World, k: i32) {
         if let Some(mut camera) = entity.get_mut::<OrthographicCamera>() {
             camera.view_height *= scale;
         }
+        if let Some(mut motion) = entity.get_mut::<Motion>() {
+            motion.velocity *= scale;
+        }
         if let Some(mut lens) = entity.get_mut::<Lens>() {
             lens.focus_distance *= scale;
             match &mut lens.aperture {
                 Aperture::Radius { radius } => *radius *= scale,
                 Aperture::FNumber { focal_length, .. } => *focal_length *= scale,
             }
+        }
+        if let Some(mut glass) = entity.get_mut::<Glass>() {
+            let Rgb { r, g, b } = glass.absorption;
+            glass.absorption = Rgb::new(r / scale, g / scale, b / scale);
+        }
+        if let Some(mut integrator) = entity.get_mut::<Integrator>()
+            && let Integrator::AmbientOcclusion { distance } = &mut *integrator
+        {
+            *distance *= scale;
         }
         let stronger = |Rgb { r, g, b }: Rgb| Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
         if let Some(mut light) = entity.get_mut::<PointLight>() {
@@ -97,6 +109,11 @@ pub fn lay_on_grid(scene: &mut World) {
 /// The whole scene turned about the world's origin.
 pub fn turn(scene: &mut World, by: DQuat) {
     edit_places(scene, |point| by * point);
+    for entity in entities::<With<Motion>>(scene) {
+        if let Some(mut motion) = scene.entity_mut(entity).get_mut::<Motion>() {
+            motion.velocity = by * motion.velocity;
+        }
+    }
     for entity in roots(scene) {
         let mut entity = scene.entity_mut(entity);
         if let Some(mut look) = entity.get_mut::<LookAt>() {

@@ -103,6 +103,8 @@ impl Shapes {
                 slabs.normal[face_of_point(slabs, point - slabs.centre)]
             }
             ShapeKind::Triangle => self.triangles.normal[row],
+            // Where it was depends on each ray's time: no normal is compared.
+            ShapeKind::Moving => DVec3::ZERO,
         }
     }
 }
@@ -113,7 +115,8 @@ fn met(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<Met> {
         NO_SHAPE => 1.0,
         shape => {
             let normal = shapes.normal(shape, rays.point_at(row, hits.t[row]));
-            normal.dot(rays.direction_of(row)).abs() / normal.length()
+            let length = normal.length();
+            if length > 0.0 { normal.dot(rays.direction_of(row)).abs() / length } else { 1.0 }
         }
     };
     (0..hits.t.len()).map(|row| Met { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()

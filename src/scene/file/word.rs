@@ -1,8 +1,8 @@
 use crate::scene::{
     Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LookAt, Matte,
-    Metal, Mirror, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Resolution,
-    Sampling, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
+    Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle,
+    Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -33,6 +33,8 @@ const WORDS: &[Word] = &[
     Word::of::<LookAt>("look_at"),
     Word::of::<Placement>("placement"),
     Word::of::<Resolution>("resolution"),
+    Word::of::<Motion>("motion"),
+    Word::of::<Shutter>("shutter"),
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Integrator>("integrator"),

@@ -1,0 +1,72 @@
+use super::check::{kind_and_name, positive_length};
+use super::flat::{Flat, flat};
+use super::motion::{moves_while_open, velocity_of};
+use super::sphere::placed_sphere;
+use super::{eye, shape_entities};
+use crate::plan::Table;
+use crate::scene::{Disk, Rectangle, Refusal, Sphere};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// What a moving shape is at the moment at which the shutter opens, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Body {
+    /// A sphere.
+    Sphere {
+        /// Its centre.
+        centre: DVec3,
+        /// Its radius, scene units.
+        radius: f64,
+    },
+    /// A disk.
+    Disk(Flat),
+    /// A rectangle.
+    Rectangle(Flat),
+}
+
+/// Shapes that move while the shutter is open, of every kind, in spawn order; the tables of the kinds hold the others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MovingTable {
+    /// What it is, and where when the shutter opens.
+    pub body: Vec<Body>,
+    /// How it moves, scene units per unit of time.
+    pub velocity: Vec<DVec3>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+}
+
+impl Table for MovingTable {
+    const NAME: &'static str = "moving shapes";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (eye, moves) = (eye(scene)?, moves_while_open(scene));
+        let mut table = Self::default();
+        for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| moves(entity)) {
+            let body = if let Some(sphere) = scene.get::<Sphere>(entity) {
+                let (centre, radius) = placed_sphere(scene, entity, sphere, eye)?;
+                Body::Sphere { centre, radius }
+            } else if let Some(disk) = scene.get::<Disk>(entity) {
+                let who = kind_and_name(scene, "disk", entity);
+                let radius = positive_length(&who, "radius", disk.radius)?;
+                Body::Disk(flat(scene, &who, entity, [radius; 2])?)
+            } else if let Some(rectangle) = scene.get::<Rectangle>(entity) {
+                let who = kind_and_name(scene, "rectangle", entity);
+                let half = [
+                    positive_length(&who, "width", rectangle.width)? / 2.0,
+                    positive_length(&who, "depth", rectangle.depth)? / 2.0,
+                ];
+                Body::Rectangle(flat(scene, &who, entity, half)?)
+            } else {
+                continue;
+            };
+            table.body.push(body);
+            table.velocity.push(velocity_of(scene, entity));
+            table.shape.push(shape as u32);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.body.len() * (size_of::<Body>() + size_of::<DVec3>() + size_of::<u32>())
+    }
+}

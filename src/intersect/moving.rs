@@ -1,0 +1,151 @@
+use super::disk::disk_verdict;
+use super::narrow::narrow;
+use super::rectangle::rectangle_verdict;
+use super::sphere::{LANES, RayBlock, sphere_verdict};
+use super::surface::{Surface, SurfaceSides, Surfaces, offset_bound, sum_of_parts};
+use super::wide::wide_sphere_t;
+use super::wide_flat::{wide_disk_t, wide_rectangle_t};
+use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes};
+use crate::extract::{Body, MovingTable, ShapeKind, ShapeTable, moving_evidence};
+use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::rays::{RayTimes, WorldRays};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+
+// ANCHOR: at_rest
+/// The origin of a ray as it looks to something that moves: both run on, so only the difference counts, and at time τ it is
+/// O − vτ.
+///
+/// There the thing stands still, where it was when the shutter opened; t is the same in both.
+#[inline(always)]
+pub fn at_rest(origin: DVec3, velocity: DVec3, time: f64) -> DVec3 {
+    origin - velocity * time
+}
+// ANCHOR_END: at_rest
+
+/// Narrows hits by all moving shapes, for any column of rays, each at its own time.
+pub fn intersect_moving<R: RayColumn, H: HitColumn>(
+    moving: Res<Shared<MovingTable>>,
+    mut tiles: Query<(&R, &RayTimes, &mut H)>,
+) {
+    for (rays, times, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_lanes();
+        match rays.path_lane() {
+            None => moving_rows(rays.ray_lanes(), |row| times.time[row], &moving, t, shape),
+            Some(path) => moving_rows(rays.ray_lanes(), |row| times.time[path[row] as usize], &moving, t, shape),
+        }
+    }
+}
+
+/// A shape at a time over all rays, so that the arithmetic of many rays is done at once.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn moving_rows<T: Fn(usize) -> f64>(
+    rays: RayLanes<'_>,
+    time_of: T,
+    moving: &MovingTable,
+    t: &mut [f64],
+    shape: &mut [u32],
+) {
+    let rows = t.len();
+    let mut start = 0;
+    while start < rows {
+        let end = rows.min(start + LANES);
+        let block = RayBlock::of(rays, start, end);
+        let mut times = [0.0; LANES];
+        for (lane, row) in (start..end).enumerate() {
+            times[lane] = time_of(row);
+        }
+        let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
+        for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
+            let mut own = RayBlock { o: block.o, d: block.d, inverse: block.inverse };
+            for lane in 0..LANES {
+                let origin = DVec3::new(own.o[0][lane], own.o[1][lane], own.o[2][lane]);
+                let origin = at_rest(origin, *velocity, times[lane]);
+                (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
+            }
+            match body {
+                &Body::Sphere { centre, radius } => narrow(
+                    &own,
+                    |origin, direction| sphere_verdict(centre - origin, direction, radius),
+                    |origin, direction| wide_sphere_t(origin, direction, centre, radius),
+                    number,
+                    t,
+                    shape,
+                ),
+                Body::Disk(flat) => narrow(
+                    &own,
+                    |origin, direction| disk_verdict(origin, direction, flat),
+                    |origin, direction| wide_disk_t(origin, direction, flat),
+                    number,
+                    t,
+                    shape,
+                ),
+                Body::Rectangle(flat) => narrow(
+                    &own,
+                    |origin, direction| rectangle_verdict(origin, direction, flat),
+                    |origin, direction| wide_rectangle_t(origin, direction, flat),
+                    number,
+                    t,
+                    shape,
+                ),
+            }
+        }
+        start = end;
+    }
+}
+
+/// Fills the surface of every row that hit a moving shape: where it was at the ray's time.
+pub fn fill_moving_surfaces(
+    moving: Res<Shared<MovingTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut tiles: Query<(&WorldRays, &RayTimes, &Hits, &mut Surfaces, Option<&mut SurfaceSides>)>,
+) {
+    let moves = |shape: u32| shape != NO_SHAPE && shapes.kind[shape as usize] == ShapeKind::Moving;
+    for (rays, times, hits, mut surfaces, mut sides) in &mut tiles {
+        for row in (0..hits.rows()).filter(|&row| moves(hits.shape[row])) {
+            let shape = hits.shape[row] as usize;
+            let mover = shapes.row[shape] as usize;
+            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
+            let way = moving.velocity[mover] * times.time[row];
+            let point = origin + hits.t[row] * direction;
+            let (normal, size) = match &moving.body[mover] {
+                Body::Sphere { centre, radius } => {
+                    ((point - way - *centre).try_normalize().unwrap_or(-direction), sum_of_parts(*centre) + radius)
+                }
+                Body::Disk(flat) | Body::Rectangle(flat) => (flat.normal, sum_of_parts(flat.centre)),
+            };
+            let bound = offset_bound(point, origin, size + sum_of_parts(way));
+            let surface = Surface::facing(direction, point, normal, bound, shapes.material[shape]);
+            surfaces.set(row, surface);
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(surface.normal.as_dvec3().dot(normal) >= 0.0);
+            }
+        }
+    }
+}
+
+/// The stage that intersects camera rays.
+pub fn moving_stage() -> Stage {
+    Stage::new("Intersect moving shapes", TileSystems::Intersect, intersect_moving::<WorldRays, Hits>)
+        .reads::<WorldRays>()
+        .reads::<RayTimes>()
+        .reads::<Hits>()
+        .writes::<Hits>()
+        .table::<MovingTable>()
+        .when(moving_evidence)
+}
+
+/// The stage that fills surfaces.
+pub fn moving_surface_stage() -> Stage {
+    Stage::new("Describe moving surfaces", TileSystems::Surface, fill_moving_surfaces)
+        .reads::<WorldRays>()
+        .reads::<RayTimes>()
+        .reads::<Hits>()
+        .reads::<Surfaces>()
+        .writes::<Surfaces>()
+        .writes::<SurfaceSides>()
+        .table::<MovingTable>()
+        .table::<ShapeTable>()
+        .when(moving_evidence)
+}

@@ -1,0 +1,47 @@
+use super::chance::{Rows, draw_one};
+use super::{PixelSamples, RasterPoints, SampleNumber, Tile};
+use crate::extract::{SamplingTable, ShutterTable, motion_evidence};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::sample::Purpose;
+use bevy_ecs::prelude::*;
+
+column! {
+    /// When each ray and all that follow from it are on their way; row by row those of the rays.
+    pub struct RayTimes("time", "since the shutter opened", "units of time", Path) {
+        /// From 0 to below the time that the shutter is open.
+        time: f64,
+    }
+}
+
+impl RayTimes {
+    /// Grey, from black when the shutter opens; the unit of time is half way to white.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [(self.time[row] / (1.0 + self.time[row])) as f32; 3]
+    }
+}
+
+/// Fills the time of each of a tile's rays.
+pub fn draw_times(
+    shutter: Res<Shared<ShutterTable>>,
+    sampling: Res<Shared<SamplingTable>>,
+    mut tiles: Query<(&Tile, Option<&SampleNumber>, Option<&PixelSamples>, &RasterPoints, &mut RayTimes)>,
+) {
+    for (tile, number, samples, raster, mut times) in &mut tiles {
+        let rows = Rows { sampling: &sampling, tile, number, samples };
+        let times = times.slices_mut(raster.rows());
+        draw_one(rows, Purpose::Time, times);
+        times.iter_mut().for_each(|time| *time *= shutter.length);
+    }
+}
+
+/// The stage on offer.
+pub fn time_stage() -> Stage {
+    Stage::new("Draw times", TileSystems::Lens, draw_times)
+        .kind(StageKind::Alternative)
+        .reads::<RasterPoints>()
+        .reads_if::<PixelSamples>()
+        .writes::<RayTimes>()
+        .table::<ShutterTable>()
+        .table::<SamplingTable>()
+        .when(motion_evidence)
+}
