@@ -59,11 +59,11 @@ pub mod error_and_time;
 #[path = "19_mirrors/exercise.rs"]
 pub mod mirrors;
 
+#[path = "20_glass/exercise.rs"]
+pub mod glass;
 
 #[path = "22_ambient_occlusion/exercise.rs"]
 pub mod ambient_occlusion;
-#[path = "20_glass/exercise.rs"]
-pub mod glass;
 
 #[path = "25_path_tracing/exercise.rs"]
 pub mod path_tracing;

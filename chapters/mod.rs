@@ -63,11 +63,11 @@ pub mod error_and_time;
 #[path = "19_mirrors/main.rs"]
 pub mod mirrors;
 
+#[path = "20_glass/main.rs"]
+pub mod glass;
 
 #[path = "22_ambient_occlusion/main.rs"]
 pub mod ambient_occlusion;
-#[path = "20_glass/main.rs"]
-pub mod glass;
 
 #[path = "25_path_tracing/main.rs"]
 pub mod path_tracing;

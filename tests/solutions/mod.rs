@@ -59,11 +59,11 @@ pub mod error_and_time;
 #[path = "19_mirrors.rs"]
 pub mod mirrors;
 
+#[path = "20_glass.rs"]
+pub mod glass;
 
 #[path = "22_ambient_occlusion.rs"]
 pub mod ambient_occlusion;
-#[path = "20_glass.rs"]
-pub mod glass;
 
 #[path = "25_path_tracing.rs"]
 pub mod path_tracing;
