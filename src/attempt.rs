@@ -50,6 +50,12 @@ pub enum Attempt {
     LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
     /// Chapter 24: origin, direction, centre, radius, velocity, time.
     MovingSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Option<f64>),
+    /// Chapter 22: two numbers from 0 to below 1.
+    CosineDirection(fn(f64, f64) -> [f64; 3]),
+    /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
+    AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
+    /// Chapter 26: two densities, that of the way's own chance first.
+    PowerHeuristic(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -79,6 +85,9 @@ impl Attempt {
             Self::SolidAngleDensity(_) => "solid_angle_density",
             Self::LensDirection(_) => "lens_direction",
             Self::MovingSphereT(_) => "moving_sphere_t",
+            Self::CosineDirection(_) => "cosine_direction",
+            Self::AfterRoulette(_) => "after_roulette",
+            Self::PowerHeuristic(_) => "power_heuristic",
         }
     }
 }

@@ -107,6 +107,16 @@ fn lenses_hold() {
 }
 
 #[test]
+fn lights_with_an_area_hold() {
+    holds(Group::Emitter, 2048);
+}
+
+#[test]
+fn ways_of_light_hold() {
+    holds(Group::Transport, 2048);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

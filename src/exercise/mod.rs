@@ -5,9 +5,11 @@
 //! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
 //! Nothing here runs in a render.
 
+mod ambient_occlusion;
 mod answers;
 mod apart;
 mod camera_to_world;
+mod choosing_samples;
 mod conventions;
 mod depth_of_field;
 mod error_and_time;
@@ -22,6 +24,7 @@ mod mirrors;
 mod motion_blur;
 mod ndc;
 mod orthographic;
+mod path_tracing;
 mod pinhole;
 mod progress;
 mod question;
@@ -73,5 +76,8 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
         Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
         Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
+        Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
+        Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
+        Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
     }
 }

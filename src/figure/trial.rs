@@ -26,7 +26,15 @@ pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
         .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
-        .chain(["17_sampling", "21_soft_shadows", "23_depth_of_field", "24_motion_blur"])
+        .chain([
+            "17_sampling",
+            "21_soft_shadows",
+            "22_ambient_occlusion",
+            "23_depth_of_field",
+            "24_motion_blur",
+            "25_path_tracing",
+            "26_choosing_samples",
+        ])
         .map(chapter)
         .collect()
 }

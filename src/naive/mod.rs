@@ -19,6 +19,7 @@ pub mod light;
 pub mod matter;
 pub mod motion;
 pub mod ndc;
+pub mod path;
 pub mod plane;
 pub mod sampling;
 pub mod screen;

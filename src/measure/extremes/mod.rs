@@ -34,6 +34,7 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod transport;
 mod triangle;
 mod triangle_aim;
 mod triangle_limits;
@@ -83,6 +84,8 @@ pub enum Group {
     Emitter,
     /// Lenses: where rays meet, where they start, how wide what is out of focus is.
     Lens,
+    /// Ways of light: what they bring, how they end, what they count for.
+    Transport,
 }
 
 impl Group {
@@ -105,6 +108,7 @@ impl Group {
         Self::Matter,
         Self::Emitter,
         Self::Lens,
+        Self::Transport,
     ];
 
     /// Its cases.
@@ -129,6 +133,7 @@ impl Group {
             Self::Matter => matter::trials(),
             Self::Emitter => emitter::trials(),
             Self::Lens => lens::trials(),
+            Self::Transport => transport::trials(),
         }
     }
 }
@@ -152,6 +157,7 @@ impl fmt::Display for Group {
             Self::Matter => "matter",
             Self::Emitter => "emitter",
             Self::Lens => "lens",
+            Self::Transport => "transport",
         })
     }
 }

@@ -16,6 +16,7 @@ impl Group {
             Self::Light => ["highlights and lights", "to judge", "wrong"],
             Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
             Self::Emitter => ["lights with an area", "to judge", "wrong"],
+            Self::Transport => ["ways of light", "to judge", "wrong"],
             Self::Triangle => ["rays against triangles", "met", "misjudged"],
             Self::Lens => ["rays through lenses", "judged", "wrong"],
             Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
