@@ -2,7 +2,7 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    BlinnPhong, Checker, Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Phong,
+    BlinnPhong, Checker, Cuboid, DQuat, Degrees, Glass, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Phong,
     Placement, Plane, PointLight, Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
@@ -15,6 +15,7 @@ pub fn chapter(name: &'static str) -> Chapter {
         "13_shapes" => boxed,
         "16_textures" => checkered,
         "15_reflection" => glossy,
+        "20_glass" => clear,
         _ => central,
     };
     Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
@@ -25,7 +26,7 @@ pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
         .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
-        .chain(["17_sampling"])
+        .chain(["17_sampling", "20_glass"])
         .map(chapter)
         .collect()
 }
@@ -55,6 +56,11 @@ fn glossy(world: &mut World) {
     world.spawn((Sphere { radius: 0.2 }, Placement::at(-0.5, 0.2, 2.0), Phong { exponent: 20.0, ..Phong::default() }));
     let satin = BlinnPhong { exponent: 80.0, ..BlinnPhong::default() };
     world.spawn((Sphere { radius: 0.2 }, Placement::at(0.0, 0.2, 2.0), satin));
+}
+
+fn clear(world: &mut World) {
+    central(world);
+    world.spawn((Sphere { radius: 0.2 }, Placement::at(-0.5, 0.2, 2.0), Glass::default()));
 }
 
 fn parallel(world: &mut World) {
