@@ -11,7 +11,8 @@ use pinhole::measure::film_bits::digest;
 use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
-use pinhole::scene::{Filter, Motion, Placement, PointLight, Sampling, Shutter, Statistics};
+use pinhole::scene::{Filter, Integrator, Motion, Placement, PointLight, Sampling, Shutter, Statistics};
+use scenes::followed::{INTEGRATORS, followed};
 use scenes::matter::{brushed, polished};
 use scenes::{
     EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, pieces, shining,
@@ -40,6 +41,9 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("moving", moving(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
         ("all round", scenes::all_round(Setup::default())),
+        ("paths", paths(Setup::default())),
+        ("Whitted's rays", whitted(Setup::default())),
+        ("the sky", sky(Setup::default())),
         ("ties", ties()),
         ("unlit", unlit),
     ]
@@ -70,6 +74,21 @@ fn full_in_motion(setup: Setup) -> World {
     scene.entity_mut(camera).insert((Shutter::default(), Motion { velocity: DVec3::new(0.25, 0.0, 0.5) }));
     scene.entity_mut(ball).insert(Motion { velocity: DVec3::new(0.5, -0.25, 0.0) });
     scene
+}
+
+/// Mirrors, glass, metal, lights with an area and an environment by paths.
+fn paths(setup: Setup) -> World {
+    followed(INTEGRATORS[6], setup)
+}
+
+/// The same by Whitted's rays.
+fn whitted(setup: Setup) -> World {
+    followed(Integrator::WHITTED, setup)
+}
+
+/// How much of the sky the same scene sees.
+fn sky(setup: Setup) -> World {
+    followed(INTEGRATORS[2], setup)
 }
 
 fn with_statistics(mut scene: World) -> World {
@@ -263,7 +282,10 @@ fn statistics_change_nothing() {
 fn scale_by_powers_of_two() {
     const LARGEST: i32 = 20;
     for eye in EYES {
-        for scene in [full, turned, stretched, pieces, textured, shining, sampled, blurred, moving, polished, brushed] {
+        for scene in [
+            full, turned, stretched, pieces, textured, shining, sampled, blurred, moving, paths, whitted, sky,
+            polished, brushed,
+        ] {
             let setup = Setup { eye, size: [48, 33], ..Setup::default() };
             let expected = film(&scene(setup));
             for k in -LARGEST..=LARGEST {
@@ -274,7 +296,7 @@ fn scale_by_powers_of_two() {
             }
         }
     }
-    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 11 scenes, all equal");
+    eprintln!("scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 14 scenes, all equal");
 }
 
 #[test]
@@ -293,6 +315,9 @@ fn moved_by_two_to_the_twentieth() {
             sampled,
             sharp_where_focused,
             full_in_motion,
+            paths,
+            whitted,
+            sky,
             polished,
             brushed,
         ] {

@@ -2,6 +2,8 @@
 
 mod scenes;
 
+#[path = "plan/followed.rs"]
+mod followed;
 #[path = "plan/forced.rs"]
 mod forced;
 #[path = "plan/textures.rs"]

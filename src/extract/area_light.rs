@@ -28,7 +28,7 @@ pub struct AreaLightTable {
     pub one_sided: Vec<bool>,
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
-    /// How likely it is to be chosen: its power's share of all, and at least 2⁻³².
+    /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
     pub chance: Vec<f64>,
     /// The light that a shape is; [`NO_ROW`] for a shape that is none.
     pub light_of_shape: Vec<u32>,
@@ -43,14 +43,17 @@ impl AreaLightTable {
     }
     // ANCHOR_END: choose_light
 
-    /// Shares chance out by power: each light gets one part, and the others go by its share.
+    /// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
+    /// matter most where it does.
     ///
+    /// Each light gets one part, and the others go by its share.
     /// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
     fn share_out(&mut self, powers: &[f64]) {
         let total: f64 = powers.iter().sum();
         let even = !(total > 0.0 && total.is_finite());
         let left = PARTS - powers.len() as u64;
-        let share = |power: f64| if even { 1.0 / powers.len() as f64 } else { power / total };
+        let even_share = 1.0 / powers.len() as f64;
+        let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
         let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
         let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
         let given: u64 = parts.iter().sum();

@@ -3,6 +3,7 @@
 use super::*;
 use pinhole::film::{FilmLayers, FilmMoments};
 use pinhole::render::render;
+use scenes::followed::{INTEGRATORS, followed};
 
 /// The offer with one stage's say replaced.
 fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
@@ -108,6 +109,10 @@ fn forcing_a_needed_stage_off_shows() {
         ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
+        ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
+        ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
+        ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
+        ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     for stage in &offer {
         let mut powers = Vec::new();

@@ -60,6 +60,11 @@ pub fn scale(scene: &mut World, k: i32) {
             let Rgb { r, g, b } = glass.absorption;
             glass.absorption = Rgb::new(r / scale, g / scale, b / scale);
         }
+        if let Some(mut integrator) = entity.get_mut::<Integrator>()
+            && let Integrator::AmbientOcclusion { distance } = &mut *integrator
+        {
+            *distance *= scale;
+        }
         let stronger = |Rgb { r, g, b }: Rgb| Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
         if let Some(mut light) = entity.get_mut::<PointLight>() {
             light.intensity = stronger(light.intensity);
