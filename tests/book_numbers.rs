@@ -16,6 +16,8 @@ use std::path::Path;
 
 #[path = "../chapters/mod.rs"]
 mod chapters;
+#[path = "book_numbers/matter.rs"]
+mod matter;
 #[path = "book_numbers/reflection.rs"]
 mod reflection;
 #[path = "book_numbers/spaces.rs"]

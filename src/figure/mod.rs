@@ -14,6 +14,7 @@ mod cameras;
 mod drawn_image;
 mod field_of_view;
 mod filters;
+mod fresnel;
 mod gallery;
 mod grid;
 mod hit;
@@ -210,6 +211,12 @@ pub fn figures() -> Vec<Figure> {
             chapter: "17_sampling",
             about: "the variance of a mean over the number of its samples",
             draw: samples::draw_variance,
+        },
+        Figure {
+            name: "20_glass",
+            chapter: "20_glass",
+            about: "how much of the light glass mirrors at each angle, from outside and from inside",
+            draw: fresnel::draw,
         },
         Figure {
             name: "21_jacobian",
