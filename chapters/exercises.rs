@@ -65,14 +65,14 @@ pub mod glass;
 #[path = "21_soft_shadows/exercise.rs"]
 pub mod soft_shadows;
 
+#[path = "22_ambient_occlusion/exercise.rs"]
+pub mod ambient_occlusion;
+
 #[path = "23_depth_of_field/exercise.rs"]
 pub mod depth_of_field;
 
 #[path = "24_motion_blur/exercise.rs"]
 pub mod motion_blur;
-
-#[path = "22_ambient_occlusion/exercise.rs"]
-pub mod ambient_occlusion;
 
 #[path = "25_path_tracing/exercise.rs"]
 pub mod path_tracing;

@@ -57,12 +57,8 @@ pub mod textures;
 #[path = "17_sampling/main.rs"]
 pub mod sampling;
 
-#[path = "23_depth_of_field/main.rs"]
-pub mod depth_of_field;
 #[path = "18_error_and_time/main.rs"]
 pub mod error_and_time;
-#[path = "24_motion_blur/main.rs"]
-pub mod motion_blur;
 
 #[path = "19_mirrors/main.rs"]
 pub mod mirrors;
@@ -75,6 +71,12 @@ pub mod soft_shadows;
 
 #[path = "22_ambient_occlusion/main.rs"]
 pub mod ambient_occlusion;
+
+#[path = "23_depth_of_field/main.rs"]
+pub mod depth_of_field;
+
+#[path = "24_motion_blur/main.rs"]
+pub mod motion_blur;
 
 #[path = "25_path_tracing/main.rs"]
 pub mod path_tracing;
@@ -109,9 +111,9 @@ pub fn all() -> Vec<Chapter> {
         mirrors::chapter().exercise(exercises::MIRRORS),
         glass::chapter().exercise(exercises::GLASS),
         soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
+        ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
         depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
         motion_blur::chapter().exercise(exercises::MOTION_BLUR),
-        ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
         path_tracing::chapter().exercise(exercises::PATH_TRACING),
         choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),
     ]

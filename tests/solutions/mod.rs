@@ -65,14 +65,14 @@ pub mod glass;
 #[path = "21_soft_shadows.rs"]
 pub mod soft_shadows;
 
+#[path = "22_ambient_occlusion.rs"]
+pub mod ambient_occlusion;
+
 #[path = "23_depth_of_field.rs"]
 pub mod depth_of_field;
 
 #[path = "24_motion_blur.rs"]
 pub mod motion_blur;
-
-#[path = "22_ambient_occlusion.rs"]
-pub mod ambient_occlusion;
 
 #[path = "25_path_tracing.rs"]
 pub mod path_tracing;
