@@ -86,7 +86,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         name: "a drink in a thick glass, no gap of air",
         formula: "R + (1 − R)² r / (1 − R r)",
         truth: layers,
-        few: 1 << 16,
+        few: 1 << 19,
         scene: |world| {
             view(world, 20.0 * DVec3::Z, 1.0);
             // Seen through, nothing would be lost; a dark drink shows how much of the light comes from it.
