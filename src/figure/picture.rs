@@ -4,7 +4,7 @@ use crate::film::{Curve, Film, png_bytes, png_url};
 use crate::plan::Stage;
 use crate::render::{Execution, render};
 use crate::scene::Resolution;
-use crate::{Result, intersect, rays, shade};
+use crate::{Result, follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 
 /// A picture of a chapter's scene, within a figure.
@@ -74,6 +74,6 @@ impl Picture {
 fn all_stages(chapter: &Chapter) -> Chapter {
     let mut whole = chapter.clone();
     whole.view = None;
-    whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+    whole.offer = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
     whole
 }
