@@ -65,6 +65,21 @@ pub mod glass;
 #[path = "21_soft_shadows/exercise.rs"]
 pub mod soft_shadows;
 
+#[path = "22_ambient_occlusion/exercise.rs"]
+pub mod ambient_occlusion;
+
+#[path = "23_depth_of_field/exercise.rs"]
+pub mod depth_of_field;
+
+#[path = "24_motion_blur/exercise.rs"]
+pub mod motion_blur;
+
+#[path = "25_path_tracing/exercise.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/exercise.rs"]
+pub mod choosing_samples;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -127,3 +142,18 @@ pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
 
 /// Chapter 21.
 pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);
+
+/// Chapter 23.
+pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);
+
+/// Chapter 24.
+pub const MOTION_BLUR: Attempt = Attempt::MovingSphereT(motion_blur::moving_sphere_t);
+
+/// Chapter 22.
+pub const AMBIENT_OCCLUSION: Attempt = Attempt::CosineDirection(ambient_occlusion::cosine_direction);
+
+/// Chapter 25.
+pub const PATH_TRACING: Attempt = Attempt::AfterRoulette(path_tracing::after_roulette);
+
+/// Chapter 26.
+pub const CHOOSING_SAMPLES: Attempt = Attempt::PowerHeuristic(choosing_samples::power_heuristic);

@@ -69,6 +69,21 @@ pub mod glass;
 #[path = "21_soft_shadows/main.rs"]
 pub mod soft_shadows;
 
+#[path = "22_ambient_occlusion/main.rs"]
+pub mod ambient_occlusion;
+
+#[path = "23_depth_of_field/main.rs"]
+pub mod depth_of_field;
+
+#[path = "24_motion_blur/main.rs"]
+pub mod motion_blur;
+
+#[path = "25_path_tracing/main.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/main.rs"]
+pub mod choosing_samples;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -96,5 +111,10 @@ pub fn all() -> Vec<Chapter> {
         mirrors::chapter().exercise(exercises::MIRRORS),
         glass::chapter().exercise(exercises::GLASS),
         soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
+        ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
+        depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
+        motion_blur::chapter().exercise(exercises::MOTION_BLUR),
+        path_tracing::chapter().exercise(exercises::PATH_TRACING),
+        choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),
     ]
 }

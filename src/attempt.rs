@@ -46,6 +46,16 @@ pub enum Attempt {
     Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
     /// Chapter 21: the lit point, a light's point, its normal, its area.
     SolidAngleDensity(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
+    /// Chapter 23: a screen point, the tangent of half the vertical angle, a point of the lens, the focus distance.
+    LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
+    /// Chapter 24: origin, direction, centre, radius, velocity, time.
+    MovingSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Option<f64>),
+    /// Chapter 22: two numbers from 0 to below 1.
+    CosineDirection(fn(f64, f64) -> [f64; 3]),
+    /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
+    AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
+    /// Chapter 26: two densities, that of the way's own chance first.
+    PowerHeuristic(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -73,6 +83,11 @@ impl Attempt {
             Self::Mirrored(_) => "mirrored",
             Self::Refracted(_) => "refracted",
             Self::SolidAngleDensity(_) => "solid_angle_density",
+            Self::LensDirection(_) => "lens_direction",
+            Self::MovingSphereT(_) => "moving_sphere_t",
+            Self::CosineDirection(_) => "cosine_direction",
+            Self::AfterRoulette(_) => "after_roulette",
+            Self::PowerHeuristic(_) => "power_heuristic",
         }
     }
 }

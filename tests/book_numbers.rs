@@ -16,10 +16,14 @@ use std::path::Path;
 
 #[path = "../chapters/mod.rs"]
 mod chapters;
+#[path = "book_numbers/matter.rs"]
+mod matter;
 #[path = "book_numbers/reflection.rs"]
 mod reflection;
 #[path = "book_numbers/spaces.rs"]
 mod spaces;
+#[path = "book_numbers/transport.rs"]
+mod transport;
 
 fn chapter(name: &str) -> Chapter {
     chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter")

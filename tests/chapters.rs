@@ -55,6 +55,11 @@ test_chapters! {
     chapter_19_mirrors: mirrors,
     chapter_20_glass: glass,
     chapter_21_soft_shadows: soft_shadows,
+    chapter_22_ambient_occlusion: ambient_occlusion,
+    chapter_23_depth_of_field: depth_of_field,
+    chapter_24_motion_blur: motion_blur,
+    chapter_25_path_tracing: path_tracing,
+    chapter_26_choosing_samples: choosing_samples,
 }
 
 #[test]

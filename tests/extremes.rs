@@ -102,6 +102,21 @@ fn lights_hold() {
 }
 
 #[test]
+fn lenses_hold() {
+    holds(Group::Lens, 2048);
+}
+
+#[test]
+fn lights_with_an_area_hold() {
+    holds(Group::Emitter, 2048);
+}
+
+#[test]
+fn ways_of_light_hold() {
+    holds(Group::Transport, 2048);
+}
+
+#[test]
 fn results_do_not_depend_on_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

@@ -5,10 +5,13 @@
 //! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
 //! Nothing here runs in a render.
 
+mod ambient_occlusion;
 mod answers;
 mod apart;
 mod camera_to_world;
+mod choosing_samples;
 mod conventions;
+mod depth_of_field;
 mod error_and_time;
 mod field_of_view;
 mod glass;
@@ -18,8 +21,10 @@ mod image;
 mod judge;
 mod light_and_shadow;
 mod mirrors;
+mod motion_blur;
 mod ndc;
 mod orthographic;
+mod path_tracing;
 mod pinhole;
 mod progress;
 mod question;
@@ -69,5 +74,10 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::Mirrored(yours) => mirrors::check(yours, patience),
         Attempt::Refracted(yours) => glass::check(yours, patience),
         Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
+        Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
+        Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
+        Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
+        Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
+        Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
     }
 }

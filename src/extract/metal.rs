@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 
 /// The least α with which metal is rough; below it, it is a perfect mirror.
 ///
-/// There its highlight is 0.1° wide, about as much as the sun's disk is blurred by the air.
+/// There its highlight falls to half within 0.07° of its middle.
 pub const SMOOTHEST_METAL: f64 = 1e-3;
 
 /// Rough metals, in spawn order.

@@ -9,12 +9,16 @@
 
 mod acne;
 mod aliasing;
+mod broken_paths;
+mod cameras;
 mod drawn_image;
 mod field_of_view;
 mod filters;
+mod fresnel;
 mod gallery;
 mod grid;
 mod hit;
+mod integrators;
 mod jacobian;
 mod label;
 mod lobes;
@@ -209,10 +213,70 @@ pub fn figures() -> Vec<Figure> {
             draw: samples::draw_variance,
         },
         Figure {
+            name: "20_glass",
+            chapter: "20_glass",
+            about: "how much of the light glass mirrors at each angle, from outside and from inside",
+            draw: fresnel::draw,
+        },
+        Figure {
             name: "21_jacobian",
             chapter: "21_soft_shadows",
             about: "lamps by the right density, without its cosine, and without its distance too",
             draw: jacobian::draw,
+        },
+        Figure {
+            name: "23_focus",
+            chapter: "23_depth_of_field",
+            about: "a lens focused near, focused far, and closed to a pinhole",
+            draw: cameras::draw_focus,
+        },
+        Figure {
+            name: "23_openings",
+            chapter: "23_depth_of_field",
+            about: "a round opening filled evenly and unevenly, and one of three edges",
+            draw: cameras::draw_openings,
+        },
+        Figure {
+            name: "23_cameras",
+            chapter: "23_depth_of_field",
+            about: "one scene through a lens, through a fisheye and in all directions",
+            draw: cameras::draw_cameras,
+        },
+        Figure {
+            name: "24_frames",
+            chapter: "24_motion_blur",
+            about: "one motion as the mean of few moments, of more, and of times at random",
+            draw: cameras::draw_frames,
+        },
+        Figure {
+            name: "24_shutters",
+            chapter: "24_motion_blur",
+            about: "one motion, seen for a moment, for a while and for longer",
+            draw: cameras::draw_shutters,
+        },
+        Figure {
+            name: "22_distance",
+            chapter: "22_ambient_occlusion",
+            about: "how much of the sky points see, with what is near alone in the way, and with all",
+            draw: integrators::draw_distance,
+        },
+        Figure {
+            name: "25_legs",
+            chapter: "25_path_tracing",
+            about: "one scene by ray casting, and by ways of light of two, three and many legs",
+            draw: integrators::draw_legs,
+        },
+        Figure {
+            name: "25_broken",
+            chapter: "25_path_tracing",
+            about: "one scene by paths with a factor too few or too many, and encoded twice",
+            draw: broken_paths::draw,
+        },
+        Figure {
+            name: "26_ways",
+            chapter: "26_choosing_samples",
+            about: "lamps found by chance, by aiming, and by both, weighed",
+            draw: integrators::draw_ways,
         },
     ]
 }

@@ -31,18 +31,15 @@ pub fn intersect_moving<R: RayColumn, H: HitColumn>(
 ) {
     for (rays, times, mut hits) in &mut tiles {
         let (t, shape) = hits.hit_lanes();
-        match rays.path_lane() {
-            None => moving_rows(rays.ray_lanes(), |row| times.time[row], &moving, t, shape),
-            Some(path) => moving_rows(rays.ray_lanes(), |row| times.time[path[row] as usize], &moving, t, shape),
-        }
+        moving_rows(rays.ray_lanes(), (&times.time, rays.path_lane()), &moving, t, shape);
     }
 }
 
 /// A shape at a time over all rays, so that the arithmetic of many rays is done at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn moving_rows<T: Fn(usize) -> f64>(
+fn moving_rows(
     rays: RayLanes<'_>,
-    time_of: T,
+    (times_of_paths, path): (&[f64], Option<&[u32]>),
     moving: &MovingTable,
     t: &mut [f64],
     shape: &mut [u32],
@@ -54,7 +51,7 @@ fn moving_rows<T: Fn(usize) -> f64>(
         let block = RayBlock::of(rays, start, end);
         let mut times = [0.0; LANES];
         for (lane, row) in (start..end).enumerate() {
-            times[lane] = time_of(row);
+            times[lane] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
         }
         let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {

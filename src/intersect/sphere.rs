@@ -132,6 +132,24 @@ impl RayBlock {
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
+        Self::measured(o, d)
+    }
+
+    /// The rays of some rows, at most as many as there are lanes.
+    #[inline(always)]
+    pub fn of_rows(rays: RayLanes<'_>, rows: &[u32]) -> Self {
+        let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
+        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
+        for (lane, &row) in rows.iter().enumerate() {
+            let row = row as usize;
+            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        }
+        Self::measured(o, d)
+    }
+
+    #[inline(always)]
+    fn measured(o: [[f64; LANES]; 3], d: [[f64; LANES]; 3]) -> Self {
         let mut inverse = [1.0_f64; LANES];
         for (lane, inverse) in inverse.iter_mut().enumerate() {
             *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));

@@ -1,7 +1,7 @@
 use super::chance::{Rows, draw_one};
 use super::{PixelSamples, RasterPoints, SampleNumber, Tile};
 use crate::extract::{SamplingTable, ShutterTable, motion_evidence};
-use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
 
@@ -37,7 +37,6 @@ pub fn draw_times(
 /// The stage on offer.
 pub fn time_stage() -> Stage {
     Stage::new("Draw times", TileSystems::Lens, draw_times)
-        .kind(StageKind::Alternative)
         .reads::<RasterPoints>()
         .reads_if::<PixelSamples>()
         .writes::<RayTimes>()

@@ -49,6 +49,11 @@ pub enum LightSampling {
     Weighed,
 }
 
+impl LightSampling {
+    /// All, with the words of the command line.
+    pub const ALL: [(&str, Self); 3] = [("chance", Self::ByChance), ("aimed", Self::Aimed), ("weighed", Self::Weighed)];
+}
+
 impl Integrator {
     /// Paths without a practical end.
     pub const PATH: Self = Self::Path { legs: 1 << 20, lights: LightSampling::Weighed, roulette: 5 };

@@ -1,8 +1,11 @@
 //! Typical wrong solutions, written as a reader would, and a word of what must be said of each.
 
+use super::solutions::depth_of_field::lens_direction;
+use super::solutions::hit::nearest_sphere_t;
+use super::solutions::motion_blur::moving_sphere_t;
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// The chapter, the wrong function, words of the remark that it must get.
 pub const ALL: &[(&str, Attempt, &str)] = &[
@@ -152,6 +155,19 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("14_transforms", Attempt::FallingCosine(not_unit), "length 1"),
     ("14_transforms", Attempt::FallingCosine(below_too), "from below the surface"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, _, f| lens_direction(s, t, [0.0; 2], f)), "the pinhole's"),
+    ("23_depth_of_field", Attempt::LensDirection(a_sphere_in_focus), "along the ray"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, l, _| lens_direction(s, t, l, 1.0)), "distance 1"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, t, [x, y], f| lens_direction(s, t, [-x, -y], f)), "is added"),
+    ("23_depth_of_field", Attempt::LensDirection(|s, _, l, f| lens_direction(s, 1.0, l, f)), "tangent is left out"),
+    ("23_depth_of_field", Attempt::LensDirection(not_of_length_1), "length 1"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, _, _| nearest_sphere_t(o, d, c, r)), "stands still"),
+    ("24_motion_blur", Attempt::MovingSphereT(|o, d, c, r, v, s| moving_sphere_t(o, d, c, r, v, -s)), "wrong way"),
+    (
+        "24_motion_blur",
+        Attempt::MovingSphereT(|o, d, c, r, v, _| moving_sphere_t(o, d, c, r, v, 1.0)),
+        "time is left out",
+    ),
     ("17_sampling", Attempt::TentOffset(|u, r| (2.0 * u - 1.0) * r), "a box"),
     ("17_sampling", Attempt::TentOffset(from_the_rim), "highest in the middle"),
     ("17_sampling", Attempt::TentOffset(without_root), "square root is missing"),
@@ -167,6 +183,67 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("21_soft_shadows", Attempt::SolidAngleDensity(signed_density), "negative density"),
     ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| signed_density(f, t, n, a).max(0.0)), "has none"),
     ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| edge_on(f, t, n, a)), "1 / 0"),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u, TAU * v, (1.0 - u * u).sqrt())),
+        "root is missing",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised((1.0 - u * u).sqrt(), TAU * v, u)),
+        "u is taken for the height",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u)),
+        "1 − u is taken",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), PI * v, (1.0 - u).sqrt())),
+        "half a turn",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), v, (1.0 - u).sqrt())),
+        "taken for an angle",
+    ),
+    ("22_ambient_occlusion", Attempt::CosineDirection(|u, v| raised(u.sqrt(), TAU * v, 1.0 - u)), "unit vector"),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), TAU * v, -(1.0 - u).sqrt())),
+        "points down",
+    ),
+    ("22_ambient_occlusion", Attempt::CosineDirection(sine_first), "swapped"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, u| if u < chance(s) { s } else { [0.0; 3] }), "is lost"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, _| s.map(|part| part / chance(s))), "nothing ever ends"),
+    (
+        "25_path_tracing",
+        Attempt::AfterRoulette(|s, u| if u < chance(s) { [0.0; 3] } else { divided(s, chance(s)) }),
+        "two ends are swapped",
+    ),
+    ("25_path_tracing", Attempt::AfterRoulette(without_most), "at most 1"),
+    ("25_path_tracing", Attempt::AfterRoulette(by_mean), "mean of the three"),
+    ("25_path_tracing", Attempt::AfterRoulette(by_green), "green alone"),
+    (
+        "25_path_tracing",
+        Attempt::AfterRoulette(|s, u| s.map(|part| if u < part { part.max(1.0) } else { 0.0 })),
+        "each colour",
+    ),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| if p == 0.0 { 0.0 } else { p / (p + q) }), "balance"),
+    (
+        "26_choosing_samples",
+        Attempt::PowerHeuristic(|p, q| super::solutions::choosing_samples::power_heuristic(q, p)),
+        "swapped",
+    ),
+    (
+        "26_choosing_samples",
+        Attempt::PowerHeuristic(|p, q| if p == 0.0 { 0.0 } else { p * p / (p * p + q * q) }),
+        "overflow",
+    ),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| p * p / (p * p + q * q)), "overflow"),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| 1.0 / (1.0 + (q / p) * (q / p))), "divided by 0"),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|_, _| 0.5), "counts half"),
 ];
 
 fn distance_and_cosine(from: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> (f64, f64) {
@@ -189,6 +266,15 @@ fn signed_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> 
 fn edge_on(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
     let (distance, cosine) = distance_and_cosine(from, at, normal);
     distance * distance / (area * cosine.abs())
+}
+
+fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
+    lens_direction(screen, tangent, lens, focus / slant)
+}
+
+fn not_of_length_1(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
+    lens_direction(screen, tangent, lens, focus).map(|part| 2.0 * part)
 }
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
@@ -546,4 +632,36 @@ fn passes(d: [f64; 3], n: [f64; 3], eta: f64) -> bool {
 fn through(d: [f64; 3], n: [f64; 3], eta: f64) -> [f64; 3] {
     let along = -dot(d, n) - g_squared(d, n, eta).sqrt();
     [0, 1, 2].map(|part| (d[part] + along * n[part]) / eta)
+}
+
+fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
+    [radius * turn.cos(), radius * turn.sin(), height]
+}
+
+fn sine_first(u: f64, v: f64) -> [f64; 3] {
+    [u.sqrt() * (TAU * v).sin(), u.sqrt() * (TAU * v).cos(), (1.0 - u).sqrt()]
+}
+
+fn chance(share: [f64; 3]) -> f64 {
+    without_cap(share).min(1.0)
+}
+
+fn without_cap(share: [f64; 3]) -> f64 {
+    share[0].max(share[1]).max(share[2])
+}
+
+fn kept_with(chance: f64, share: [f64; 3], u: f64) -> [f64; 3] {
+    if u < chance { divided(share, chance) } else { [0.0; 3] }
+}
+
+fn without_most(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(without_cap(share), share, u)
+}
+
+fn by_mean(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(((share[0] + share[1] + share[2]) / 3.0).min(1.0), share, u)
+}
+
+fn by_green(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(share[1].min(1.0), share, u)
 }

@@ -24,7 +24,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         few: 1 << 10,
         scene: |world| {
             // The first turns the view upward, the second sends it to the side, and upward still.
-            view(world, DVec3::Z, 0.1);
+            view(world, 20.0 * DVec3::Z, 0.1);
             let slanted = |normal: DVec3, colour| (Plane { normal }, Mirror { colour: Rgb::grey(colour) });
             world.spawn(slanted(DVec3::new(0.0, 1.0, 1.0), 0.9));
             world.spawn((slanted(DVec3::new(3.0, -1.0, 0.0), 0.8), Placement::at(0.0, 40.0, 0.0)));
@@ -50,7 +50,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         },
         few: 1 << 16,
         scene: |world| {
-            view(world, DVec3::new(libm::sin(FRAC_PI_3), 0.0, libm::cos(FRAC_PI_3)), 1.0);
+            view(world, 20.0 * DVec3::new(libm::sin(FRAC_PI_3), 0.0, libm::cos(FRAC_PI_3)), 1.0);
             world.spawn((Plane { normal: DVec3::Z }, Glass::default()));
         },
     },
@@ -63,7 +63,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         },
         few: 1 << 16,
         scene: |world| {
-            view(world, DVec3::Z, 1.0);
+            view(world, 20.0 * DVec3::Z, 1.0);
             let absorption = Rgb::grey(0.5 * LN_2);
             pane(world, Glass { absorption, ..Glass::default() }, [-1.0, 1.0]);
         },
@@ -74,7 +74,9 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || libm::exp(-1.0),
         few: 1 << 10,
         scene: |world| {
-            view(world, DVec3::Z, 1.0);
+            // From near by: a ray starts off its surface by the bound, which grows with the distance from the eye, and
+            // so much of its way is not counted.
+            view(world, 1.5 * DVec3::Z, 1.0);
             let drink = |absorption, priority| Glass { ior: 1.0, absorption: Rgb::grey(absorption), priority };
             pane(world, drink(0.2, 1), [-1.0, 1.0]);
             pane(world, drink(0.3, 0), [-3.0, 0.0]);
@@ -86,7 +88,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: layers,
         few: 1 << 16,
         scene: |world| {
-            view(world, DVec3::Z, 1.0);
+            view(world, 20.0 * DVec3::Z, 1.0);
             // Seen through, nothing would be lost; a dark drink shows how much of the light comes from it.
             let drink = Glass { ior: 1.3, absorption: Rgb::grey(1e9), priority: 0 };
             pane(world, Glass { priority: 1, ..Glass::default() }, [-1.0, 1.0]);
@@ -99,7 +101,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || 1.0 - LN_2,
         few: 1 << 17,
         scene: |world| {
-            view(world, DVec3::Z, 1.0);
+            view(world, 20.0 * DVec3::Z, 1.0);
             world.spawn((Plane { normal: DVec3::Z }, Metal { colour: Rgb::grey(1.0), roughness: 1.0 }));
         },
     },
@@ -112,9 +114,9 @@ fn layers() -> f64 {
     outer + (1.0 - outer) * (1.0 - outer) * inner / (1.0 - outer * inner)
 }
 
-/// A camera whose rays are parallel, above the origin on this side, under the sky.
-fn view(world: &mut World, from: DVec3, view_height: f64) {
-    let look = LookAt { eye: 20.0 * from, target: DVec3::ZERO, ..LookAt::default() };
+/// A camera whose rays are parallel, looking at the origin, under the sky.
+fn view(world: &mut World, eye: DVec3, view_height: f64) {
+    let look = LookAt { eye, target: DVec3::ZERO, ..LookAt::default() };
     world.spawn((OrthographicCamera { view_height }, look, WAYS));
     world.spawn(Background { colour: Rgb::grey(1.0) });
 }

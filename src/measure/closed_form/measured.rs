@@ -35,7 +35,8 @@ pub struct Measured {
 impl Measured {
     /// How many standard errors it lies from the truth; numbers that f32 cannot tell apart are none apart.
     pub fn deviation(&self, truth: f64) -> f64 {
-        const ROUNDING: f64 = 1.0 / (1_u64 << 22) as f64;
+        // Every leg starts off its surface by up to 4u of its coordinates, and a way has a few legs.
+        const ROUNDING: f64 = 1.0 / (1_u64 << 16) as f64;
         (self.mean - truth) / self.standard_error.max(ROUNDING * truth.abs())
     }
 }

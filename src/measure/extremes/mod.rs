@@ -18,6 +18,7 @@ mod film_bytes;
 mod flat;
 mod frame;
 mod lamp;
+mod lens;
 mod light;
 mod light_albedo;
 mod matter;
@@ -33,6 +34,7 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod transport;
 mod triangle;
 mod triangle_aim;
 mod triangle_limits;
@@ -80,6 +82,10 @@ pub enum Group {
     Matter,
     /// Lights with an area: points on them, and how likely each was.
     Emitter,
+    /// Lenses: where rays meet, where they start, how wide what is out of focus is.
+    Lens,
+    /// Ways of light: what they bring, how they end, what they count for.
+    Transport,
 }
 
 impl Group {
@@ -101,6 +107,8 @@ impl Group {
         Self::Light,
         Self::Matter,
         Self::Emitter,
+        Self::Lens,
+        Self::Transport,
     ];
 
     /// Its cases.
@@ -124,6 +132,8 @@ impl Group {
             Self::Light => light::trials(),
             Self::Matter => matter::trials(),
             Self::Emitter => emitter::trials(),
+            Self::Lens => lens::trials(),
+            Self::Transport => transport::trials(),
         }
     }
 }
@@ -146,6 +156,8 @@ impl fmt::Display for Group {
             Self::Light => "light",
             Self::Matter => "matter",
             Self::Emitter => "emitter",
+            Self::Lens => "lens",
+            Self::Transport => "transport",
         })
     }
 }

@@ -4,6 +4,9 @@ use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
+/// From farther than this many half diagonals a parallelogram is aimed at by its area: there its points are nearly equally
+/// near and equally slanted, so that the angles of [`RectangleSeen`] would cost more than they bring.
+const FAR: f64 = 3.0;
 /// A rectangle that fills less than this many sr is aimed at as the two triangles that it is.
 ///
 /// Its solid angle is what four angles have more than 360°, so it is off by some 10⁻¹⁵ sr.
@@ -132,7 +135,7 @@ fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
-/// A point of a parallelogram: evenly over the directions that it fills, or over its area where it fills hardly any.
+/// A point of a parallelogram: evenly over the directions that it fills, or over its area where it is far.
 #[inline(always)]
 pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     match Seen::of(shape, from) {
@@ -196,6 +199,11 @@ enum Seen {
 impl Seen {
     #[inline(always)]
     fn of(shape: &Parallelogram, from: DVec3) -> Self {
+        let [x, y] = shape.half_edges;
+        let half_diagonal_squared = x.length_squared() + y.length_squared() + 2.0 * x.dot(y).abs();
+        if (from - shape.centre).length_squared() > FAR * FAR * half_diagonal_squared {
+            return Self::Small;
+        }
         if shape.is_rectangle {
             let seen = RectangleSeen::new(shape.centre, shape.half_edges, from);
             if seen.solid_angle >= LEAST_OF_FOUR_ANGLES {
