@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, follow, intersect, rays, shade};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -16,17 +16,8 @@ pub fn chapter() -> Chapter {
     Chapter::new("21_soft_shadows", "lights with an area", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
-        .offer(shade::start_stage())
-        .offer(shade::background_stage())
-        .offer(shade::start_light_stage())
-        .offer(shade::start_shadow_stage())
-        .offer(shade::sphere_shadow_stage())
-        .offer(shade::plane_shadow_stage())
-        .offer(shade::rectangle_shadow_stage())
-        .offer(shade::cuboid_shadow_stage())
-        .offer(shade::light_stage())
-        .offer(shade::emissive_stage())
-        .offer(shade::area_light_stage())
+        .offer(shade::stages())
+        .offer(follow::stages())
 }
 // ANCHOR_END: chapter
 
@@ -37,7 +28,7 @@ fn scene(world: &mut World) {
         PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.0, 3.2, 6.0].into(), target: [0.0, 0.5, 0.2].into(), ..LookAt::default() },
         Sampling { samples: 64, seed: 21, sampler: Sampler::Sobol, filter: Filter::GAUSSIAN },
-        Integrator::Distribution { legs: 1 },
+        Integrator::DISTRIBUTION,
     ));
     world.spawn((Name::new("floor"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
     let clay = Matte { colour: Rgb::new(0.7, 0.35, 0.2) };
