@@ -56,11 +56,29 @@ pub mod sampling;
 #[path = "18_error_and_time/exercise.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors/exercise.rs"]
+pub mod mirrors;
+
+#[path = "20_glass/exercise.rs"]
+pub mod glass;
+
+#[path = "21_soft_shadows/exercise.rs"]
+pub mod soft_shadows;
+
 #[path = "23_depth_of_field/exercise.rs"]
 pub mod depth_of_field;
 
 #[path = "24_motion_blur/exercise.rs"]
 pub mod motion_blur;
+
+#[path = "22_ambient_occlusion/exercise.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing/exercise.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/exercise.rs"]
+pub mod choosing_samples;
 
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
@@ -116,8 +134,26 @@ pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
 /// Chapter 18.
 pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
 
+/// Chapter 19.
+pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
+
+/// Chapter 20.
+pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
+
+/// Chapter 21.
+pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);
+
 /// Chapter 23.
 pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);
 
 /// Chapter 24.
 pub const MOTION_BLUR: Attempt = Attempt::MovingSphereT(motion_blur::moving_sphere_t);
+
+/// Chapter 22.
+pub const AMBIENT_OCCLUSION: Attempt = Attempt::CosineDirection(ambient_occlusion::cosine_direction);
+
+/// Chapter 25.
+pub const PATH_TRACING: Attempt = Attempt::AfterRoulette(path_tracing::after_roulette);
+
+/// Chapter 26.
+pub const CHOOSING_SAMPLES: Attempt = Attempt::PowerHeuristic(choosing_samples::power_heuristic);

@@ -64,6 +64,24 @@ pub mod error_and_time;
 #[path = "24_motion_blur/main.rs"]
 pub mod motion_blur;
 
+#[path = "19_mirrors/main.rs"]
+pub mod mirrors;
+
+#[path = "20_glass/main.rs"]
+pub mod glass;
+
+#[path = "21_soft_shadows/main.rs"]
+pub mod soft_shadows;
+
+#[path = "22_ambient_occlusion/main.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing/main.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples/main.rs"]
+pub mod choosing_samples;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -88,7 +106,13 @@ pub fn all() -> Vec<Chapter> {
         textures::chapter().exercise(exercises::TEXTURES),
         sampling::chapter().exercise(exercises::SAMPLING),
         error_and_time::chapter().exercise(exercises::ERROR_AND_TIME),
+        mirrors::chapter().exercise(exercises::MIRRORS),
+        glass::chapter().exercise(exercises::GLASS),
+        soft_shadows::chapter().exercise(exercises::SOFT_SHADOWS),
         depth_of_field::chapter().exercise(exercises::DEPTH_OF_FIELD),
         motion_blur::chapter().exercise(exercises::MOTION_BLUR),
+        ambient_occlusion::chapter().exercise(exercises::AMBIENT_OCCLUSION),
+        path_tracing::chapter().exercise(exercises::PATH_TRACING),
+        choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),
     ]
 }

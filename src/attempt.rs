@@ -40,10 +40,22 @@ pub enum Attempt {
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 17: a number from 0 to below 1, the tent's radius.
     TentOffset(fn(f64, f64) -> f64),
+    /// Chapter 19: a direction, a normal.
+    Mirrored(fn([f64; 3], [f64; 3]) -> [f64; 3]),
+    /// Chapter 20: a direction, a normal, the far side's index over the near side's.
+    Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
+    /// Chapter 21: the lit point, a light's point, its normal, its area.
+    SolidAngleDensity(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
     /// Chapter 23: a screen point, the tangent of half the vertical angle, a point of the lens, the focus distance.
     LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
     /// Chapter 24: origin, direction, centre, radius, velocity, time.
     MovingSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Option<f64>),
+    /// Chapter 22: two numbers from 0 to below 1.
+    CosineDirection(fn(f64, f64) -> [f64; 3]),
+    /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
+    AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
+    /// Chapter 26: two densities, that of the way's own chance first.
+    PowerHeuristic(fn(f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -68,8 +80,14 @@ impl Attempt {
             Self::PhongRadiance(_) => "phong_radiance",
             Self::FallingCosine(_) => "falling_cosine",
             Self::TentOffset(_) => "tent_offset",
+            Self::Mirrored(_) => "mirrored",
+            Self::Refracted(_) => "refracted",
+            Self::SolidAngleDensity(_) => "solid_angle_density",
             Self::LensDirection(_) => "lens_direction",
             Self::MovingSphereT(_) => "moving_sphere_t",
+            Self::CosineDirection(_) => "cosine_direction",
+            Self::AfterRoulette(_) => "after_roulette",
+            Self::PowerHeuristic(_) => "power_heuristic",
         }
     }
 }

@@ -11,16 +11,17 @@
 //! 5. [`rays`]: raster → NDC → screen → camera → world.
 //! 6. [`intersect`]: rays → nearest surface.
 //! 7. [`shade`]: surface → light.
-//! 8. [`film`]: light → pixels → files.
-//! 9. [`render`]: the loop over tiles.
-//! 10. [`look`]: trace, view, statistics.
-//! 11. [`naive`]: the methods that break, for the book, its figures and the extremes.
-//! 12. [`figure`]: drawings of a scene and of what the stages wrote for it.
-//! 13. [`review`]: what a picture was made of, as text to compare with.
-//! 14. [`measure`]: exact arithmetic, oracles, extremes.
-//! 15. [`report`]: error against run time.
-//! 16. [`exercise`]: what a reader writes, beside the kit's own.
-//! 17. [`command`]: the command line.
+//! 8. [`follow`]: light goes on, leg after leg.
+//! 9. [`film`]: light → pixels → files.
+//! 10. [`render`]: the loop over tiles.
+//! 11. [`look`]: trace, view, statistics.
+//! 12. [`naive`]: the methods that break, for the book, its figures and the extremes.
+//! 13. [`figure`]: drawings of a scene and of what the stages wrote for it.
+//! 14. [`review`]: what a picture was made of, as text to compare with.
+//! 15. [`measure`]: exact arithmetic, oracles, extremes.
+//! 16. [`report`]: error against run time.
+//! 17. [`exercise`]: what a reader writes, beside the kit's own.
+//! 18. [`command`]: the command line.
 
 pub mod scene;
 
@@ -35,6 +36,8 @@ pub mod rays;
 pub mod intersect;
 
 pub mod shade;
+
+pub mod follow;
 
 pub mod film;
 

@@ -20,6 +20,8 @@ mod chapters;
 mod reflection;
 #[path = "book_numbers/spaces.rs"]
 mod spaces;
+#[path = "book_numbers/transport.rs"]
+mod transport;
 
 fn chapter(name: &str) -> Chapter {
     chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter")

@@ -52,8 +52,14 @@ test_chapters! {
     chapter_16_textures: textures,
     chapter_17_sampling: sampling,
     chapter_18_error_and_time: error_and_time,
+    chapter_19_mirrors: mirrors,
+    chapter_20_glass: glass,
+    chapter_21_soft_shadows: soft_shadows,
     chapter_23_depth_of_field: depth_of_field,
     chapter_24_motion_blur: motion_blur,
+    chapter_22_ambient_occlusion: ambient_occlusion,
+    chapter_25_path_tracing: path_tracing,
+    chapter_26_choosing_samples: choosing_samples,
 }
 
 #[test]

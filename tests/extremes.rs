@@ -57,6 +57,11 @@ fn transforms_hold() {
 }
 
 #[test]
+fn matter_holds() {
+    holds(Group::Matter, 2048);
+}
+
+#[test]
 fn textures_hold() {
     holds(Group::Texture, 1024);
 }
@@ -99,6 +104,16 @@ fn lights_hold() {
 #[test]
 fn lenses_hold() {
     holds(Group::Lens, 2048);
+}
+
+#[test]
+fn lights_with_an_area_hold() {
+    holds(Group::Emitter, 2048);
+}
+
+#[test]
+fn ways_of_light_hold() {
+    holds(Group::Transport, 2048);
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn before_parallel_rays(mover: Mover, at: [f64; 2], radius: f64, sampling: Sampl
     world.spawn((camera, Resolution { width: 8, height: 8 }, sampling));
     let facing = DQuat::from_rotation_x(PI / 2.0);
     let place = Placement { orientation: facing, ..Placement::at(at[0], at[1], 0.0) };
-    let glow = Emissive { radiance: Rgb::grey(1.0) };
+    let glow = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
     let thing = world.spawn((Name::new("thing"), place, glow)).id();
     let mut thing = world.entity_mut(thing);
     match mover {

@@ -14,6 +14,7 @@ const ORDER: &[&str] = &[
     "rays",
     "intersect",
     "shade",
+    "follow",
     "film",
     "render",
     "look",

@@ -2,6 +2,8 @@
 
 mod scenes;
 
+#[path = "plan/followed.rs"]
+mod followed;
 #[path = "plan/forced.rs"]
 mod forced;
 #[path = "plan/textures.rs"]
@@ -25,7 +27,7 @@ use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
-    shining, singles_and_pairs, stretched, textured, toggled,
+    shining, singles_and_pairs, soft, stretched, textured, toggled,
 };
 use std::collections::BTreeSet;
 
@@ -39,6 +41,9 @@ fn pictureless(on: &[Toggle]) -> bool {
         Toggle::Phong,
         Toggle::BlinnPhong,
         Toggle::Emissive,
+        Toggle::Mirror,
+        Toggle::Glass,
+        Toggle::Metal,
     ];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
@@ -122,11 +127,11 @@ fn rows_systems_columns_and_tables_are_one_list() {
         for column in &columns {
             assert_eq!((column.present)(&tile), of_plan.contains(column.name), "{on:?}: column {}", column.name);
         }
-        // Where samples are taken: which one, and of which pixels.
+        // The tile and its leg; where samples are taken, which one, and of which pixels.
         let sampled = if on.contains(&Toggle::Samples) { 2 } else { 0 };
         assert_eq!(
             tile.archetype().components().len(),
-            plan.columns.len() + 1 + sampled,
+            plan.columns.len() + 2 + sampled,
             "{on:?}: columns and the tile, no more"
         );
 
@@ -244,6 +249,9 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
         ("a glossy ball", add::<(Sphere, Phong)>, take::<(Sphere, Phong)>),
         ("a satin ball", add::<(Sphere, BlinnPhong)>, take::<(Sphere, BlinnPhong)>),
         ("a glow", add::<(Sphere, Emissive)>, take::<(Sphere, Emissive)>),
+        ("a mirror", add::<(Sphere, Mirror)>, take::<(Sphere, Mirror)>),
+        ("a ball of glass", add::<(Sphere, Glass)>, take::<(Sphere, Glass)>),
+        ("rough metal", add::<(Sphere, Metal)>, take::<(Sphere, Metal)>),
         ("a lens", add::<(PerspectiveCamera, Lens)>, take::<(PerspectiveCamera, Lens)>),
         ("a camera", add::<OrthographicCamera>, take::<OrthographicCamera>),
     ];
@@ -419,12 +427,18 @@ fn three(noun: &str) -> String {
     format!("\"{noun} 1\", \"{noun} 2\", \"{noun} 3\", …")
 }
 
-/// What lights nothing says so, and a scene in which something shines is not shown unlit.
+/// What lights nothing, because the camera's integrator aims at no area, says so, and a scene in which something shines is not shown unlit.
 #[test]
 fn an_emissive_surface_is_seen_and_lights_nothing() {
-    let plan = plan_of(&toggled(&[Toggle::Emissive, Toggle::Plane]));
+    let mut scene = toggled(&[Toggle::Emissive, Toggle::Plane]);
+    let aimed = plan_of(&scene);
+    assert_eq!(row(&aimed, "Add what surfaces emit").reason, "1 emissive surface: \"glow\"");
+    assert!(row(&aimed, "Aim at lights with area").kept && row(&aimed, "Add the light that arrives").kept);
+    let camera = named(&mut scene, "camera");
+    scene.entity_mut(camera).insert(Integrator::RayCasting);
+    let plan = plan_of(&scene);
     let emission = row(&plan, "Add what surfaces emit");
-    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else yet");
+    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else");
     assert!(emission.kept && !row(&plan, "Show surfaces unlit").kept && !row(&plan, "Add the light that arrives").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();

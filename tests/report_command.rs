@@ -117,10 +117,18 @@ fn asked(line: &str) -> Result<String, String> {
 fn what_cannot_be_compared_is_refused_in_a_sentence() {
     let cases = [
         ("report 18 --against sampler=magic", "there is no sampler \"magic\"; there are "),
+        (
+            "report 18 --against lights=magic",
+            "there is no way to find lights \"magic\"; there are chance, aimed, weighed",
+        ),
+        (
+            "report 18 --against lights=aimed",
+            "--against lights=aimed: 18_error_and_time has no paths to find lights by",
+        ),
         ("report 18 --against filter=magic", "there is no filter \"magic\"; there are "),
         (
             "report 18 --against size=3",
-            "--against takes a chapter, a scene file, sampler=NAME or filter=NAME, and size",
+            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and size",
         ),
         ("report 18 --against filter=box --against filter=box", "box is named twice"),
         ("report nothing", "there is no chapter \"nothing\""),

@@ -26,13 +26,14 @@ fn scene(world: &mut World) {
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(34.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.0, 1.9, 6.4].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
+        Integrator::RayCasting,
     ));
     let (colour, specular) = (Rgb::new(0.55, 0.16, 0.1), Rgb::grey(0.3));
     let ball = |x| (Sphere { radius: 0.9 }, Placement::at(x, 0.9, 0.0));
     world.spawn((Name::new("matte ball"), ball(-2.0), Matte { colour }));
     world.spawn((Name::new("phong ball"), ball(0.0), Phong { colour, specular, exponent: 20.0 }));
     world.spawn((Name::new("blinn-phong ball"), ball(2.0), BlinnPhong { colour, specular, exponent: 80.0 }));
-    let glow = Emissive { radiance: Rgb::new(0.9, 0.7, 0.3) };
+    let glow = Emissive { radiance: Rgb::new(0.9, 0.7, 0.3), ..Emissive::default() };
     world.spawn((Name::new("glowing ball"), Sphere { radius: 0.22 }, Placement::at(-0.75, 0.22, 1.6), glow));
     let floor = Phong { colour: Rgb::grey(0.35), specular: Rgb::grey(0.2), exponent: 400.0 };
     world.spawn((Name::new("floor"), Plane::default(), floor));

@@ -29,6 +29,7 @@ fn scene(world: &mut World) {
         PerspectiveCamera { fov: Degrees(32.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.0, 1.3, 6.0].into(), target: [0.0, 0.9, 0.0].into(), ..LookAt::default() },
         lens,
+        Integrator::RayCasting,
         Sampling { samples: 64, seed: 23, ..Sampling::default() },
     ));
     for (name, x, z, colour) in [
@@ -42,7 +43,8 @@ fn scene(world: &mut World) {
     }
     for lamp in 0..9 {
         let (x, y) = (1.9 * f64::from(lamp) - 8.6, 2.2 + 0.9 * f64::from(lamp % 3));
-        let glow = Emissive { radiance: Rgb::new(3.0, 2.4 - 0.2 * f64::from(lamp), 1.0 + 0.2 * f64::from(lamp)) };
+        let (green, blue) = (2.4 - 0.2 * f64::from(lamp), 1.0 + 0.2 * f64::from(lamp));
+        let glow = Emissive { radiance: Rgb::new(3.0, green, blue), ..Emissive::default() };
         world.spawn((Name::new(format!("lamp {lamp}")), Sphere { radius: 0.12 }, Placement::at(x, y, -14.0), glow));
     }
     world.spawn((Name::new("ground"), Plane::default(), Checker { size: 0.5, ..Checker::default() }, Matte::default()));

@@ -44,6 +44,8 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
+    /// Measure what theory knows, by whole renders, and how far chance may have moved each number
+    ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
     /// Write a chapter's scene as a scene file, to be edited and rendered
@@ -126,6 +128,19 @@ pub struct CompareImages {
     /// Print the numbers as JSON, and nothing else
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Args)]
+pub struct TryClosedForms {
+    /// Only those whose name holds this text
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub case: String,
+    /// How many times the samples that tell each number to 1 %; 100 times tell it to 0.1 %
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub times: u32,
+    /// Another seed, other random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
 }
 
 #[derive(Args)]

@@ -5,6 +5,7 @@
 mod angles;
 mod arguments;
 mod check;
+mod closed_forms;
 mod compare;
 mod conventions;
 mod cost;
@@ -68,6 +69,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             trace::print_trace(&subject, asked.pixel, asked.sample, &asked.options, out)
         }
         Some(Command::Export(asked)) => export::export(chapters, &asked, out),
+        Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
         Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),

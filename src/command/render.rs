@@ -7,7 +7,7 @@ use super::subject::Subject;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, LayerTable, PinholeLens, SMALLEST_PIXEL, adaptive_of, camera_entity, validate};
 use crate::film::{Film, check_place};
-use crate::look::RenderStats;
+use crate::look::{RenderStats, preflight};
 use crate::plan::Table;
 use crate::render::{Execution, RenderUnderWay};
 use crate::scene::{PerspectiveCamera, Sampling};
@@ -32,6 +32,11 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     validate(&scene).map_err(|refusal| placed(refusal.into()))?;
     check_requests(&scene, options, &pictures)?;
     let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
+    if !options.quiet && !options.stats {
+        for warning in preflight(&scene, &subject.stages(), &render.plan)? {
+            writeln!(out, "before rendering: {warning}")?;
+        }
+    }
     let files = Files::new(pictures, &scene, &render.plan);
     let outcome = if render.is_sampled() {
         Some(render_long(&mut render, &scene, options, &files, out)?)

@@ -3,7 +3,7 @@ use super::interrupt::interrupted;
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
-use crate::extract::{ImageShape, camera_entity, validate};
+use crate::extract::{ImageShape, camera_entity, integrator_of, validate};
 use crate::film::{check_place, write_whole};
 use crate::plan::Table;
 use crate::render::Watch;
@@ -18,7 +18,7 @@ use crate::report::run::Shelf;
 use crate::report::runner::{Progress, Variant, fingerprint, run_all};
 use crate::report::sum_up::{measure, sum_up};
 use crate::report::summary::Report;
-use crate::scene::{Filter, Resolution, Sampler, Sampling, scene_text};
+use crate::scene::{Filter, Integrator, LightSampling, Resolution, Sampler, Sampling, scene_text};
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
@@ -137,6 +137,7 @@ enum Rival<'c> {
     Subject(Subject<'c>),
     Sampler(&'static str, Sampler),
     Filter(&'static str, Filter),
+    Lights(&'static str, LightSampling),
 }
 
 fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
@@ -151,8 +152,15 @@ fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'
             let found = Filter::ALL.into_iter().find(|(word, _)| *word == name);
             found.map(|(word, filter)| Rival::Filter(word, filter)).ok_or_else(|| no_such("filter", name, &Filter::ALL))
         }
+        Some(("lights", name)) => {
+            let found = LightSampling::ALL.into_iter().find(|(word, _)| *word == name);
+            found
+                .map(|(word, lights)| Rival::Lights(word, lights))
+                .ok_or_else(|| no_such("way to find lights", name, &LightSampling::ALL))
+        }
         Some((other, _)) => Err(Error::Usage(format!(
-            "--against takes a chapter, a scene file, sampler=NAME or filter=NAME, and {other} is none of these"
+            "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and {other} is none of \
+             these"
         ))),
         None => Subject::find(chapters, word).map(Rival::Subject),
     };
@@ -183,6 +191,18 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
         let next = match rival {
             Rival::Sampler(word, sampler) => of(subject, (*word).into(), &|it| it.sampler = *sampler, 0)?,
             Rival::Filter(word, filter) => of(subject, (*word).into(), &|it| it.filter = *filter, own)?,
+            Rival::Lights(word, lights) => {
+                let integrator = paths_with(subject, word, *lights)?;
+                let scene = Box::new(move || {
+                    let mut world = subject.world(&asked());
+                    // A scene that renders has one camera.
+                    if let Ok(camera) = camera_entity(&world) {
+                        world.entity_mut(camera).insert(integrator);
+                    }
+                    world
+                });
+                Variant { scene, ..of(subject, (*word).into(), &|_| (), 0)? }
+            }
             Rival::Subject(other) => of(other, other.stem(), &|_| (), own)?,
         };
         let same = variants.iter().position(|it: &Variant<'_>| it.name == next.name);
@@ -195,6 +215,14 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
     Ok(variants)
 }
 
+/// The subject's paths with another way to find lights.
+fn paths_with(subject: &Subject<'_>, word: &str, lights: LightSampling) -> Result<Integrator> {
+    match integrator_of(&subject.world(&Asked::default())).integrator {
+        Integrator::Path { legs, roulette, .. } => Ok(Integrator::Path { legs, lights, roulette }),
+        _ => Err(Error::Usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
+    }
+}
+
 /// What the subject is called: by what the others differ in.
 fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) -> String {
     let sampler = Sampler::ALL.iter().find(|(_, it)| *it == sampling.sampler).map_or("its sampler", |(word, _)| word);
@@ -203,6 +231,11 @@ fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) 
         rivals.iter().any(|rival| matches!(rival, Rival::Sampler(..))),
         rivals.iter().any(|rival| matches!(rival, Rival::Filter(..))),
     ];
+    if !samplers && !filters && rivals.iter().any(|rival| matches!(rival, Rival::Lights(..))) {
+        let own = integrator_of(&subject.world(&Asked::default())).integrator;
+        let named = |(_, it): &&(&str, LightSampling)| matches!(own, Integrator::Path { lights, .. } if lights == *it);
+        return LightSampling::ALL.iter().find(named).map_or_else(|| subject.stem(), |(word, _)| (*word).into());
+    }
     match (samplers, filters) {
         (true, false) => sampler.into(),
         (false, true) => filter.into(),

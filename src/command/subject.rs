@@ -3,7 +3,7 @@ use crate::chapter::{Asked, Chapter};
 use crate::extract::{camera_entity, validate};
 use crate::plan::{PlanError, Stage};
 use crate::scene::{FileProblem, SceneFile, View};
-use crate::{Error, Result, intersect, rays, shade};
+use crate::{Error, Result, follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 use std::path::Path;
 
@@ -118,4 +118,5 @@ fn every_stage() -> Chapter {
         .offer(rays::stages())
         .offer(intersect::stages())
         .offer(shade::stages())
+        .offer(follow::stages())
 }

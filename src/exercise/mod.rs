@@ -5,21 +5,26 @@
 //! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
 //! Nothing here runs in a render.
 
+mod ambient_occlusion;
 mod answers;
 mod apart;
 mod camera_to_world;
+mod choosing_samples;
 mod conventions;
 mod depth_of_field;
 mod error_and_time;
 mod field_of_view;
+mod glass;
 mod hit;
 mod how_it_is_built;
 mod image;
 mod judge;
 mod light_and_shadow;
+mod mirrors;
 mod motion_blur;
 mod ndc;
 mod orthographic;
+mod path_tracing;
 mod pinhole;
 mod progress;
 mod question;
@@ -30,6 +35,7 @@ mod sampling;
 mod screen;
 mod shapes;
 mod shown;
+mod soft_shadows;
 mod textures;
 mod transforms;
 mod turn;
@@ -65,7 +71,13 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
         Attempt::FallingCosine(yours) => transforms::check(yours, patience),
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
+        Attempt::Mirrored(yours) => mirrors::check(yours, patience),
+        Attempt::Refracted(yours) => glass::check(yours, patience),
+        Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
         Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
         Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
+        Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
+        Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
+        Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
     }
 }

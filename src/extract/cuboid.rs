@@ -38,6 +38,11 @@ impl Slabs {
         Self { centre, normal, half, reach }
     }
 
+    /// Whether the eye, which is the origin of render space, lies inside.
+    pub fn holds_the_eye(&self) -> bool {
+        (0..3).all(|axis| self.normal[axis].dot(self.centre).abs() < self.half[axis])
+    }
+
     /// From the centre to the middles of the faces at the ends of the three edges.
     pub fn half_edges(&self) -> [DVec3; 3] {
         [0, 1, 2].map(|axis| {

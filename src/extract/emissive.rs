@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, light_colour};
 use super::material::matter_evidence;
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Emissive, Refusal};
+use crate::scene::{Emissive, Refusal, Sides};
 use bevy_ecs::prelude::*;
 
 /// What surfaces emit, in spawn order.
@@ -9,6 +9,8 @@ use bevy_ecs::prelude::*;
 pub struct EmissiveTable {
     /// The radiance that leaves every point, linear Rec. 709.
     pub radiance: Vec<[f32; 3]>,
+    /// Whether it leaves on the side of the shape's own normal only.
+    pub one_sided: Vec<bool>,
 }
 
 /// The enabled entities that carry an [`Emissive`], in spawn order; a row of the table is an entity here.
@@ -26,13 +28,24 @@ impl Table for EmissiveTable {
             let who = kind_and_name(scene, "emissive", entity);
             let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
             table.radiance.push(radiance.map(|part| part as f32));
+            table.one_sided.push(emissive.sides == Sides::Front);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.radiance.len() * size_of::<[f32; 3]>()
+        self.radiance.len() * (size_of::<[f32; 3]>() + size_of::<bool>())
     }
+}
+
+/// Evidence that a shape emits light on one of its sides only.
+pub fn one_sided_evidence(scene: &World) -> Evidence {
+    let one_sided = |entity: &Entity| scene.get::<Emissive>(*entity).is_some_and(|own| own.sides == Sides::Front);
+    let found = emissive_evidence(scene);
+    if found.needed && emissive_entities(scene).iter().any(one_sided) {
+        return Evidence { reason: format!("{}, on one side", found.reason), ..found };
+    }
+    Evidence { needed: false, reason: "0 surfaces that shine on one side".into(), count: 0 }
 }
 
 /// Evidence that a shape emits light.

@@ -1,8 +1,9 @@
 use super::camera::camera_entity;
 use super::emissive::emissive_evidence;
-use super::material::{material_evidence, matter_evidence};
+use super::material::material_evidence;
+use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Evidence, entities};
-use crate::scene::{DirectionalLight, Glass, Integrator, LightSampling, Metal, Mirror, PointLight, SpotLight, called};
+use crate::scene::{DirectionalLight, Integrator, LightSampling, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
 /// How light is followed in a scene, and why so.
@@ -25,9 +26,9 @@ pub fn integrator_of(scene: &World) -> ChosenIntegrator {
     if let Some((camera, &named)) = camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own))) {
         return chosen(named, format!("named on the camera {}", called(scene, camera)));
     }
-    let metal = matter_evidence::<Metal>(scene, "rough metal");
+    let metal = metal_evidence(scene);
     let lamps = emissive_evidence(scene).and(material_evidence(scene));
-    let polished = matter_evidence::<Mirror>(scene, "mirror").or(matter_evidence::<Glass>(scene, "surface of glass"));
+    let polished = mirror_evidence(scene).or(glass_evidence(scene));
     let by_chance = metal.or(lamps);
     if by_chance.needed {
         return chosen(Integrator::PATH, by_chance.reason);
@@ -49,9 +50,22 @@ fn has_points(scene: &World) -> bool {
         || !entities::<With<SpotLight>>(scene).is_empty()
 }
 
-/// Evidence that light is followed beyond the first surface, or from it to the sky.
+/// Evidence that light is followed beyond the first surface.
 pub fn followed_evidence(scene: &World) -> Evidence {
-    needed_if(scene, |integrator| integrator != Integrator::RayCasting)
+    let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
+    needed_if(scene, goes_on)
+}
+
+/// Evidence that the picture shows how much of the sky each point sees.
+pub fn occlusion_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
+}
+
+/// What is needed for light, which ambient occlusion does not show.
+pub fn unless_occlusion(scene: &World, evidence: Evidence) -> Evidence {
+    let occlusion = occlusion_evidence(scene);
+    let instead = || Evidence { needed: false, reason: format!("{} shows no other light", occlusion.reason), count: 0 };
+    if occlusion.needed && evidence.needed { instead() } else { evidence }
 }
 
 /// Evidence that points on lights with an area are aimed at.

@@ -1,9 +1,12 @@
 use super::blinn_phong::blinn_phong_colour;
 use super::check::{kind_and_name, reflectance};
+use super::glass::glass_colour;
+use super::metal::{metal_colour, metal_evidence, metal_kind};
+use super::mirror::mirror_colour;
 use super::phong::phong_colour;
 use super::shape_entities;
 use crate::plan::{Carried, Evidence, Table, entities};
-use crate::scene::{BlinnPhong, Matte, Phong, Refusal, UsesMaterial};
+use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, Refusal, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
 
@@ -30,6 +33,11 @@ pub enum MaterialKind {
 impl MaterialKind {
     /// How many kinds there are.
     const COUNT: usize = 6;
+
+    /// Whether it spreads the light of a lamp over many directions, so that light aimed at it from there is seen.
+    pub const fn spreads(self) -> bool {
+        !matches!(self, Self::Mirror | Self::Glass)
+    }
 }
 
 /// What shapes are made of, in spawn order, whatever the kind; kinds with more numbers have a table of their own.
@@ -51,14 +59,19 @@ struct Written {
     component: &'static str,
     /// What messages call it.
     word: &'static str,
-    kind: MaterialKind,
+    kind: fn(&World, Entity) -> MaterialKind,
     entities: fn(&World) -> Vec<Entity>,
     carries: fn(&World, Entity) -> bool,
     colour: Colour,
 }
 
 impl Written {
-    const fn of<C: Component>(component: &'static str, word: &'static str, kind: MaterialKind, colour: Colour) -> Self {
+    const fn of<C: Component>(
+        component: &'static str,
+        word: &'static str,
+        kind: fn(&World, Entity) -> MaterialKind,
+        colour: Colour,
+    ) -> Self {
         let carries = |scene: &World, entity: Entity| scene.get::<C>(entity).is_some();
         Self { component, word, kind, entities: entities::<With<C>>, carries, colour }
     }
@@ -66,12 +79,20 @@ impl Written {
 
 /// Every component that is a material; a new one joins with a line.
 const WRITTEN: &[Written] = &[
-    Written::of::<Matte>("Matte", "matte", MaterialKind::Matte, |scene, entity, who| {
-        let matte = scene.get::<Matte>(entity).copied().unwrap_or_default();
-        Ok(reflectance(who, "colour", matte.colour)?.to_array())
-    }),
-    Written::of::<Phong>("Phong", "phong", MaterialKind::Phong, phong_colour),
-    Written::of::<BlinnPhong>("BlinnPhong", "blinn_phong", MaterialKind::BlinnPhong, blinn_phong_colour),
+    Written::of::<Matte>(
+        "Matte",
+        "matte",
+        |_, _| MaterialKind::Matte,
+        |scene, entity, who| {
+            let matte = scene.get::<Matte>(entity).copied().unwrap_or_default();
+            Ok(reflectance(who, "colour", matte.colour)?.to_array())
+        },
+    ),
+    Written::of::<Phong>("Phong", "phong", |_, _| MaterialKind::Phong, phong_colour),
+    Written::of::<BlinnPhong>("BlinnPhong", "blinn_phong", |_, _| MaterialKind::BlinnPhong, blinn_phong_colour),
+    Written::of::<Mirror>("Mirror", "mirror", |_, _| MaterialKind::Mirror, mirror_colour),
+    Written::of::<Glass>("Glass", "glass", |_, _| MaterialKind::Glass, glass_colour),
+    Written::of::<Metal>("Metal", "metal", metal_kind, metal_colour),
 ];
 
 /// The enabled entities that carry a material, in spawn order; a row of the table is an entity here.
@@ -82,12 +103,25 @@ pub fn material_entities(scene: &World) -> Vec<Entity> {
     materials
 }
 
+/// The kind of an entity's material; none where it carries none.
+pub(super) fn material_kind(scene: &World, entity: Entity) -> Option<MaterialKind> {
+    let written = WRITTEN.iter().find(|written| (written.carries)(scene, entity));
+    written.map(|written| (written.kind)(scene, entity))
+}
+
+/// The enabled entity whose material a shape is made of: itself, or the one that it uses.
+pub(super) fn used_material(scene: &World, shape: Entity) -> Option<Entity> {
+    let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
+    let is_there = |entity: &Entity| is_material(scene, *entity) && scene.get::<Disabled>(*entity).is_none();
+    [Some(shape), used].into_iter().flatten().find(is_there)
+}
+
 /// Whether an entity, enabled or not, carries a material.
 pub(super) fn is_material(scene: &World, entity: Entity) -> bool {
     WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
-/// The components that are a material, in words: `Matte, Phong or BlinnPhong`.
+/// The components that are a material, in words: `Matte, Phong … or Metal`.
 pub(super) fn materials_in_words() -> String {
     let names: Vec<&str> = WRITTEN.iter().map(|written| written.component).collect();
     let (last, others) = names.split_last().unwrap_or((&"", &[]));
@@ -116,10 +150,11 @@ impl Table for MaterialTable {
         let mut rows_of_kind = [0; MaterialKind::COUNT];
         for entity in material_entities(scene) {
             let written = one_material(scene, entity)?;
-            let rows = &mut rows_of_kind[written.kind as usize];
+            let kind = (written.kind)(scene, entity);
+            let rows = &mut rows_of_kind[kind as usize];
             table.row.push(*rows);
             *rows += 1;
-            table.kind.push(written.kind);
+            table.kind.push(kind);
             table.colour.push((written.colour)(scene, entity, &kind_and_name(scene, written.word, entity))?);
         }
         Ok(table)
@@ -137,11 +172,28 @@ fn reached(scene: &World) -> BTreeSet<Entity> {
     used.chain(shapes.iter().copied()).collect()
 }
 
-/// Evidence that a shape made of something is there.
+/// Evidence that a shape is there whose matter spreads the light that falls on it: any but mirrors and glass.
 pub fn material_evidence(scene: &World) -> Evidence {
     let reached = reached(scene);
     const MATERIALS: [Carried; 3] = [Carried::of::<Matte>(), Carried::of::<Phong>(), Carried::of::<BlinnPhong>()];
-    Evidence::among_any(scene, "material", &MATERIALS, |entity| reached.contains(&entity.id()))
+    let matte = Evidence::among_any(scene, "material", &MATERIALS, |entity| reached.contains(&entity.id()));
+    let metal = metal_evidence(scene);
+    if metal.needed { matte.or(metal) } else { matte }
+}
+
+/// Evidence that a shape is there that sends on light equally in all directions, whatever else it does.
+pub fn matte_evidence(scene: &World) -> Evidence {
+    let reached = reached(scene);
+    const MATERIALS: [Carried; 3] = [Carried::of::<Matte>(), Carried::of::<Phong>(), Carried::of::<BlinnPhong>()];
+    Evidence::among_any(scene, "matte surface", &MATERIALS, |entity| reached.contains(&entity.id()))
+}
+
+/// Evidence that a shape is made of such a material of one kind; those of the kind that are not such count for nothing.
+pub(super) fn reached_of<C: Component>(scene: &World, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
+    let reached = reached(scene);
+    Evidence::of_kind::<With<C>>(scene, noun, |entity| {
+        reached.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
+    })
 }
 
 /// Evidence that a shape carries this component, or uses a material that does.

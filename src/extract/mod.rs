@@ -7,6 +7,7 @@
 //! After this no stage looks at a component of the scene again.
 
 mod adaptive;
+mod area_light;
 mod background;
 mod blinn_phong;
 mod bounds;
@@ -17,18 +18,25 @@ mod directional_light;
 mod disk;
 mod ellipsoid;
 mod emissive;
+mod emitter;
 mod environment;
+mod environment_light;
 mod exact_sum;
 mod filter;
 mod fisheye;
 mod flat;
+mod glass;
+mod glass_overlap;
 mod gradient;
 mod image_file;
 mod image_texture;
 mod integrator;
+mod integrator_table;
 mod layers;
 mod lens;
 mod material;
+mod metal;
+mod mirror;
 mod motion;
 mod moving;
 mod phong;
@@ -50,6 +58,7 @@ mod uv_slope;
 mod uv_space;
 
 pub use adaptive::{adaptive_of, check_layers};
+pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use bounds::Bounds;
@@ -61,19 +70,29 @@ pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
 pub use disk::DiskTable;
 pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
-pub use emissive::{EmissiveTable, emissive_evidence};
+pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
+pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
+pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use flat::Flat;
+pub use glass::{GlassTable, glass_evidence};
+pub use glass_overlap::{glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;
-pub use integrator::{ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, weighed_evidence};
+pub use integrator::{
+    ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,
+    unless_occlusion, weighed_evidence,
+};
+pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, check_lens, lens_evidence};
-pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matter_evidence};
+pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
+pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
+pub use mirror::{MirrorTable, mirror_evidence};
 pub use motion::{
     ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
 };
@@ -117,8 +136,10 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     check_lens(scene)?;
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
+    IntegratorTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
+    GlassTable::extract(scene)?;
     EmissiveTable::extract(scene)?;
     SphereTable::extract(scene)?;
     EllipsoidTable::extract(scene)?;

@@ -1,9 +1,9 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::material::{NO_ROW, is_material, material_entities, materials_in_words};
+use super::material::{NO_ROW, is_material, material_entities, material_kind, materials_in_words};
 use super::{
-    CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-    moves_while_open, unevenly_scaled,
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MovingTable, PlaneTable, RectangleTable, SphereTable,
+    TriangleTable, moves_while_open, unevenly_scaled,
 };
 use crate::plan::{Table, entities};
 use crate::scene::{
@@ -60,6 +60,8 @@ pub struct ShapeTable {
     pub row: Vec<u32>,
     /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
+    /// Whether it has a material, one that spreads light, so that light may be aimed at it.
+    pub spreads: Vec<bool>,
     /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
     pub emissive: Vec<u32>,
     /// How a person calls it.
@@ -123,7 +125,10 @@ impl Table for ShapeTable {
             *rows += 1;
             table.kind.push(kind);
             let name = kind_and_name(scene, written.word, entity);
-            table.material.push(row_in(&materials, material_of(scene, &name, entity)?));
+            let material = material_of(scene, &name, entity)?;
+            let kind = material.and_then(|material| material_kind(scene, material));
+            table.spreads.push(kind.is_some_and(MaterialKind::spreads));
+            table.material.push(row_in(&materials, material));
             table.emissive.push(row_in(&emissive, emissive_of(scene, entity)));
             table.name.push(name);
         }
@@ -131,8 +136,14 @@ impl Table for ShapeTable {
     }
 
     fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<ShapeKind>() + 12) + self.name.iter().map(String::len).sum::<usize>()
+        self.kind.len() * (size_of::<ShapeKind>() + size_of::<bool>() + 12)
+            + self.name.iter().map(String::len).sum::<usize>()
     }
+}
+
+/// Whether an entity, enabled or not, carries a shape.
+pub(super) fn is_shape(scene: &World, entity: Entity) -> bool {
+    WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
 /// The one shape that an entity is.
@@ -176,7 +187,7 @@ fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>
 }
 
 /// The entity that says what a shape emits: itself, or else the one whose material it uses.
-fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
+pub(super) fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();
     [Some(shape), used].into_iter().flatten().find(emits)

@@ -1,6 +1,6 @@
 use super::check::{kind_and_name, positive_length, triple};
-use super::material::material_entities;
-use super::{eye, pose, shape_entities};
+use super::material::{material_entities, material_kind};
+use super::{MaterialKind, eye, pose, shape_entities};
 use crate::plan::{Evidence, Table, entities};
 use crate::scene::{Checker, ImageTexture, Refusal, Stripes, TextureBy, UsesMaterial};
 use bevy_ecs::prelude::*;
@@ -199,6 +199,17 @@ fn check_owners(scene: &World) -> Result<(), Refusal> {
         if !materials.contains(&owner) {
             let accepted = "a texture belongs on an entity that is a material, such as one with a Matte";
             return Err(Refusal::new(who, "material", "missing", accepted));
+        }
+        let colourless = match material_kind(scene, owner) {
+            Some(MaterialKind::Mirror) => "a mirror",
+            Some(MaterialKind::Glass) => "glass",
+            Some(MaterialKind::Metal) => "metal",
+            _ => "",
+        };
+        if !colourless.is_empty() {
+            let accepted = "a texture colours light that leaves equally in all directions, as off a Matte, a Phong or a \
+                            BlinnPhong";
+            return Err(Refusal::new(who, "material", colourless, accepted));
         }
         if let Some((_, other)) = owned.get(at + 1).filter(|(other, _)| *other == owner) {
             let value = format!("given twice, as {word} and as {other}");

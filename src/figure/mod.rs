@@ -9,6 +9,7 @@
 
 mod acne;
 mod aliasing;
+mod broken_paths;
 mod cameras;
 mod drawn_image;
 mod field_of_view;
@@ -16,6 +17,8 @@ mod filters;
 mod gallery;
 mod grid;
 mod hit;
+mod integrators;
+mod jacobian;
 mod label;
 mod lobes;
 mod look_at;
@@ -209,6 +212,12 @@ pub fn figures() -> Vec<Figure> {
             draw: samples::draw_variance,
         },
         Figure {
+            name: "21_jacobian",
+            chapter: "21_soft_shadows",
+            about: "lamps by the right density, without its cosine, and without its distance too",
+            draw: jacobian::draw,
+        },
+        Figure {
             name: "23_focus",
             chapter: "23_depth_of_field",
             about: "a lens focused near, focused far, and closed to a pinhole",
@@ -237,6 +246,30 @@ pub fn figures() -> Vec<Figure> {
             chapter: "24_motion_blur",
             about: "one motion, seen for a moment, for a while and for longer",
             draw: cameras::draw_shutters,
+        },
+        Figure {
+            name: "22_distance",
+            chapter: "22_ambient_occlusion",
+            about: "how much of the sky points see, with what is near alone in the way, and with all",
+            draw: integrators::draw_distance,
+        },
+        Figure {
+            name: "25_legs",
+            chapter: "25_path_tracing",
+            about: "one scene by ray casting, and by ways of light of two, three and many legs",
+            draw: integrators::draw_legs,
+        },
+        Figure {
+            name: "25_broken",
+            chapter: "25_path_tracing",
+            about: "one scene by paths with a factor too few or too many, and encoded twice",
+            draw: broken_paths::draw,
+        },
+        Figure {
+            name: "26_ways",
+            chapter: "26_choosing_samples",
+            about: "lamps found by chance, by aiming, and by both, weighed",
+            draw: integrators::draw_ways,
         },
     ]
 }

@@ -1,10 +1,10 @@
 use crate::chapter::{Asked, Chapter};
 use crate::extract::camera_entity;
-use crate::film::{Curve, Film, png_bytes, png_url};
+use crate::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by, png_url};
 use crate::plan::Stage;
-use crate::render::{Execution, render};
+use crate::render::{Execution, Rendered, render};
 use crate::scene::Resolution;
-use crate::{Result, intersect, rays, shade};
+use crate::{Result, follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 
 /// A picture of a chapter's scene, within a figure.
@@ -27,20 +27,43 @@ impl Picture {
         instead: Option<Stage>,
         change: impl FnOnce(&mut EntityWorldMut<'_>),
     ) -> Result<Self> {
-        let mut whole = chapter.clone();
-        whole.view = None;
-        whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+        let mut whole = all_stages(chapter);
         if let Some(stage) = instead {
             whole.offer.retain(|other| other.set != stage.set);
             whole.offer.push(stage);
         }
-        let [width, height] = size;
-        let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
-        let mut scene = whole.world(&asked);
-        let camera = camera_entity(&scene)?;
-        change(&mut scene.entity_mut(camera));
-        let rendered = render(&scene, &whole.stages(), &Execution::default(), &())?;
+        let rendered = rendered(&whole, size, change)?;
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// The same with one stage more.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn beside(
+        chapter: &Chapter,
+        size: [u32; 2],
+        beside: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        whole.offer.extend(beside);
+        let rendered = rendered(&whole, size, change)?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// The same without another stage, each byte encoded for the screen twice: what is shown is encoded light, taken for
+    /// light.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn encoded_twice(
+        chapter: &Chapter,
+        size: [u32; 2],
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let rendered = rendered(&all_stages(chapter), size, change)?;
+        let curve = rendered.curve();
+        let twice = |light: f32| byte_from_linear(f32::from(byte_from_linear(light, curve)) / 255.0, curve);
+        Ok(Self { size, url: png_url(&png_bytes_by(&rendered.film, curve, twice)?) })
     }
 
     /// A picture of these pixels, linear Rec. 709, row by row.
@@ -54,4 +77,22 @@ impl Picture {
         }
         Ok(Self { size, url: png_url(&png_bytes(&film, Curve::Srgb)?) })
     }
+}
+
+/// The chapter with every stage that the kit has.
+fn all_stages(chapter: &Chapter) -> Chapter {
+    let mut whole = chapter.clone();
+    whole.view = None;
+    whole.offer = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
+    whole
+}
+
+/// A chapter's scene, rendered after `change` has had its camera.
+fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorldMut<'_>)) -> Result<Rendered> {
+    let [width, height] = size;
+    let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
+    let mut scene = whole.world(&asked);
+    let camera = camera_entity(&scene)?;
+    change(&mut scene.entity_mut(camera));
+    render(&scene, &whole.stages(), &Execution::default(), &())
 }

@@ -2,8 +2,8 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    BlinnPhong, Checker, Cuboid, DQuat, Degrees, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera, Phong,
-    Placement, Plane, PointLight, Rgb, Sphere,
+    BlinnPhong, Checker, Cuboid, DQuat, Degrees, Emissive, LookAt, Matte, Name, OrthographicCamera, PerspectiveCamera,
+    Phong, Placement, Plane, PointLight, Rectangle, Rgb, Sphere,
 };
 use crate::{intersect, rays, shade};
 use bevy_ecs::prelude::*;
@@ -15,6 +15,7 @@ pub fn chapter(name: &'static str) -> Chapter {
         "13_shapes" => boxed,
         "16_textures" => checkered,
         "15_reflection" => glossy,
+        "21_soft_shadows" => soft,
         _ => central,
     };
     Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
@@ -25,7 +26,15 @@ pub fn chapters() -> Vec<Chapter> {
     ["02_ray", "03_hit", "04_orthographic", "05_pinhole", "06_ndc", "07_screen", "08_field_of_view"]
         .into_iter()
         .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
-        .chain(["17_sampling", "23_depth_of_field", "24_motion_blur"])
+        .chain([
+            "17_sampling",
+            "21_soft_shadows",
+            "22_ambient_occlusion",
+            "23_depth_of_field",
+            "24_motion_blur",
+            "25_path_tracing",
+            "26_choosing_samples",
+        ])
         .map(chapter)
         .collect()
 }
@@ -55,6 +64,12 @@ fn glossy(world: &mut World) {
     world.spawn((Sphere { radius: 0.2 }, Placement::at(-0.5, 0.2, 2.0), Phong { exponent: 20.0, ..Phong::default() }));
     let satin = BlinnPhong { exponent: 80.0, ..BlinnPhong::default() };
     world.spawn((Sphere { radius: 0.2 }, Placement::at(0.0, 0.2, 2.0), satin));
+}
+
+fn soft(world: &mut World) {
+    central(world);
+    let tray = Placement { orientation: DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0), ..Placement::at(0.0, 3.0, 0.0) };
+    world.spawn((Rectangle::default(), tray, Emissive::default()));
 }
 
 fn parallel(world: &mut World) {

@@ -1,5 +1,5 @@
 use super::hits::shape_evidence;
-use super::{Hits, NO_SHAPE, SurfaceUvs, Surfaces};
+use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
@@ -61,7 +61,7 @@ column! {
 }
 
 column! {
-    /// The rows whose surface sends on light, ascending.
+    /// The rows whose surface spreads light that falls on it, ascending: all matter but mirrors and glass.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
@@ -96,6 +96,7 @@ pub fn classify_hits(
         Option<&mut EmissiveRows>,
         Option<&mut Surfaces>,
         Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
     )>,
 ) {
     for (
@@ -111,6 +112,7 @@ pub fn classify_hits(
         emissive,
         surfaces,
         uvs,
+        sides,
     ) in &mut tiles
     {
         if let Some(mut list) = spheres {
@@ -135,7 +137,7 @@ pub fn classify_hits(
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |shape| shapes.material[shape] != NO_ROW);
+            list_rows(hits, &mut list.row, |shape| shapes.spreads[shape]);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;
@@ -150,6 +152,9 @@ pub fn classify_hits(
             let (u, v) = uvs.slices_mut(hits.rows());
             u.fill(0.0);
             v.fill(0.0);
+        }
+        if let Some(mut sides) = sides {
+            sides.slices_mut(hits.rows()).fill(0);
         }
     }
 }
@@ -244,6 +249,7 @@ pub fn classify_stage() -> Stage {
         .writes::<EmissiveRows>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<ShapeTable>()
         .when(shape_evidence)
 }

@@ -1,7 +1,7 @@
 use super::classify::CuboidRows;
 use super::narrow::narrow;
 use super::sphere::{LANES, RayBlock, Verdict, nearness, vector};
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::cuboid_uv;
 use super::wide_flat::wide_cuboid_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
@@ -132,17 +132,25 @@ pub fn face_of_point(slabs: &Slabs, from_centre: DVec3) -> usize {
 }
 
 // ANCHOR: cuboid_surface
-/// The surface where O + tR meets a cuboid on the face across an axis.
+/// The surface where O + tR meets a cuboid on the face across an axis, and whether it does from outside.
 ///
 /// A face is met from outside or inside, and its normal turned to the ray.
 /// From inside, a hit within rounding of another face is moved back between the two, as far as its own bound and the other
 /// face's: else its shadow rays might start behind that face.
 #[inline(always)]
-pub fn cuboid_surface(origin: DVec3, direction: DVec3, t: f64, axis: usize, slabs: &Slabs, material: u32) -> Surface {
+pub fn cuboid_surface(
+    origin: DVec3,
+    direction: DVec3,
+    t: f64,
+    axis: usize,
+    slabs: &Slabs,
+    material: u32,
+) -> (Surface, bool) {
     let mut point = origin + t * direction;
     let normal = slabs.normal[axis];
     let bound = offset_bound(point, origin, sum_of_parts(slabs.centre) + slabs.half[axis]);
-    if normal.dot(direction) * normal.dot(point - slabs.centre) > 0.0 {
+    let outside = normal.dot(direction) * normal.dot(point - slabs.centre) <= 0.0;
+    if !outside {
         let room = 2.0 * f64::from(bound);
         for other in [(axis + 1) % 3, (axis + 2) % 3] {
             let (across, half) = (slabs.normal[other], slabs.half[other]);
@@ -155,7 +163,7 @@ pub fn cuboid_surface(origin: DVec3, direction: DVec3, t: f64, axis: usize, slab
             }
         }
     }
-    Surface::facing(direction, point, normal, bound, material)
+    (Surface::facing(direction, point, normal, bound, material), outside)
 }
 // ANCHOR_END: cuboid_surface
 
@@ -198,16 +206,27 @@ fn cuboid_rows(rays: RayLanes<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: 
 pub fn fill_cuboid_surfaces(
     cuboids: Res<Shared<CuboidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &CuboidRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &CuboidRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
             let slabs = &cuboids.slabs[shapes.row[shape] as usize];
             let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
             let axis = cuboid_face(origin, direction, slabs);
-            surfaces.set(row, cuboid_surface(origin, direction, t, axis, slabs, shapes.material[shape]));
+            let (surface, outside) = cuboid_surface(origin, direction, t, axis, slabs, shapes.material[shape]);
+            surfaces.set(row, surface);
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(outside);
+            }
             if let Some(uvs) = &mut uvs {
                 uvs.set(row, cuboid_uv(slabs, axis, t * direction - (slabs.centre - origin)));
             }
@@ -234,6 +253,7 @@ pub fn cuboid_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<CuboidTable>()
         .table::<ShapeTable>()
         .when(cuboid_evidence)

@@ -2,7 +2,7 @@ use super::classify::DiskRows;
 use super::flat::{crossing, describe_flats};
 use super::narrow::narrow;
 use super::sphere::{LANES, RayBlock, Verdict};
-use super::surface::{SurfaceUvs, Surfaces};
+use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::wide_flat::wide_disk_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{DiskTable, Flat, ShapeTable, moves_while_open};
@@ -68,11 +68,12 @@ fn disk_rows(rays: RayLanes<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [
 pub fn fill_disk_surfaces(
     disks: Res<Shared<DiskTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>, Option<&mut SurfaceSides>)>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         let flat_of = |shape: u32| &disks.flat[shapes.row[shape as usize] as usize];
-        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, uvs.as_deref_mut());
+        let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
+        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
@@ -95,6 +96,7 @@ pub fn disk_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<DiskTable>()
         .table::<ShapeTable>()
         .when(disk_evidence)

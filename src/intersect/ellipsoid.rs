@@ -1,6 +1,6 @@
 use super::classify::EllipsoidRows;
 use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::sphere_uv;
 use super::wide::{wide_ellipsoid_point, wide_ellipsoid_t};
 use super::{HitColumn, Hits, RayColumn, RayLanes};
@@ -130,7 +130,7 @@ fn narrow(
 }
 
 // ANCHOR: ellipsoid_surface
-/// The surface where O + tR meets an ellipsoid.
+/// The surface where O + tR meets an ellipsoid, and whether it does from outside.
 ///
 /// In the space of the unit sphere the normal at g is g itself; it goes out to the world by Aᵀ, and |Aᵀg| is the number of
 /// steps of the unit space that one scene unit along the normal makes.
@@ -147,7 +147,13 @@ fn narrow(
 /// Where that error would turn the normal by more than u or reach farther than u of the shortest half axis, g is found
 /// again in twice as many digits.
 #[inline(always)]
-pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid, material: u32) -> Surface {
+pub fn ellipsoid_surface(
+    origin: DVec3,
+    direction: DVec3,
+    t: f64,
+    ellipsoid: &Ellipsoid,
+    material: u32,
+) -> (Surface, bool) {
     let map = ellipsoid.unit_from_world;
     let mut point = origin + t * direction;
     let mut g = map * ((origin - ellipsoid.centre) + t * direction);
@@ -165,7 +171,7 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
     // The side is told where g and q are known best: along a limb of the unit space.
     let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
     let normal = if away { -across / steps } else { across / steps };
-    Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }
+    (Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }, !away)
 }
 // ANCHOR_END: ellipsoid_surface
 
@@ -173,16 +179,27 @@ pub fn ellipsoid_surface(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &El
 pub fn fill_ellipsoid_surfaces(
     ellipsoids: Res<Shared<EllipsoidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &EllipsoidRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs, mut sides) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
             let ellipsoid = &ellipsoids.ellipsoid[shapes.row[shape] as usize];
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
-            let surface = ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.material[shape]);
+            let (surface, outside) =
+                ellipsoid_surface(origin, direction, hits.t[row], ellipsoid, shapes.material[shape]);
             surfaces.set(row, surface);
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(outside);
+            }
         }
         if let Some(mut uvs) = uvs {
             for &row in &list.row {
@@ -214,6 +231,7 @@ pub fn ellipsoid_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<EllipsoidTable>()
         .table::<ShapeTable>()
         .when(ellipsoid_evidence)
@@ -253,7 +271,7 @@ mod tests {
         let origin = DVec3::new(0.3, 0.7, 0.0);
         let at = |ellipsoid: &Ellipsoid| {
             let t = ellipsoid_t(origin, DVec3::NEG_Z, ellipsoid);
-            ellipsoid_surface(origin, DVec3::NEG_Z, t, ellipsoid, 7)
+            ellipsoid_surface(origin, DVec3::NEG_Z, t, ellipsoid, 7).0
         };
         let (plain, mirror) = (egg(), DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)));
         let mirrored = Ellipsoid { unit_from_world: mirror * plain.unit_from_world, ..plain };

@@ -1,7 +1,7 @@
 //! Where a ray crosses the plane of a flat piece, how well f64 knows it, and what the surface is there.
 
 use super::Hits;
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::flat_uv;
 use crate::extract::{Flat, ShapeTable};
 use crate::rays::WorldRays;
@@ -54,14 +54,14 @@ pub fn crossing(origin: DVec3, direction: DVec3, flat: &Flat) -> Crossing {
 }
 // ANCHOR_END: crossing
 
-/// Fills the surfaces, and the uvs where they are wanted, of the listed rows, all of which hit a flat piece.
+/// Fills the surfaces, and the uvs and sides where they are wanted, of the listed rows, all of which hit a flat piece.
 pub(super) fn describe_flats<'f>(
     flat_of: impl Fn(u32) -> &'f Flat,
     shapes: &ShapeTable,
     list: &[u32],
     (rays, hits): (&WorldRays, &Hits),
     surfaces: &mut Surfaces,
-    uvs: Option<&mut SurfaceUvs>,
+    (uvs, sides): (Option<&mut SurfaceUvs>, Option<&mut SurfaceSides>),
 ) {
     for &row in list {
         let (row, shape) = (row as usize, hits.shape[row as usize]);
@@ -71,6 +71,13 @@ pub(super) fn describe_flats<'f>(
         let bound = offset_bound(point, origin, sum_of_parts(flat.centre));
         let material = shapes.material[shape as usize];
         surfaces.set(row, Surface::facing(direction, point, flat.normal, bound, material));
+    }
+    if let Some(sides) = sides {
+        for &row in list {
+            let row = row as usize;
+            let comes_down = flat_of(hits.shape[row]).normal.dot(rays.direction_of(row)) <= 0.0;
+            sides.outside[row] = u32::from(comes_down);
+        }
     }
     let Some(uvs) = uvs else { return };
     for &row in list {

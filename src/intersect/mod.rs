@@ -51,7 +51,7 @@ pub use shading_normal::{
 pub use sphere::{
     Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,
 };
-pub use surface::{Surface, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
+pub use surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
 pub use triangle::{
     Edges, Shear, edges, intersect_triangles, longest_axis, triangle_evidence, triangle_stage, triangle_t,
     triangle_verdict,

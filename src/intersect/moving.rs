@@ -2,7 +2,7 @@ use super::disk::disk_verdict;
 use super::narrow::narrow;
 use super::rectangle::rectangle_verdict;
 use super::sphere::{LANES, RayBlock, sphere_verdict};
-use super::surface::{Surface, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceSides, Surfaces, offset_bound, sum_of_parts};
 use super::wide::wide_sphere_t;
 use super::wide_flat::{wide_disk_t, wide_rectangle_t};
 use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes};
@@ -96,10 +96,10 @@ fn moving_rows(
 pub fn fill_moving_surfaces(
     moving: Res<Shared<MovingTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &RayTimes, &Hits, &mut Surfaces)>,
+    mut tiles: Query<(&WorldRays, &RayTimes, &Hits, &mut Surfaces, Option<&mut SurfaceSides>)>,
 ) {
     let moves = |shape: u32| shape != NO_SHAPE && shapes.kind[shape as usize] == ShapeKind::Moving;
-    for (rays, times, hits, mut surfaces) in &mut tiles {
+    for (rays, times, hits, mut surfaces, mut sides) in &mut tiles {
         for row in (0..hits.rows()).filter(|&row| moves(hits.shape[row])) {
             let shape = hits.shape[row] as usize;
             let mover = shapes.row[shape] as usize;
@@ -113,7 +113,11 @@ pub fn fill_moving_surfaces(
                 Body::Disk(flat) | Body::Rectangle(flat) => (flat.normal, sum_of_parts(flat.centre)),
             };
             let bound = offset_bound(point, origin, size + sum_of_parts(way));
-            surfaces.set(row, Surface::facing(direction, point, normal, bound, shapes.material[shape]));
+            let surface = Surface::facing(direction, point, normal, bound, shapes.material[shape]);
+            surfaces.set(row, surface);
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(surface.normal.as_dvec3().dot(normal) >= 0.0);
+            }
         }
     }
 }
@@ -137,6 +141,7 @@ pub fn moving_surface_stage() -> Stage {
         .reads::<Hits>()
         .reads::<Surfaces>()
         .writes::<Surfaces>()
+        .writes::<SurfaceSides>()
         .table::<MovingTable>()
         .table::<ShapeTable>()
         .when(moving_evidence)

@@ -1,5 +1,5 @@
 use super::classify::PlaneRows;
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -52,9 +52,16 @@ pub fn fill_plane_surfaces(
     planes: Res<Shared<PlaneTable>>,
     shapes: Res<Shared<ShapeTable>>,
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
-    mut tiles: Query<(&WorldRays, &Hits, &PlaneRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &PlaneRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs, sides) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -63,6 +70,13 @@ pub fn fill_plane_surfaces(
             let point = origin + hits.t[row] * direction;
             let bound = offset_bound(point, origin, planes.offset[plane].abs());
             surfaces.set(row, Surface::facing(direction, point, planes.normal[plane], bound, shapes.material[shape]));
+        }
+        if let Some(mut sides) = sides {
+            for &row in &list.row {
+                let row = row as usize;
+                let plane = shapes.row[hits.shape[row] as usize] as usize;
+                sides.outside[row] = u32::from(planes.normal[plane].dot(rays.direction_of(row)) <= 0.0);
+            }
         }
         if let (Some(mut uvs), Some(spaces)) = (uvs, &uv_spaces) {
             for &row in &list.row {
@@ -93,6 +107,7 @@ pub fn plane_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<PlaneTable>()
         .table::<ShapeTable>()
         .table_with::<UvSpaceTable, SurfaceUvs>()

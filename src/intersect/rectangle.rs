@@ -2,7 +2,7 @@ use super::classify::RectangleRows;
 use super::flat::{crossing, describe_flats};
 use super::narrow::narrow;
 use super::sphere::{LANES, RayBlock, Verdict};
-use super::surface::{SurfaceUvs, Surfaces};
+use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::wide_flat::wide_rectangle_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
 use crate::extract::{Flat, RectangleTable, ShapeTable, moves_while_open};
@@ -66,11 +66,19 @@ fn rectangle_rows(rays: RayLanes<'_>, rectangles: &RectangleTable, t: &mut [f64]
 pub fn fill_rectangle_surfaces(
     rectangles: Res<Shared<RectangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &RectangleRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &RectangleRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         let flat_of = |shape: u32| &rectangles.flat[shapes.row[shape as usize] as usize];
-        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, uvs.as_deref_mut());
+        let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
+        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
@@ -93,6 +101,7 @@ pub fn rectangle_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<RectangleTable>()
         .table::<ShapeTable>()
         .when(rectangle_evidence)

@@ -1,5 +1,5 @@
 use super::classify::SphereRows;
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::sphere_uv;
 use super::wide::wide_sphere_t;
 use super::{HitColumn, Hits, RayColumn, RayLanes};
@@ -132,6 +132,24 @@ impl RayBlock {
             (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
             (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
+        Self::measured(o, d)
+    }
+
+    /// The rays of some rows, at most as many as there are lanes.
+    #[inline(always)]
+    pub fn of_rows(rays: RayLanes<'_>, rows: &[u32]) -> Self {
+        let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
+        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
+        for (lane, &row) in rows.iter().enumerate() {
+            let row = row as usize;
+            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        }
+        Self::measured(o, d)
+    }
+
+    #[inline(always)]
+    fn measured(o: [[f64; LANES]; 3], d: [[f64; LANES]; 3]) -> Self {
         let mut inverse = [1.0_f64; LANES];
         for (lane, inverse) in inverse.iter_mut().enumerate() {
             *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
@@ -176,9 +194,16 @@ pub fn fill_sphere_surfaces(
     spheres: Res<Shared<SphereTable>>,
     shapes: Res<Shared<ShapeTable>>,
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
-    mut tiles: Query<(&WorldRays, &Hits, &SphereRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &SphereRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, uvs, sides) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -190,6 +215,15 @@ pub fn fill_sphere_surfaces(
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
             let bound = offset_bound(point, origin, sum_of_parts(centre) + radius);
             surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.material[shape]));
+        }
+        if let Some(mut sides) = sides {
+            for &row in &list.row {
+                let row = row as usize;
+                let centre = spheres.centre(shapes.row[hits.shape[row] as usize] as usize);
+                let from_centre = rays.point_at(row, hits.t[row]) - centre;
+                let normal = surfaces.get(row).normal.as_dvec3();
+                sides.outside[row] = u32::from(normal.dot(from_centre) >= 0.0);
+            }
         }
         if let (Some(mut uvs), Some(spaces)) = (uvs, &uv_spaces) {
             for &row in &list.row {
@@ -220,6 +254,7 @@ pub fn sphere_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<SphereTable>()
         .table::<ShapeTable>()
         .table_with::<UvSpaceTable, SurfaceUvs>()

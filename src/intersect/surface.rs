@@ -47,6 +47,29 @@ impl SurfaceUvs {
     }
 }
 
+column! {
+    /// From which side each ray met its shape; exists where something reads it.
+    ///
+    /// A shape's own outward side is: for a sphere (also an unevenly scaled one) and a cuboid the outside; for a plane the
+    /// side of its `normal`; for a disk and a rectangle the side of the entity's +y; for a triangle the side of its
+    /// corners' normals, or else the one from which its corners go round anticlockwise.
+    /// It stays that side where a placement mirrors; mirrored corners of a triangle without normals go round the other
+    /// way.
+    /// It says which way the normal in [`Surfaces`], which is always on the ray's side, was turned.
+    pub struct SurfaceSides("side", "on the shape", "1 or 0", Ray) {
+        /// 1 where the ray came from the shape's own outward side, so a ray that goes on enters; 0 where it came from
+        /// inside or behind, and where nothing is met.
+        outside: u32,
+    }
+}
+
+impl SurfaceSides {
+    /// White where met from outside, black from inside or behind and where nothing is met.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.outside[row] as f32; 3]
+    }
+}
+
 /// One row of [`Surfaces`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {

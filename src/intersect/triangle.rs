@@ -138,37 +138,91 @@ pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
     }
 }
 
+/// Rays that are put in order together.
+const CHUNK: usize = 1024;
+
 /// A triangle at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+///
+/// Rays are taken in the order of the axes along which they are longest, so that sixteen together need one kind of shear.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn triangle_rows(rays: RayLanes<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
-    let rows = t.len();
     let mut start = 0;
-    while start < rows {
-        let end = rows.min(start + LANES);
-        let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
-        let sheared = Sheared::of(&o, &d, end - start);
-        let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
+    while start < t.len() {
+        let end = t.len().min(start + CHUNK);
+        let ByAxis { order, ends: [first, second, third] } = ByAxis::of(rays, start, end);
+        rows_along::<0>(rays, &order[..first], triangles, t, shape);
+        rows_along::<1>(rays, &order[first..second], triangles, t, shape);
+        rows_along::<2>(rays, &order[second..third], triangles, t, shape);
+        start = end;
+    }
+}
+
+/// Rows in the order of the axes along which their rays are longest, and where each axis ends.
+struct ByAxis {
+    order: [u32; CHUNK],
+    ends: [usize; 3],
+}
+
+impl ByAxis {
+    #[inline(always)]
+    fn of(rays: RayLanes<'_>, start: usize, end: usize) -> Self {
+        let mut axes = [0_u8; CHUNK];
+        let mut counts = [0_usize; 3];
+        let [dx, dy, dz] = rays.direction;
+        for (row, axis) in (start..end).zip(&mut axes) {
+            let longest = longest_axis(DVec3::new(f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row])));
+            *axis = longest as u8;
+            counts[longest] += 1;
+        }
+        let mut order = [0; CHUNK];
+        let mut next = [0, counts[0], counts[0] + counts[1]];
+        for (row, &axis) in (start..end).zip(&axes) {
+            order[next[usize::from(axis)]] = row as u32;
+            next[usize::from(axis)] += 1;
+        }
+        Self { order, ends: next }
+    }
+}
+
+/// Narrows the hits of some rows, whose rays are all longest along `Z`.
+#[inline(always)]
+fn rows_along<const Z: usize>(
+    rays: RayLanes<'_>,
+    rows: &[u32],
+    triangles: &TriangleTable,
+    t: &mut [f64],
+    shape: &mut [u32],
+) {
+    for rows in rows.chunks(LANES) {
+        let RayBlock { o, d, inverse } = RayBlock::of_rows(rays, rows);
+        let (mut x, mut y, mut z, mut size) = ([0.0; LANES], [0.0; LANES], [1.0; LANES], [0.0; LANES]);
+        let (mut own_t, mut own_shape) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
+        for (lane, &row) in rows.iter().enumerate() {
+            let shear = Shear::along::<Z>(vector(&d, lane));
+            (x[lane], y[lane], z[lane]) = (shear.x, shear.y, shear.z);
+            size[lane] = vector(&o, lane).abs().element_sum();
+            (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
+        }
+        let sheared = Sheared { x, y, z, size };
         for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
                 let f = facet.centre - vector(&o, lane);
                 *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
             }
-            if nearest.iter().any(|&nearness| nearness >= 0.0) {
-                narrow::<0>(&o, &d, &sheared, facet, number, t, shape);
-                narrow::<1>(&o, &d, &sheared, facet, number, t, shape);
-                narrow::<2>(&o, &d, &sheared, facet, number, t, shape);
+            if nearest[..rows.len()].iter().any(|&nearness| nearness >= 0.0) {
+                let (t, shape) = (&mut own_t[..rows.len()], &mut own_shape[..rows.len()]);
+                narrow::<Z>(&o, &d, &sheared, facet, number, t, shape);
             }
         }
-        start = end;
+        for (lane, &row) in rows.iter().enumerate() {
+            (t[row as usize], shape[row as usize]) = (own_t[lane], own_shape[lane]);
+        }
     }
 }
 
 /// The shears of a block of rays.
 struct Sheared {
-    axis: [usize; LANES],
-    /// Which axes occur.
-    occurs: [bool; 3],
     x: [f64; LANES],
     y: [f64; LANES],
     z: [f64; LANES],
@@ -176,28 +230,7 @@ struct Sheared {
     size: [f64; LANES],
 }
 
-impl Sheared {
-    #[inline(always)]
-    fn of(o: &[[f64; LANES]; 3], d: &[[f64; LANES]; 3], rays: usize) -> Self {
-        let (axis, size) = ([0; LANES], [0.0; LANES]);
-        let mut sheared = Self { axis, occurs: [false; 3], x: size, y: size, z: size, size };
-        for lane in 0..rays {
-            let direction = vector(d, lane);
-            let axis = longest_axis(direction);
-            let shear = match axis {
-                0 => Shear::along::<0>(direction),
-                1 => Shear::along::<1>(direction),
-                _ => Shear::along::<2>(direction),
-            };
-            (sheared.x[lane], sheared.y[lane], sheared.z[lane]) = (shear.x, shear.y, shear.z);
-            (sheared.axis[lane], sheared.occurs[axis]) = (axis, true);
-            sheared.size[lane] = vector(o, lane).abs().element_sum();
-        }
-        sheared
-    }
-}
-
-/// Narrows the hits of those of sixteen rays that are longest along `Z`.
+/// Narrows the hits of up to sixteen rays that are longest along `Z`.
 #[inline(always)]
 fn narrow<const Z: usize>(
     o: &[[f64; LANES]; 3],
@@ -208,9 +241,6 @@ fn narrow<const Z: usize>(
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    if !sheared.occurs[Z] {
-        return;
-    }
     let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
     for lane in 0..LANES {
         let shear = Shear { x: sheared.x[lane], y: sheared.y[lane], z: sheared.z[lane] };
@@ -218,9 +248,6 @@ fn narrow<const Z: usize>(
         (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
     }
     for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if sheared.axis[lane] != Z {
-            continue;
-        }
         if doubtful[lane] {
             found[lane] = exact_triangle_t(vector(o, lane), vector(d, lane), facet);
         }

@@ -1,7 +1,7 @@
 use super::Hits;
 use super::classify::TriangleRows;
 use super::sphere::UNIT_ROUNDOFF;
-use super::surface::{Surface, SurfaceUvs, Surfaces, offset_bound};
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::triangle::{Edges, Shear, edges, longest_axis, triangle_evidence};
 use super::triangle_exact::exact_weights;
 use crate::extract::{Facet, ShapeTable, TriangleTable};
@@ -89,9 +89,16 @@ pub fn triangle_surface(
 pub fn fill_triangle_surfaces(
     triangles: Res<Shared<TriangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &TriangleRows, &mut Surfaces, Option<&mut SurfaceUvs>)>,
+    mut tiles: Query<(
+        &WorldRays,
+        &Hits,
+        &TriangleRows,
+        &mut Surfaces,
+        Option<&mut SurfaceUvs>,
+        Option<&mut SurfaceSides>,
+    )>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs) in &mut tiles {
+    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;
@@ -99,6 +106,9 @@ pub fn fill_triangle_surfaces(
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let (surface, meeting) = triangle_surface(&triangles, triangle, origin, direction, material);
             surfaces.set(row, surface);
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(meeting.along == triangles.turned[triangle]);
+            }
             if let Some(uvs) = &mut uvs {
                 (uvs.u[row], uvs.v[row]) = meeting.mix_uvs(&triangles.uvs[triangle]).into();
             }
@@ -115,6 +125,7 @@ pub fn triangle_surface_stage() -> Stage {
         .reads::<Surfaces>()
         .writes::<Surfaces>()
         .writes::<SurfaceUvs>()
+        .writes::<SurfaceSides>()
         .table::<TriangleTable>()
         .table::<ShapeTable>()
         .when(triangle_evidence)

@@ -5,10 +5,12 @@
 
 pub mod convention;
 
+mod preflight;
 mod stats;
 mod trace;
 mod view;
 
+pub use preflight::preflight;
 pub use stats::{RenderStats, StageStats};
 pub use trace::{Recorded, Trace, trace, trace_sample};
 pub use view::{ViewTable, paths, view_stage};

@@ -1,5 +1,5 @@
-use crate::plan::{ColumnKind, Plan, Stage};
-use crate::rays::Tile;
+use crate::plan::{Column, ColumnKind, Lifetime, Plan, Stage};
+use crate::rays::{Leg, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_tile};
 use crate::scene::{Refusal, TracePixel};
 use crate::{Error, Result};
@@ -82,11 +82,16 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
             for tile in tiles.iter(world) {
                 let tile = world.entity(tile);
                 let Some(path) = tile.get::<Tile>().and_then(|place| place.row_of(pixel.x, pixel.y)) else { continue };
+                let bounce = tile.get::<Leg>().map_or(0, |leg| leg.0);
+                let is_on_its_way = |paths: &Paths| paths.first.contains(&(path as u32));
+                if bounce > 0 && !tile.get::<Paths>().is_some_and(is_on_its_way) {
+                    continue;
+                }
                 for &column in &columns {
                     let lanes = (column.lanes)(&tile);
                     let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();
-                    let rows = column.rows_of_path(&tile, path as u32).into_iter().map(show).collect();
-                    recorded.push(Recorded { stage: name, sample, bounce: 0, column, rows });
+                    let rows = rows_on_leg(&tile, column, path as u32).into_iter().map(show).collect();
+                    recorded.push(Recorded { stage: name, sample, bounce, column, rows });
                 }
             }
             world.get_resource_or_init::<Recording>().0.extend(recorded);
@@ -95,14 +100,34 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
     })
 }
 
+/// The rows of a column that belong to a pixel on the leg at hand: those of its rays, which on later legs are some rows
+/// or none.
+fn rows_on_leg(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize> {
+    let later = tile.get::<Leg>().is_some_and(|leg| leg.0 > 0);
+    match tile.get::<Paths>().filter(|_| later && column.lifetime != Lifetime::Film && column.name != PathLight::NAME) {
+        None => column.rows_of_path(tile, path),
+        Some(paths) => {
+            let rays = (0..paths.first.len()).filter(|&ray| paths.first[ray] == path);
+            rays.flat_map(|ray| column.rows_of_path(tile, ray as u32)).collect()
+        }
+    }
+}
+
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "pixel {},{}   sample {}, bounce 0", self.pixel.x, self.pixel.y, self.sample)?;
-        let last_of = |column: ColumnKind| self.stages.iter().rposition(|recorded| recorded.column == column);
+        let last_of = |column: ColumnKind, leg: u32| {
+            self.stages.iter().rposition(|recorded| recorded.column == column && recorded.bounce == leg)
+        };
+        let mut told = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
-            if last_of(recorded.column) != Some(position) || listing {
+            if last_of(recorded.column, recorded.bounce) != Some(position) || listing {
                 continue;
+            }
+            if told != Some(recorded.bounce) {
+                let (pixel, sample, bounce) = (self.pixel, self.sample, recorded.bounce);
+                writeln!(f, "pixel {},{}   sample {sample}, bounce {bounce}", pixel.x, pixel.y)?;
+                told = Some(bounce);
             }
             let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
             let head = format!("{name:<9} {space:<20} {unit:<24}");

@@ -3,6 +3,8 @@
 //! Reads: the very inputs a kernel sees (f32 rays, f64 tables). Writes: verdicts and errors as f64.
 //! Nothing here runs in a render.
 
+pub mod chi_squared;
+pub mod closed_form;
 pub mod cost;
 pub mod cuboid_aim;
 pub mod enclosure;

@@ -1,4 +1,4 @@
-use super::{ColumnKind, Lifetime, Stage, TableKind, entities};
+use super::{ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
 use crate::scene::{Statistics, View};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
@@ -134,7 +134,7 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         .collect();
     let painted_over = view.is_some_and(|column| column.name != "radiance")
         && !stage.reads_view
-        && stage.writes.iter().all(|column| column.name == "radiance");
+        && (stage.set == TileSystems::Step || stage.writes.iter().all(|column| column.name == "radiance"));
     let (kept, reason) = if !evidence.needed {
         (false, evidence.reason)
     } else if let (true, Some(column)) = (painted_over, view) {

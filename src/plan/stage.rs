@@ -36,6 +36,8 @@ pub struct Stage {
     pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
+    /// Whether it runs on every leg of light's way, or on the first one only.
+    pub on_every_leg: bool,
     /// Whether it appends rows to what it writes, where others have appended theirs before.
     pub appends: bool,
     /// Tables it reads.
@@ -67,6 +69,7 @@ impl Stage {
             reads_if: Vec::new(),
             reads_where: Vec::new(),
             writes: Vec::new(),
+            on_every_leg: set.on_every_leg(),
             appends: false,
             tables: Vec::new(),
             tables_where: Vec::new(),
@@ -75,6 +78,12 @@ impl Stage {
             when: |_| Evidence::always("every picture needs it"),
             system: Arc::new(move || system.clone().into_configs()),
         }
+    }
+
+    /// It runs on the first leg of light's way only.
+    pub fn on_first_leg(mut self) -> Self {
+        self.on_every_leg = false;
+        self
     }
 
     /// It cannot run without this column.

@@ -50,8 +50,24 @@ pub enum TileSystems {
     Unblock,
     /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
     Occlude,
+    /// Light that chance may find too counts for less.
+    Weigh,
     /// Light that arrives is added up.
     Shade,
+    /// What light lost on its way here is taken off.
+    Absorb,
+    /// Rays go on from surfaces, each kind of matter's after the other's.
+    Scatter,
+    /// Some of them end by chance.
+    Roulette,
+    /// What the leg brought is added to its way's light.
+    AddLeg,
+    /// The scattered rays become those of the next leg.
+    Step,
+    /// All further legs, each the sets from `Start` to `Step` again.
+    Follow,
+    /// The light of all legs becomes the radiance of the first.
+    Gather,
     /// What lies outside a camera's image circle is made black.
     Mask,
     /// Where a reader asked to see a column, it is painted instead.
@@ -84,12 +100,25 @@ impl TileSystems {
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
+        Self::Weigh,
         Self::Shade,
+        Self::Absorb,
+        Self::Scatter,
+        Self::Roulette,
+        Self::AddLeg,
+        Self::Step,
+        Self::Follow,
+        Self::Gather,
         Self::Mask,
         Self::View,
         Self::Moments,
         Self::Film,
     ];
+
+    /// Whether the stages of this set run on every leg of light's way.
+    pub fn on_every_leg(self) -> bool {
+        (Self::Start..=Self::Step).contains(&self) && self != Self::Layers && self != Self::Footprint
+    }
 
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
     /// independently of the others.

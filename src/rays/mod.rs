@@ -6,10 +6,13 @@
 
 mod camera;
 mod chance;
+mod draws;
 mod equirectangular;
 mod fisheye;
+mod leg;
 mod lens;
 mod ndc;
+mod paths;
 mod place_samples;
 mod raster;
 mod screen;
@@ -20,15 +23,18 @@ pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
+pub use draws::{Draws, draws_of_one, draws_of_two};
 pub use equirectangular::{
     camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
 };
 pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
+pub use leg::{Leg, pixel_of_row};
 pub use lens::{
     LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point_stage, lens_stage,
     polygon_point,
 };
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use paths::{PathLight, Paths};
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
     signed_evidence,

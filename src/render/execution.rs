@@ -20,15 +20,13 @@ pub struct Execution {
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
-    /// Runs the schedule of further legs this many times a tile even if it is empty, to measure what it costs.
-    pub bounces: Option<u32>,
     /// A last say over each worker's schedule, for tests that shuffle its order.
     pub arrange: Option<Arc<dyn Fn(&mut Schedule) + Send + Sync>>,
 }
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { threads: None, tile_side: 32, worlds: Worlds::default(), bounces: None, arrange: None }
+        Self { threads: None, tile_side: 32, worlds: Worlds::default(), arrange: None }
     }
 }
 

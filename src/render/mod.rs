@@ -5,7 +5,6 @@
 //! `rayon` appears here, and in `measure`, which renders nothing; no stage knows of threads.
 
 mod adaptive;
-mod bounce;
 mod clock;
 mod execution;
 mod inspect;
@@ -18,7 +17,6 @@ mod steps;
 mod under_way;
 
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
-pub use bounce::follow_bounces;
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
 pub use inspect::{Inspection, inspect, inspect_stages, inspect_tile};

@@ -1,14 +1,14 @@
+use super::Execution;
 use super::clock::{StageClock, clock_hook};
 use super::steps::Run;
-use super::{Execution, follow_bounces};
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::{ActivePixels, PixelSamples, SampleNumber, Tile};
+use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_met;
 use bevy_ecs::prelude::*;
-use bevy_ecs::schedule::{ScheduleConfigs, SingleThreadedExecutor};
+use bevy_ecs::schedule::{ScheduleConfigs, ScheduleLabel, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
 use std::mem;
 use std::sync::Arc;
@@ -54,15 +54,16 @@ impl RenderWorld {
             world.insert_resource(StageClock::new(plan));
             hooks.insert(0, clock_hook());
         }
-        let mut schedule = schedule_of(plan, &hooks);
-        if let Some(legs) = execution.bounces {
-            world.add_schedule(empty_bounce());
-            let follow = move |world: &mut World| follow_bounces(world, legs);
-            schedule.add_systems(follow.after(TileSystems::Shade).before(TileSystems::Mask));
+        let arranged = |mut schedule: Schedule| {
+            if let Some(arrange) = &execution.arrange {
+                arrange(&mut schedule);
+            }
+            schedule
+        };
+        if plan.stages.iter().any(|stage| stage.set == TileSystems::Follow) {
+            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| stage.on_every_leg)));
         }
-        if let Some(arrange) = &execution.arrange {
-            arrange(&mut schedule);
-        }
+        let schedule = arranged(schedule_of(Sample, plan, &hooks, |_| true));
         Self { world, schedule, tiles }
     }
 
@@ -111,7 +112,7 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
-    let mut tile = world.spawn(Tile::default());
+    let mut tile = world.spawn((Tile::default(), Leg::default()));
     if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
         tile.insert((SampleNumber::default(), ActivePixels::default()));
     }
@@ -121,13 +122,13 @@ fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
     tile.id()
 }
 
-fn schedule_of(plan: &Plan, hooks: &[Hook]) -> Schedule {
-    let mut schedule = Schedule::new(Sample);
+fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: fn(&Stage) -> bool) -> Schedule {
+    let mut schedule = Schedule::new(label);
     schedule.set_executor(SingleThreadedExecutor::new());
     for pair in TileSystems::ALL.windows(2) {
         schedule.configure_sets(pair[0].before(pair[1]));
     }
-    for (slot, stage) in plan.stages.iter().enumerate() {
+    for (slot, stage) in plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)) {
         let mut system = (stage.system)().in_set(stage.set).in_set(Slot(slot));
         if stage.set.order_free() {
             system = system.ambiguous_with(stage.set);
@@ -142,11 +143,5 @@ fn schedule_of(plan: &Plan, hooks: &[Hook]) -> Schedule {
             schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
         }
     }
-    schedule
-}
-
-fn empty_bounce() -> Schedule {
-    let mut schedule = Schedule::new(Bounce);
-    schedule.set_executor(SingleThreadedExecutor::new());
     schedule
 }

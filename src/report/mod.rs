@@ -5,6 +5,7 @@
 //! Everything up to the runner is a pure function of images and numbers, so it is tested on images of known error.
 //! Nothing here runs in a render.
 
+pub mod agreement;
 pub mod csv;
 pub mod curve;
 pub mod deviation;

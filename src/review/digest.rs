@@ -2,7 +2,7 @@ use crate::Result;
 use crate::extract::ImageShape;
 use crate::look::paths;
 use crate::plan::{ColumnKind, Plan, Stage, Table};
-use crate::rays::Tile;
+use crate::rays::{Leg, Tile};
 use crate::render::{Execution, Hook, inspect_stages};
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::EntityRef;
@@ -36,6 +36,7 @@ struct DigestTable {
 /// The digests are taken after the stage and not at the end, so that a column that several stages write still tells
 /// which of them was the first to write something else.
 /// The text does not depend on the side of the tiles, where [`BLOCK_SIDE`] divides it.
+/// Of later legs of light's way, whose rows are no pixels, it holds what they brought, and no more.
 ///
 /// Errors: what a render would be refused for.
 pub fn digests(scene: &World, offer: &[Stage]) -> Result<String> {
@@ -60,6 +61,9 @@ fn digest_hook(image: ImageShape) -> Hook {
         let stage_name = stage.name;
         let columns: Vec<ColumnKind> = stage.writes.iter().copied().filter(|c| plan.columns.contains(c)).collect();
         let digest = move |world: &mut World, tiles: &mut QueryState<Entity, With<Tile>>| {
+            if tiles.iter(world).any(|tile| world.get::<Leg>(tile).is_some_and(|leg| leg.0 > 0)) {
+                return;
+            }
             let tables: Vec<DigestTable> = columns
                 .iter()
                 .map(|&column| {

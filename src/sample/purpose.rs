@@ -24,11 +24,13 @@ pub enum Purpose {
     Roulette,
     /// When, while the shutter is open.
     Time,
+    /// Where in the environment.
+    EnvironmentPoint,
 }
 
 impl Purpose {
     /// All, in the order of their dimensions.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Pixel,
         Self::Lens,
         Self::LightPoint,
@@ -37,12 +39,13 @@ impl Purpose {
         Self::MatterChoice,
         Self::Roulette,
         Self::Time,
+        Self::EnvironmentPoint,
     ];
 
     /// How many numbers it needs: 1 or 2.
     pub const fn numbers(self) -> u32 {
         match self {
-            Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction => 2,
+            Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction | Self::EnvironmentPoint => 2,
             Self::LightChoice | Self::MatterChoice | Self::Roulette | Self::Time => 1,
         }
     }
@@ -59,6 +62,7 @@ impl Purpose {
             Self::MatterChoice => 9,
             Self::Roulette => 10,
             Self::Time => 11,
+            Self::EnvironmentPoint => 12,
         };
         leg * DIMENSIONS + within
     }

@@ -12,7 +12,7 @@ pub enum Integrator {
     /// Also what mirrors and glass show, both ways at each surface of glass, where nothing is left to chance (Whitted
     /// 1980).
     Whitted {
-        /// The most legs of a way, the one from the camera included.
+        /// The most legs of a way from a light to the camera.
         legs: u32,
     },
     /// How much of the sky each point sees, and nothing else.
@@ -23,12 +23,12 @@ pub enum Integrator {
     /// Also points on lights and directions off rough metal, by chance; matte surfaces do not light each other (Cook,
     /// Porter and Carpenter 1984).
     Distribution {
-        /// The most legs of a way, the one from the camera included.
+        /// The most legs of a way from a light to the camera.
         legs: u32,
     },
     /// All ways of light that a walk from the camera can find (Kajiya 1986).
     Path {
-        /// The most legs of a way, the one from the camera included; the light of longer ones is missing.
+        /// The most legs of a way from a light to the camera; the light of longer ones is missing.
         legs: u32,
         /// How lights are found.
         lights: LightSampling,
@@ -47,6 +47,11 @@ pub enum LightSampling {
     /// Both, each weighed by how likely it was to find the way (Veach and Guibas 1995).
     #[default]
     Weighed,
+}
+
+impl LightSampling {
+    /// All, with the words of the command line.
+    pub const ALL: [(&str, Self); 3] = [("chance", Self::ByChance), ("aimed", Self::Aimed), ("weighed", Self::Weighed)];
 }
 
 impl Integrator {

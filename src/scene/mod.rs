@@ -63,7 +63,7 @@ pub use colour::Rgb;
 pub use cuboid::Cuboid;
 pub use directional_light::DirectionalLight;
 pub use disk::Disk;
-pub use emissive::Emissive;
+pub use emissive::{Emissive, Sides};
 pub use environment::Environment;
 pub use equirectangular::EquirectangularCamera;
 pub use file::{FNV_BASIS, FileProblem, PlaceInFile, SceneFile, fingerprint, fnv, scene_text, words};

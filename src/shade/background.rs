@@ -1,5 +1,5 @@
 use super::Radiance;
-use crate::extract::BackgroundTable;
+use crate::extract::{BackgroundTable, unless_occlusion};
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::{Background, Rgb};
@@ -31,8 +31,9 @@ pub fn background_stage() -> Stage {
         .writes::<Radiance>()
         .table::<BackgroundTable>()
         .when(|scene| {
-            Evidence::among::<With<Background>>(scene, "coloured background", |entity| {
+            let found = Evidence::among::<With<Background>>(scene, "coloured background", |entity| {
                 entity.get::<Background>().is_some_and(|background| background.colour != Rgb::BLACK)
-            })
+            });
+            unless_occlusion(scene, found)
         })
 }

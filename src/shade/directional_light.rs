@@ -1,6 +1,6 @@
-use super::LightRays;
 use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
-use crate::extract::{DirectionalLightTable, material_evidence};
+use super::{LightDensities, LightRays};
+use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
@@ -26,12 +26,12 @@ fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Aimed {
 /// Appends a tile's rays to directional lights, light after light; each looks without end.
 pub fn aim_at_directional_lights(
     lights: Res<Shared<DirectionalLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightDensities>)>,
 ) {
-    for (surfaces, shading, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays, mut densities) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
-            append_rays(&lit, &mut rays, lights.casts_shadows[light], |surface, normal| {
+            append_rays(&lit, (&mut rays, densities.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
                 let aimed = aim_along(surface, normal, lights.to_light[light]);
                 let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
                 LightRay { aimed, reach: f32::INFINITY, irradiance }
@@ -47,6 +47,12 @@ pub fn directional_light_stage() -> Stage {
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
+        .writes::<LightDensities>()
         .table::<DirectionalLightTable>()
-        .when(|scene| Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(
+                scene,
+                Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)),
+            )
+        })
 }

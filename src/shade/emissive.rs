@@ -1,15 +1,23 @@
 use super::Radiance;
-use crate::extract::{EmissiveTable, emissive_evidence};
-use crate::intersect::EmissiveRows;
+use crate::extract::{
+    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, unless_occlusion,
+};
+use crate::intersect::{EmissiveRows, SurfaceSides};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: add_emission
-/// Adds what the surface that a ray hit emits; where it came from does not matter.
-pub fn add_emission(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&EmissiveRows, &mut Radiance)>) {
-    for (list, mut radiance) in &mut tiles {
+/// Adds what the surface that a ray hit emits on the side where it was hit; from how far does not matter.
+pub fn add_emission(
+    emissive: Res<Shared<EmissiveTable>>,
+    mut tiles: Query<(&EmissiveRows, Option<&SurfaceSides>, &mut Radiance)>,
+) {
+    for (list, sides, mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
+                continue;
+            }
             radiance.r[row] += r;
             radiance.g[row] += g;
             radiance.b[row] += b;
@@ -22,12 +30,18 @@ pub fn add_emission(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&Emi
 pub fn emissive_stage() -> Stage {
     Stage::new("Add what surfaces emit", TileSystems::Shade, add_emission)
         .reads::<EmissiveRows>()
+        .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads::<Radiance>()
         .writes::<Radiance>()
         .table::<EmissiveTable>()
         .when(|scene| {
             let found = emissive_evidence(scene);
-            let unlit = if found.needed { ", seen, but lighting nothing else yet" } else { "" };
-            Evidence { reason: format!("{}{unlit}", found.reason), ..found }
+            let follows = followed_evidence(scene).needed;
+            if found.needed && follows && aimed_evidence(scene).needed {
+                let reason = "added as far as it is not aimed at".into();
+                return Evidence { needed: false, reason, count: 0 };
+            }
+            let unlit = if found.needed && !follows { ", seen, but lighting nothing else" } else { "" };
+            unless_occlusion(scene, Evidence { reason: format!("{}{unlit}", found.reason), ..found })
         })
 }

@@ -1,6 +1,8 @@
 use super::Radiance;
 use super::lookup::between;
-use crate::extract::{EnvironmentTable, Texels};
+use crate::extract::{
+    EnvironmentTable, Texels, aimed_evidence, environment_light_evidence, followed_evidence, unless_occlusion,
+};
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -90,9 +92,15 @@ pub fn environment_stage() -> Stage {
         .writes::<Radiance>()
         .table::<EnvironmentTable>()
         .when(|scene| {
-            Evidence::among::<With<Environment>>(scene, "environment", |entity| {
+            let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
-            })
+            });
+            let aimed = environment_light_evidence(scene).and(aimed_evidence(scene)).and(followed_evidence(scene));
+            if found.needed && aimed.needed {
+                let reason = "added as far as it is not aimed at".into();
+                return Evidence { needed: false, reason, count: 0 };
+            }
+            unless_occlusion(scene, found)
         })
 }
 

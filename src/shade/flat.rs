@@ -1,6 +1,6 @@
 use super::light::light_evidence;
 use super::{Radiance, SurfaceColours};
-use crate::extract::{MaterialTable, emissive_evidence, material_evidence};
+use crate::extract::{MaterialTable, emissive_evidence, followed_evidence, material_evidence, occlusion_evidence};
 use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use bevy_ecs::prelude::*;
@@ -35,7 +35,8 @@ pub fn flat_stage() -> Stage {
         .table::<MaterialTable>()
         .when(|scene| {
             let material = shown_evidence(scene);
-            let shining = light_evidence(scene).or(emissive_evidence(scene));
+            let followed = followed_evidence(scene).or(occlusion_evidence(scene));
+            let shining = light_evidence(scene).or(emissive_evidence(scene)).or(followed);
             if material.needed { Evidence { needed: !shining.needed, ..shining }.and(material) } else { material }
         })
 }

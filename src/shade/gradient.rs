@@ -1,5 +1,5 @@
 use super::Radiance;
-use crate::extract::GradientTable;
+use crate::extract::{GradientTable, unless_occlusion};
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -41,9 +41,10 @@ pub fn gradient_stage() -> Stage {
         .writes::<Radiance>()
         .table::<GradientTable>()
         .when(|scene| {
-            Evidence::among::<With<Gradient>>(scene, "coloured gradient", |entity| {
+            let found = Evidence::among::<With<Gradient>>(scene, "coloured gradient", |entity| {
                 entity.get::<Gradient>().is_some_and(|own| own.bottom != Rgb::BLACK || own.top != Rgb::BLACK)
-            })
+            });
+            unless_occlusion(scene, found)
         })
 }
 

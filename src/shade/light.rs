@@ -1,5 +1,8 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
-use crate::extract::{MaterialTable, material_evidence};
+use crate::extract::{
+    MaterialTable, aimed_evidence, area_light_evidence, environment_light_evidence, material_evidence,
+    occlusion_evidence, unless_occlusion,
+};
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
@@ -37,6 +40,22 @@ column! {
     }
 }
 
+column! {
+    /// How likely each light ray was to be sent where it goes; beside the light rays, where something reads it.
+    pub struct LightDensities("light density", "directions", "1/sr", Ray) {
+        /// Per unit of solid angle, the chance of having chosen that light included; 0 for a light without an area, which
+        /// no other ray can find by chance.
+        density: f64,
+    }
+}
+
+impl LightDensities {
+    /// Grey, the brighter the likelier.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [(self.density[row] / (1.0 + self.density[row])) as f32; 3]
+    }
+}
+
 impl LightRays {
     /// The direction: each part from −1 to 1 becomes 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
@@ -47,6 +66,13 @@ impl LightRays {
     #[inline(always)]
     pub fn direction_of(&self, ray: usize) -> DVec3 {
         DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
+    }
+
+    /// Lets a ray bring only this share of what it would.
+    #[inline(always)]
+    pub fn weigh(&mut self, ray: usize, share: f64) {
+        let weighed = |part: f32| (f64::from(part) * share) as f32;
+        (self.r[ray], self.g[ray], self.b[ray]) = (weighed(self.r[ray]), weighed(self.g[ray]), weighed(self.b[ray]));
     }
 
     /// The irradiance that a ray brings.
@@ -127,13 +153,16 @@ pub(super) struct LitRows<'a> {
     pub rows: &'a [u32],
 }
 
+/// The lists that rays to lights are appended to.
+pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightDensities>);
+
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
 /// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
     lit: &LitRows<'_>,
-    rays: &mut LightRays,
+    (rays, densities): RayLists<'_>,
     casts_shadows: bool,
     ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
@@ -146,6 +175,9 @@ pub(super) fn append_rays(
         Some(normals) => {
             append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
+    }
+    if let Some(densities) = densities {
+        densities.slices_mut(rays.rows());
     }
 }
 
@@ -172,12 +204,51 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
     rays.slices_mut(at);
 }
 
+/// Appends one ray a row whose direction was chosen, and beside it how likely that was; all cast shadows.
+///
+/// `ray_of` gets the row, the surface and the normal to shade by.
+#[inline(always)]
+pub(super) fn append_chosen(
+    lit: &LitRows<'_>,
+    (rays, mut densities): RayLists<'_>,
+    ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
+) {
+    let length = rays.rows();
+    let most = length + lit.rows.len();
+    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
+    let mut likely = densities.as_deref_mut().map(|densities| densities.slices_mut(most));
+    let mut at = length;
+    for &row in lit.rows {
+        let surface = lit.surfaces.get(row as usize);
+        let normal = lit.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
+        let (ray, density) = ray_of(row as usize, &surface, normal);
+        path[at] = row;
+        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
+        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
+        reach[at] = ray.reach;
+        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
+        if let Some(likely) = &mut likely {
+            likely[at] = density;
+        }
+        at += usize::from(ray.aimed.cosine > 0.0);
+    }
+    rays.slices_mut(at);
+    if let Some(densities) = densities {
+        densities.slices_mut(at);
+    }
+}
+
 /// The most light that a ray brings: what is more than f32 holds counts as its largest number.
 const MOST: f64 = f32::MAX as f64;
 
 /// Empties every tile's list of light rays.
-pub fn start_light(mut tiles: Query<&mut LightRays>) {
-    tiles.iter_mut().for_each(|mut rays| rays.clear());
+pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightDensities>)>) {
+    for (mut rays, densities) in &mut tiles {
+        rays.clear();
+        if let Some(mut densities) = densities {
+            densities.clear();
+        }
+    }
 }
 
 // ANCHOR: add_light
@@ -207,7 +278,8 @@ pub fn add_light(
 pub fn start_light_stage() -> Stage {
     Stage::new("Start with no light on its way", TileSystems::Start, start_light)
         .writes::<LightRays>()
-        .when(lit_evidence)
+        .writes::<LightDensities>()
+        .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
@@ -224,16 +296,34 @@ pub fn light_stage() -> Stage {
         .when(lit_evidence)
 }
 
+/// Evidence of the one where it is needed, or else the other.
+///
+/// Unlike `or` it says nothing of an integrator that nobody asked for.
+pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
+    if !one.needed && other.needed { other } else { one }
+}
+
 /// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
     light_evidence(scene).and(material_evidence(scene))
 }
 
-/// Evidence that there is a light of any kind.
+/// Evidence that there is a light of any kind that rays are sent to.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    Evidence::among_any(scene, "light", &LIGHTS, |_| true)
+    unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
 }
 
-/// Every component that is a light; a new one joins here.
+/// Evidence that there is a light without an area.
+pub fn point_evidence(scene: &World) -> Evidence {
+    Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
+}
+
+/// The evidence of lights without an area, or else that there are others and that they are aimed at.
+pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
+    let others = area_light_evidence(scene).or(environment_light_evidence(scene)).and(aimed_evidence(scene));
+    if others.needed { points.or(others) } else { points }
+}
+
+/// Every component that is a light without an area; a new one joins here.
 pub(super) const LIGHTS: [Carried; 3] =
     [Carried::of::<PointLight>(), Carried::of::<DirectionalLight>(), Carried::of::<SpotLight>()];

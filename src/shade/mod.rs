@@ -4,13 +4,16 @@
 //! Writes: [`LightRays`] towards lights, [`ShadowHits`] on the way there, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
 
+mod area_light;
 mod background;
 mod blinn_phong;
 mod checker;
 mod colour;
 mod directional_light;
 mod emissive;
+pub mod emitter;
 mod environment;
+mod environment_light;
 mod flat;
 mod footprint;
 mod gradient;
@@ -28,6 +31,7 @@ mod surface_colour;
 mod texture_point;
 mod unmet;
 
+pub use area_light::{aim_at_area_lights, area_light_density, area_light_stage, irradiance_from_area};
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
 pub use checker::{
@@ -40,13 +44,19 @@ pub use emissive::{add_emission, emissive_stage};
 pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
 };
+pub use environment_light::{
+    aim_at_the_environment, environment_density, environment_direction, environment_light_stage,
+};
 pub use flat::{flat_stage, shade_flat};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
 pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
-pub use light::{LightRays, add_light, light_stage, matte_radiance, shadow_reach, start_light, start_light_stage};
+pub use light::{
+    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_reach,
+    start_light, start_light_stage,
+};
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
@@ -69,7 +79,8 @@ pub fn stages() -> Vec<Stage> {
     stages.extend(colour_stages());
     stages.extend(background_stages());
     stages.push(flat_stage());
-    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), start_shadow_stage()]);
+    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
+    stages.extend([environment_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
     stages.extend([
         plane_shadow_stage(),

@@ -1,6 +1,6 @@
-use super::LightRays;
-use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
-use crate::extract::{PointLightTable, material_evidence};
+use super::light::{LightRay, LitRows, RayLists, aim, append_rays, shadow_reach};
+use super::{LightDensities, LightRays};
+use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::PointLight;
@@ -21,18 +21,18 @@ pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared:
 /// Appends a tile's rays to point lights, light after light.
 pub fn aim_at_point_lights(
     lights: Res<Shared<PointLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightDensities>)>,
 ) {
-    for (surfaces, shading, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays, mut densities) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
         for light in 0..lights.position.len() {
-            aim_rows(&lit, &lights, light, &mut rays);
+            aim_rows(&lit, &lights, light, (&mut rays, densities.as_deref_mut()));
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn aim_rows(lit: &LitRows<'_>, lights: &PointLightTable, light: usize, rays: &mut LightRays) {
+fn aim_rows(lit: &LitRows<'_>, lights: &PointLightTable, light: usize, rays: RayLists<'_>) {
     let (position, intensity) = (lights.position[light], lights.intensity[light]);
     append_rays(lit, rays, lights.casts_shadows[light], |surface, normal| {
         let aimed = aim(surface, normal, position);
@@ -48,6 +48,9 @@ pub fn point_light_stage() -> Stage {
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
+        .writes::<LightDensities>()
         .table::<PointLightTable>()
-        .when(|scene| Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+        })
 }

@@ -34,6 +34,7 @@ pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
 /// The stage on offer.
 pub fn start_stage() -> Stage {
     Stage::new("Start in the dark", TileSystems::Start, start_radiance)
+        .on_first_leg()
         .reads::<RasterPoints>()
         .writes::<Radiance>()
         .when(|_| Evidence::always("light is added to it"))

@@ -1,8 +1,8 @@
 use super::LightRays;
-use super::light::LIGHTS;
+use super::light::{LIGHTS, either, or_aimed};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-    material_evidence, moving_evidence,
+    material_evidence, moving_evidence, occlusion_evidence, unless_occlusion,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
@@ -152,10 +152,11 @@ pub fn moving_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on matter.
 pub fn shadow_evidence(scene: &World) -> Evidence {
-    Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
+    let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
-    })
-    .and(material_evidence(scene))
+    });
+    let lit = or_aimed(scene, points).and(material_evidence(scene));
+    either(unless_occlusion(scene, lit), occlusion_evidence(scene))
 }

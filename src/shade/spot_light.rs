@@ -1,6 +1,6 @@
 use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
-use super::{LightRays, irradiance_from_point};
-use crate::extract::{SpotLightTable, material_evidence};
+use super::{LightDensities, LightRays, irradiance_from_point};
+use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::SpotLight;
@@ -38,13 +38,13 @@ pub fn spot_share(versine: f64, inner: f64, outer: f64) -> f64 {
 /// Appends a tile's rays to spot lights, light after light; a surface outside the cone gets none.
 pub fn aim_at_spot_lights(
     lights: Res<Shared<SpotLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightDensities>)>,
 ) {
-    for (surfaces, shading, list, mut rays) in &mut tiles {
+    for (surfaces, shading, list, mut rays, mut densities) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
         for (light, &position) in lights.position.iter().enumerate() {
             let (axis, inner, outer) = (lights.axis[light], lights.inner[light], lights.outer[light]);
-            append_rays(&lit, &mut rays, lights.casts_shadows[light], |surface, normal| {
+            append_rays(&lit, (&mut rays, densities.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
                 let mut aimed = aim(surface, normal, position);
                 // The direction of f32 is too coarse for narrow cones.
                 let along = (aimed.origin.as_dvec3() - position) * (1.0 / aimed.distance);
@@ -65,8 +65,11 @@ pub fn spot_light_stage() -> Stage {
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
+        .writes::<LightDensities>()
         .table::<SpotLightTable>()
-        .when(|scene| Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+        .when(|scene| {
+            unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+        })
 }
 
 #[cfg(test)]

@@ -31,6 +31,15 @@ pub const TEXTURES: &[Case] = &[
         w.spawn((Name::new("cloth"), Checker::default()));
     }),
     ("a checker on a lamp", &["checker \"lamp\"", "material"], |w| put(w, "lamp", Checker::default())),
+    ("a checker on glass", &["checker \"pane\"", "material is glass", "equally in all directions", "a Matte"], |w| {
+        w.spawn((Name::new("pane"), Glass::default(), Checker::default()));
+    }),
+    ("stripes on a mirror", &["stripes \"silver\"", "material is a mirror", "a Matte"], |w| {
+        w.spawn((Name::new("silver"), Mirror::default(), Stripes::default()));
+    }),
+    ("a checker on metal", &["checker \"gold\"", "material is metal", "a Matte"], |w| {
+        w.spawn((Name::new("gold"), Metal::default(), Checker::default()));
+    }),
     ("two textures on one", &["\"floor\"", "texture", "checker and as stripes", "one texture only"], |w| {
         put(w, "floor", Stripes::default());
     }),

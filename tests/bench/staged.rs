@@ -1,8 +1,7 @@
 //! Stages on columns against one hand-written loop: the same scene, the same image, interleaved runs.
 //!
-//! `cargo bench --bench staged` prints the ratio of CPU times with its 95 % interval, on one and two threads, with and
-//! without the empty bounce schedule, and with 4 samples a pixel; then each stage's nanoseconds a row; then memory at two
-//! sizes.
+//! `cargo bench --bench staged` prints the ratio of CPU times with its 95 % interval, on one and two threads, with one
+//! ray a pixel and with 4 samples; then each stage's nanoseconds a row; then memory at two sizes.
 //! `-- --pairs 5 --size 480x270` takes fewer and smaller runs; `-- --only samples` only those with samples.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
@@ -31,15 +30,8 @@ fn main() {
     for name in ["05_pinhole", "cover"] {
         let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
         for threads in [1, 2] {
-            for bounces in [None, Some(8)] {
-                let work = match bounces {
-                    None => "no bounce schedule".into(),
-                    Some(legs) => format!("{legs} empty bounces"),
-                };
-                compare(&chapter, &options.world(&chapter, false), (threads, bounces), &work, &options);
-            }
+            compare(&chapter, &options.world(&chapter, false), threads, "one ray a pixel", &options);
         }
-        bounce_cost(&chapter, &options);
         stages(&chapter, &options);
     }
     memory();
@@ -80,7 +72,7 @@ fn sampled(sampler: Sampler, options: &Options) {
     let world = chapter.world(&Asked { resolution: Some(size), sampling, ..Asked::default() });
     let word = Sampler::ALL.into_iter().find(|(_, other)| *other == sampler).expect("a sampler's name").0;
     for threads in [1, 2] {
-        let ms = compare(&chapter, &world, (threads, None), &format!("{SAMPLES} {word} samples"), options);
+        let ms = compare(&chapter, &world, threads, &format!("{SAMPLES} {word} samples"), options);
         let samples = f64::from(size.width) * f64::from(size.height) * f64::from(SAMPLES);
         println!("{:<12} {word}: {:.2} Msamples/s a core on {threads} threads", chapter.name, samples / ms / 1e3);
     }
@@ -89,15 +81,9 @@ fn sampled(sampler: Sampler, options: &Options) {
 /// Staged over fused, interleaved ABBA, after a warm-up of each and a check that the images are the same.
 ///
 /// Gives the median of the staged runs' CPU milliseconds.
-fn compare(
-    chapter: &Chapter,
-    world: &World,
-    (threads, bounces): (usize, Option<u32>),
-    work: &str,
-    options: &Options,
-) -> f64 {
+fn compare(chapter: &Chapter, world: &World, threads: usize, work: &str, options: &Options) -> f64 {
     let offer = chapter.stages();
-    let execution = Execution { threads: Some(threads), bounces, ..Execution::default() };
+    let execution = Execution { threads: Some(threads), ..Execution::default() };
     let size = ImageShape::extract(world).map(|image| [image.width, image.height]).expect("a size");
     let staged = || render(world, &offer, &execution, &()).expect("renders").film;
     let fused = || fused::render(world, threads);
@@ -128,20 +114,6 @@ fn compare(
         median(&mut fused_ms),
     );
     median(&mut staged_ms)
-}
-
-/// What eight runs of the empty bounce schedule a tile add, as a ratio of the same staged render with and without.
-fn bounce_cost(chapter: &Chapter, options: &Options) {
-    let world = options.world(chapter, false);
-    let offer = chapter.stages();
-    let run = |bounces| {
-        let execution = Execution { threads: Some(1), bounces, ..Execution::default() };
-        cpu(&|| render(&world, &offer, &execution, &()).expect("renders").film)
-    };
-    let logs: Vec<f64> =
-        (0..options.pairs).map(|_| (run(Some(8)).as_secs_f64() / run(None).as_secs_f64()).ln()).collect();
-    let (low, middle, high) = interval(&logs);
-    println!("{:<12} 8 empty bounces a tile over none: CPU time {middle:.3} [{low:.3}, {high:.3}]", chapter.name);
 }
 
 /// Each stage's nanoseconds a row, the median of as many runs as there are pairs.

@@ -1,8 +1,11 @@
 //! Typical wrong solutions, written as a reader would, and a word of what must be said of each.
 
+use super::solutions::depth_of_field::lens_direction;
+use super::solutions::hit::nearest_sphere_t;
+use super::solutions::motion_blur::moving_sphere_t;
 use pinhole::scene::FovAxis;
 use pinhole::{Attempt, StageWords};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// The chapter, the wrong function, words of the remark that it must get.
 pub const ALL: &[(&str, Attempt, &str)] = &[
@@ -110,6 +113,17 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(one_run_has_no_variance), "None"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(about_the_truth), "runs' own mean"),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(squares_less_square), "rounding"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -2.0)), "unit vector"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -2.0 / dot(n, n)).map(|part| -part)), "goes into"),
+    ("19_mirrors", Attempt::Mirrored(|d, n| off_mirror(d, n, -1.0 / dot(n, n))), "2 is missing"),
+    ("19_mirrors", Attempt::Mirrored(|d, _| d.map(|part| -part)), "back where it came from"),
+    ("20_glass", Attempt::Refracted(|d, n, eta| Some(through(d, n, eta))), "before you take it"),
+    (
+        "20_glass",
+        Attempt::Refracted(|d, n, eta| passes(d, n, 1.0 / eta).then(|| through(d, n, 1.0 / eta))),
+        "wrong way",
+    ),
+    ("20_glass", Attempt::Refracted(|d, _, _| Some(d)), "straight on"),
     ("16_textures", Attempt::MeanOfStripes(|x, _| stripe(x)), "the stripe at x itself"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x, x + w, w)), "either side"),
     ("16_textures", Attempt::MeanOfStripes(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
@@ -160,11 +174,99 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("17_sampling", Attempt::TentOffset(|u, _| super::solutions::sampling::tent_offset(u, 1.0)), "radius is left out"),
     ("17_sampling", Attempt::TentOffset(|u, r| r * (1.0 - (1.0 - u).sqrt())), "on one side"),
     ("17_sampling", Attempt::TentOffset(|u, r| super::solutions::sampling::tent_offset(1.0 - u, r)), "swapped"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|_, _, _, a| 1.0 / a), "per unit of area"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 0.0)), "cosine at the light"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 1.0)), "multiplied by"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 0.0, -1.0)), "distance is missing"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 1.0, -1.0)), "not squared"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(signed_density), "negative density"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| signed_density(f, t, n, a).max(0.0)), "has none"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| edge_on(f, t, n, a)), "1 / 0"),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u, TAU * v, (1.0 - u * u).sqrt())),
+        "root is missing",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised((1.0 - u * u).sqrt(), TAU * v, u)),
+        "u is taken for the height",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised((u * (2.0 - u)).sqrt(), TAU * v, 1.0 - u)),
+        "1 − u is taken",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), PI * v, (1.0 - u).sqrt())),
+        "half a turn",
+    ),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), v, (1.0 - u).sqrt())),
+        "taken for an angle",
+    ),
+    ("22_ambient_occlusion", Attempt::CosineDirection(|u, v| raised(u.sqrt(), TAU * v, 1.0 - u)), "unit vector"),
+    (
+        "22_ambient_occlusion",
+        Attempt::CosineDirection(|u, v| raised(u.sqrt(), TAU * v, -(1.0 - u).sqrt())),
+        "points down",
+    ),
+    ("22_ambient_occlusion", Attempt::CosineDirection(sine_first), "swapped"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, u| if u < chance(s) { s } else { [0.0; 3] }), "is lost"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, _| s.map(|part| part / chance(s))), "nothing ever ends"),
+    (
+        "25_path_tracing",
+        Attempt::AfterRoulette(|s, u| if u < chance(s) { [0.0; 3] } else { divided(s, chance(s)) }),
+        "two ends are swapped",
+    ),
+    ("25_path_tracing", Attempt::AfterRoulette(without_most), "at most 1"),
+    ("25_path_tracing", Attempt::AfterRoulette(by_mean), "mean of the three"),
+    ("25_path_tracing", Attempt::AfterRoulette(by_green), "green alone"),
+    (
+        "25_path_tracing",
+        Attempt::AfterRoulette(|s, u| s.map(|part| if u < part { part.max(1.0) } else { 0.0 })),
+        "each colour",
+    ),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| if p == 0.0 { 0.0 } else { p / (p + q) }), "balance"),
+    (
+        "26_choosing_samples",
+        Attempt::PowerHeuristic(|p, q| super::solutions::choosing_samples::power_heuristic(q, p)),
+        "swapped",
+    ),
+    (
+        "26_choosing_samples",
+        Attempt::PowerHeuristic(|p, q| if p == 0.0 { 0.0 } else { p * p / (p * p + q * q) }),
+        "overflow",
+    ),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| p * p / (p * p + q * q)), "overflow"),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| 1.0 / (1.0 + (q / p) * (q / p))), "divided by 0"),
+    ("26_choosing_samples", Attempt::PowerHeuristic(|_, _| 0.5), "counts half"),
 ];
 
-use super::solutions::depth_of_field::lens_direction;
-use super::solutions::hit::nearest_sphere_t;
-use super::solutions::motion_blur::moving_sphere_t;
+fn distance_and_cosine(from: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> (f64, f64) {
+    let way = [0, 1, 2].map(|axis| at[axis] - from[axis]);
+    let distance = dot(way, way).sqrt();
+    (distance, dot(normal, way) / distance)
+}
+
+/// Powers of the distance and of the cosine over the area; 0 from the edge.
+fn fills(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64, distances: f64, cosines: f64) -> f64 {
+    let (distance, cosine) = distance_and_cosine(from, at, normal);
+    if cosine == 0.0 { 0.0 } else { distance.powf(distances) * cosine.abs().powf(cosines) / area }
+}
+
+fn signed_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+    let (_, cosine) = distance_and_cosine(from, at, normal);
+    fills(from, at, normal, area, 2.0, -1.0) * -cosine.signum()
+}
+
+fn edge_on(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+    let (distance, cosine) = distance_and_cosine(from, at, normal);
+    distance * distance / (area * cosine.abs())
+}
 
 fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
     let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
@@ -512,4 +614,54 @@ fn not_unit(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]
 
 fn below_too(g: [f64; 3], n: [[f64; 3]; 3], s: [f64; 3], e: [f64; 3], l: [f64; 3]) -> f64 {
     cosine(turned(g, mixed(n, s), e), l).max(0.0)
+}
+
+fn off_mirror(d: [f64; 3], n: [f64; 3], times: f64) -> [f64; 3] {
+    let along = times * dot(d, n);
+    [0, 1, 2].map(|part| d[part] + along * n[part])
+}
+
+fn g_squared(d: [f64; 3], n: [f64; 3], eta: f64) -> f64 {
+    eta * eta - 1.0 + dot(d, n) * dot(d, n)
+}
+
+fn passes(d: [f64; 3], n: [f64; 3], eta: f64) -> bool {
+    g_squared(d, n, eta) >= 0.0
+}
+
+fn through(d: [f64; 3], n: [f64; 3], eta: f64) -> [f64; 3] {
+    let along = -dot(d, n) - g_squared(d, n, eta).sqrt();
+    [0, 1, 2].map(|part| (d[part] + along * n[part]) / eta)
+}
+
+fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
+    [radius * turn.cos(), radius * turn.sin(), height]
+}
+
+fn sine_first(u: f64, v: f64) -> [f64; 3] {
+    [u.sqrt() * (TAU * v).sin(), u.sqrt() * (TAU * v).cos(), (1.0 - u).sqrt()]
+}
+
+fn chance(share: [f64; 3]) -> f64 {
+    without_cap(share).min(1.0)
+}
+
+fn without_cap(share: [f64; 3]) -> f64 {
+    share[0].max(share[1]).max(share[2])
+}
+
+fn kept_with(chance: f64, share: [f64; 3], u: f64) -> [f64; 3] {
+    if u < chance { divided(share, chance) } else { [0.0; 3] }
+}
+
+fn without_most(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(without_cap(share), share, u)
+}
+
+fn by_mean(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(((share[0] + share[1] + share[2]) / 3.0).min(1.0), share, u)
+}
+
+fn by_green(share: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(share[1].min(1.0), share, u)
 }

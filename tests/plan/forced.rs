@@ -3,6 +3,7 @@
 use super::*;
 use pinhole::film::{FilmLayers, FilmMoments};
 use pinhole::render::render;
+use scenes::followed::{INTEGRATORS, followed};
 
 /// The offer with one stage's say replaced.
 fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
@@ -30,6 +31,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("textured, {eye:?}"), textured(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("shining, {eye:?}"), shining(Setup { eye, size: [24, 16], ..Setup::default() })));
+        scenes.push((format!("soft, {eye:?}"), soft(Setup { eye, size: [24, 16], ..Setup::default() })));
         scenes.push((format!("full, {eye:?}"), full(Setup { eye, size: [24, 16], ..Setup::default() })));
     }
     for (name, scene) in &scenes {
@@ -97,6 +99,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("textured", textured(Setup { size, ..Setup::default() })),
         ("textured, orthographic", textured(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("shining", shining(Setup { size, ..Setup::default() })),
+        ("soft", soft(Setup { size, ..Setup::default() })),
         ("unlit", toggled(&[Toggle::Sphere, Toggle::Plane])),
         ("viewed", toggled(&[Toggle::Sphere, Toggle::View])),
         ("layers", toggled(&[Toggle::Sphere, Toggle::Layers])),
@@ -104,8 +107,14 @@ fn forcing_a_needed_stage_off_shows() {
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
         ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),
         ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
+        ("polished", scenes::matter::polished(Setup { size, ..Setup::default() })),
+        ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
+        ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
+        ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
+        ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
+        ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     for stage in &offer {
         let mut powers = Vec::new();

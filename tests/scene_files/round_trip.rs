@@ -50,6 +50,7 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
             scenes::shining(setup),
             scenes::pieces(setup),
             scenes::blurred(setup),
+            scenes::matter::brushed(setup),
             scenes::moving(setup),
             scenes::fisheye(setup),
             scenes::all_round(setup),

@@ -1,6 +1,10 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod followed;
+pub mod matter;
+pub mod public;
+mod soft;
 mod textured;
 
 use bevy_ecs::prelude::*;
@@ -11,7 +15,9 @@ pub use pinhole::measure::film_bits::FilmBits;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade};
+#[allow(unused_imports, reason = "each test takes what it needs")]
+pub use soft::soft;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
 
@@ -72,6 +78,7 @@ pub fn offer() -> Vec<Stage> {
     let mut offer = rays::stages();
     offer.extend(intersect::stages());
     offer.extend(shade::stages());
+    offer.extend(follow::stages());
     offer.push(view_stage(&offer));
     offer.extend([layers_stage(), moments_stage(), film_stage()]);
     offer
@@ -282,7 +289,7 @@ pub fn shining(setup: Setup) -> World {
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
     let sphere = |radius: f64| Sphere { radius: radius * setup.scale };
     let (colour, specular) = (Rgb::new(0.5, 0.2, 0.1), Rgb::new(0.3, 0.4, 0.5));
-    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b) };
+    let glow = |r, g, b| Emissive { radiance: Rgb::new(r, g, b), ..Emissive::default() };
     let gold = (Name::new("gold"), Phong { colour, specular, exponent: 9.5 }, glow(0.05, 0.0, 0.1));
     let gold = world.spawn(gold).id();
     world.spawn((Name::new("matte ball"), sphere(0.5), at(-1.77, 0.5, 0.53), Matte { colour }, glow(0.0, 0.1, 0.0)));
@@ -377,6 +384,10 @@ pub enum Toggle {
     Lens,
     /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
     Motion,
+    Mirror,
+    /// Glass that absorbs.
+    Glass,
+    Metal,
 }
 
 /// All of them.
@@ -397,8 +408,18 @@ pub const TOGGLES: &[Toggle] = &[
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 7] =
-    [Toggle::Sun, Toggle::Spot, Toggle::Phong, Toggle::BlinnPhong, Toggle::Emissive, Toggle::Lens, Toggle::Motion];
+pub const MORE: [Toggle; 10] = [
+    Toggle::Sun,
+    Toggle::Spot,
+    Toggle::Phong,
+    Toggle::BlinnPhong,
+    Toggle::Emissive,
+    Toggle::Lens,
+    Toggle::Motion,
+    Toggle::Mirror,
+    Toggle::Glass,
+    Toggle::Metal,
+];
 
 /// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
 pub const VIEWED: &str = "surface";
@@ -462,7 +483,17 @@ pub fn toggled(on: &[Toggle]) -> World {
     }
     if has(Toggle::Emissive) {
         let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
-        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2) }));
+        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
+    }
+    if has(Toggle::Mirror) {
+        matter::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
+    }
+    if has(Toggle::Glass) {
+        let absorption = Rgb::new(0.2, 0.4, 0.8);
+        matter::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
+    }
+    if has(Toggle::Metal) {
+        matter::ball_of(&mut world, "metal ball", 1.5, Metal::default());
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));

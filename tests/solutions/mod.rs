@@ -56,11 +56,29 @@ pub mod sampling;
 #[path = "18_error_and_time.rs"]
 pub mod error_and_time;
 
+#[path = "19_mirrors.rs"]
+pub mod mirrors;
+
+#[path = "20_glass.rs"]
+pub mod glass;
+
+#[path = "21_soft_shadows.rs"]
+pub mod soft_shadows;
+
 #[path = "23_depth_of_field.rs"]
 pub mod depth_of_field;
 
 #[path = "24_motion_blur.rs"]
 pub mod motion_blur;
+
+#[path = "22_ambient_occlusion.rs"]
+pub mod ambient_occlusion;
+
+#[path = "25_path_tracing.rs"]
+pub mod path_tracing;
+
+#[path = "26_choosing_samples.rs"]
+pub mod choosing_samples;
 
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
@@ -82,6 +100,12 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
     ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
+    ("20_glass", Attempt::Refracted(glass::refracted)),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
     ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
     ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
+    ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
+    ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
+    ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
 ];

@@ -12,6 +12,7 @@ mod camera_ndc;
 mod camera_table;
 mod case;
 mod cuboid;
+mod emitter;
 mod film;
 mod film_bytes;
 mod flat;
@@ -20,6 +21,7 @@ mod lamp;
 mod lens;
 mod light;
 mod light_albedo;
+mod matter;
 mod plane;
 mod print;
 mod sampling;
@@ -32,6 +34,7 @@ mod transform;
 mod transform_aim;
 mod transform_placement;
 mod transform_surface;
+mod transport;
 mod triangle;
 mod triangle_aim;
 mod triangle_limits;
@@ -75,8 +78,14 @@ pub enum Group {
     Cuboid,
     /// Highlights, cones, suns: how much light there is.
     Light,
+    /// Mirrors, glass and rough metal.
+    Matter,
+    /// Lights with an area: points on them, and how likely each was.
+    Emitter,
     /// Lenses: where rays meet, where they start, how wide what is out of focus is.
     Lens,
+    /// Ways of light: what they bring, how they end, what they count for.
+    Transport,
 }
 
 impl Group {
@@ -96,7 +105,10 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
+        Self::Matter,
+        Self::Emitter,
         Self::Lens,
+        Self::Transport,
     ];
 
     /// Its cases.
@@ -118,7 +130,10 @@ impl Group {
             Self::Rectangle => flat::trials(flat::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
+            Self::Matter => matter::trials(),
+            Self::Emitter => emitter::trials(),
             Self::Lens => lens::trials(),
+            Self::Transport => transport::trials(),
         }
     }
 }
@@ -139,7 +154,10 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
+            Self::Matter => "matter",
+            Self::Emitter => "emitter",
             Self::Lens => "lens",
+            Self::Transport => "transport",
         })
     }
 }

@@ -56,6 +56,15 @@ pub fn scale(scene: &mut World, k: i32) {
                 Aperture::FNumber { focal_length, .. } => *focal_length *= scale,
             }
         }
+        if let Some(mut glass) = entity.get_mut::<Glass>() {
+            let Rgb { r, g, b } = glass.absorption;
+            glass.absorption = Rgb::new(r / scale, g / scale, b / scale);
+        }
+        if let Some(mut integrator) = entity.get_mut::<Integrator>()
+            && let Integrator::AmbientOcclusion { distance } = &mut *integrator
+        {
+            *distance *= scale;
+        }
         let stronger = |Rgb { r, g, b }: Rgb| Rgb::new(r * scale * scale, g * scale * scale, b * scale * scale);
         if let Some(mut light) = entity.get_mut::<PointLight>() {
             light.intensity = stronger(light.intensity);

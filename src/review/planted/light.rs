@@ -50,6 +50,19 @@ pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Qu
     }
 }
 
+/// A light with an area as bright from afar as from a distance of 1: the square of the distance left out of the density.
+pub fn no_distance(mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        let rays = &mut *rays;
+        for ray in 0..rays.rows() {
+            let squared = rays.reach[ray] * rays.reach[ray];
+            for part in [&mut rays.r[ray], &mut rays.g[ray], &mut rays.b[ray]] {
+                *part *= squared;
+            }
+        }
+    }
+}
+
 /// A spot's edge is as sharp as its inner cone: what has faded shines in full.
 pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut LightRays)>) {
     for (surfaces, mut rays) in &mut tiles {

@@ -23,6 +23,8 @@ const REFLECTION: &str = "15_reflection";
 const FACETS: &str = "14_transforms";
 /// Several samples a pixel.
 const SAMPLED: &str = "17_sampling";
+/// Lights with an area.
+const SOFT: &str = "21_soft_shadows";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
@@ -69,6 +71,7 @@ pub static PLANTED: &[Planted] = &[
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("sun-without-slant", "Aim at directional lights", "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
+    bug("no-distance", "Aim at lights with area", "square of the distance left out", SOFT, Bug::After(|| light::no_distance.into_configs())),
     bug("spot-without-fading", "Aim at spot lights", "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
     bug("endless-reach", "Start with light seen", "reach without end", MOST, Bug::After(|| light::endless_reach.into_configs())),
     bug("spheres-ignored", "Look for spheres in the way", "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),

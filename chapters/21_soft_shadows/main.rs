@@ -1,0 +1,55 @@
+//! Lamps with an area: a shadow's edge is as soft as the lamp is wide. One point of one lamp is asked at a time, at random.
+//! A wide lamp on one side, a bulb on the other: the post and the ball have a shadow of each.
+//! New here: `Emissive` lights other surfaces; the stage "Aim at lights with area"; the camera's `Integrator`.
+
+use bevy_ecs::prelude::*;
+use pinhole::scene::*;
+use pinhole::{Chapter, intersect, rays, shade};
+
+fn main() -> pinhole::Result {
+    pinhole::run(chapter())
+}
+
+// ANCHOR: chapter
+/// The scene, and the stages on offer.
+pub fn chapter() -> Chapter {
+    Chapter::new("21_soft_shadows", "lights with an area", scene)
+        .offer(rays::stages())
+        .offer(intersect::stages())
+        .offer(shade::start_stage())
+        .offer(shade::background_stage())
+        .offer(shade::start_light_stage())
+        .offer(shade::start_shadow_stage())
+        .offer(shade::sphere_shadow_stage())
+        .offer(shade::plane_shadow_stage())
+        .offer(shade::rectangle_shadow_stage())
+        .offer(shade::cuboid_shadow_stage())
+        .offer(shade::light_stage())
+        .offer(shade::emissive_stage())
+        .offer(shade::area_light_stage())
+}
+// ANCHOR_END: chapter
+
+// ANCHOR: scene
+fn scene(world: &mut World) {
+    world.spawn((
+        Name::new("camera"),
+        PerspectiveCamera { fov: Degrees(38.0), axis: FovAxis::Vertical },
+        LookAt { eye: [0.0, 3.2, 6.0].into(), target: [0.0, 0.5, 0.2].into(), ..LookAt::default() },
+        Sampling { samples: 64, seed: 21, sampler: Sampler::Sobol, filter: Filter::GAUSSIAN },
+        Integrator::Distribution { legs: 1 },
+    ));
+    world.spawn((Name::new("floor"), Plane::default(), Matte { colour: Rgb::grey(0.6) }));
+    let clay = Matte { colour: Rgb::new(0.7, 0.35, 0.2) };
+    world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, Placement::at(-1.2, 0.6, 0.1), clay));
+    let size = [0.3, 1.5, 0.3].into();
+    world.spawn((Name::new("post"), Cuboid { size }, Placement::at(0.8, 0.75, -0.1), Matte { colour: Rgb::grey(0.7) }));
+    // Its own +y, where it shines, looks down at the floor before the things.
+    let downward = DQuat::from_xyzw(0.502, 0.0, -0.754, 0.424).normalize();
+    let behind = Placement { orientation: downward, ..Placement::at(-3.0, 3.0, -1.5) };
+    let warm = Emissive { radiance: Rgb::new(34.0, 26.0, 17.0), sides: Sides::Front };
+    world.spawn((Name::new("wide lamp"), Rectangle { width: 1.2, depth: 1.6 }, behind, warm));
+    let cool = Emissive { radiance: Rgb::new(220.0, 300.0, 450.0), ..Emissive::default() };
+    world.spawn((Name::new("bulb"), Sphere { radius: 0.12 }, Placement::at(2.3, 1.6, -1.7), cool));
+}
+// ANCHOR_END: scene

@@ -1,0 +1,161 @@
+use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
+use super::shape::{emissive_of, is_shape};
+use super::{
+    CuboidTable, DiskTable, EmissiveTable, Flat, NO_ROW, RectangleTable, ShapeKind, ShapeTable, SphereTable,
+    TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
+};
+use crate::plan::{Evidence, Table, counted};
+use crate::scene::{Emissive, Placement, Plane, Refusal, Rgb, Sphere, called};
+use bevy_ecs::prelude::*;
+use std::f64::consts::PI;
+
+/// Into how many equal parts the choice of a light cuts chance.
+const PARTS: u64 = 1 << 32;
+
+/// Lights with an area whose points can be aimed at, in spawn order of their shapes.
+///
+/// Planes have no end, unevenly scaled spheres no even spread of points that is known, and what moves is elsewhere for
+/// every ray; what these emit is met by chance only.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AreaLightTable {
+    /// Their shapes.
+    pub emitter: Vec<Emitter>,
+    /// The shape's number.
+    pub shape: Vec<u32>,
+    /// The radiance that leaves every point, linear Rec. 709.
+    pub radiance: Vec<[f64; 3]>,
+    /// Whether it leaves on the side of the shape's own normal only.
+    pub one_sided: Vec<bool>,
+    /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
+    pub until: Vec<u64>,
+    /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
+    pub chance: Vec<f64>,
+    /// The light that a shape is; [`NO_ROW`] for a shape that is none.
+    pub light_of_shape: Vec<u32>,
+}
+
+impl AreaLightTable {
+    // ANCHOR: choose_light
+    /// The light that a fraction of 32 bits chooses.
+    #[inline(always)]
+    pub fn chosen(&self, fraction: u32) -> usize {
+        self.until.partition_point(|&until| until <= u64::from(fraction))
+    }
+    // ANCHOR_END: choose_light
+
+    /// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
+    /// matter most where it does.
+    ///
+    /// Each light gets one part, and the others go by its share.
+    /// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
+    fn share_out(&mut self, powers: &[f64]) {
+        let total: f64 = powers.iter().sum();
+        let even = !(total > 0.0 && total.is_finite());
+        let left = PARTS - powers.len() as u64;
+        let even_share = 1.0 / powers.len() as f64;
+        let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
+        let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
+        let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
+        let given: u64 = parts.iter().sum();
+        if let Some(largest) = largest {
+            parts[largest] = parts[largest] + PARTS - given;
+        }
+        self.chance = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
+        self.until = parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect();
+    }
+}
+
+fn add(sum: &mut u64, parts: u64) -> u64 {
+    *sum += parts;
+    *sum
+}
+
+/// How bright linear Rec. 709 light looks.
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+impl Table for AreaLightTable {
+    const NAME: &'static str = "lights with area";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let (shapes, emissive) = (ShapeTable::extract(scene)?, EmissiveTable::extract(scene)?);
+        let (spheres, disks) = (SphereTable::extract(scene)?, DiskTable::extract(scene)?);
+        let (rectangles, triangles) = (RectangleTable::extract(scene)?, TriangleTable::extract(scene)?);
+        let cuboids = CuboidTable::extract(scene)?;
+        let mut table = Self { light_of_shape: vec![NO_ROW; shapes.kind.len()], ..Self::default() };
+        let mut powers = Vec::new();
+        for (shape, &emits) in shapes.emissive.iter().enumerate().filter(|(_, emits)| **emits != NO_ROW) {
+            let radiance = emissive.radiance[emits as usize].map(f64::from);
+            if radiance == [0.0; 3] {
+                continue;
+            }
+            let row = shapes.row[shape] as usize;
+            let emitter = match shapes.kind[shape] {
+                ShapeKind::Sphere => Emitter::Sphere { centre: spheres.centre(row), radius: spheres.radius[row] },
+                ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.flat[row])),
+                ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.flat[row])),
+                ShapeKind::Triangle => {
+                    Emitter::Triangle { corners: triangles.facet[row].corners, normal: triangles.normal[row] }
+                }
+                ShapeKind::Cuboid => {
+                    let slabs = &cuboids.slabs[row];
+                    Emitter::Cuboid(EmittingCuboid::new(slabs.centre, slabs.half_edges()))
+                }
+                ShapeKind::Plane | ShapeKind::Ellipsoid | ShapeKind::Moving => continue,
+            };
+            let one_sided = emissive.one_sided[emits as usize];
+            let sides = if one_sided { 1.0 } else { 2.0 };
+            powers.push(luminance(radiance) * emitter.area() * PI * sides);
+            table.light_of_shape[shape] = table.emitter.len() as u32;
+            table.emitter.push(emitter);
+            table.shape.push(shape as u32);
+            table.radiance.push(radiance);
+            table.one_sided.push(one_sided);
+        }
+        table.share_out(&powers);
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        let row = size_of::<Emitter>() + size_of::<[f64; 3]>() + size_of::<bool>() + 4 + 16;
+        self.emitter.len() * row + self.light_of_shape.len() * size_of::<u32>()
+    }
+}
+
+fn parallelogram(flat: &Flat) -> Parallelogram {
+    Parallelogram::new(flat.centre, flat.half_edges(), flat.normal)
+}
+
+fn about_ellipse(flat: &Flat) -> Parallelogram {
+    Parallelogram::about_ellipse(flat.centre, flat.half_edges(), flat.normal)
+}
+
+/// Evidence that a shape emits light and can be aimed at; shapes that emit and cannot are told too.
+pub fn area_light_evidence(scene: &World) -> Evidence {
+    let moves = moves_while_open(scene);
+    let endless = |shape: Entity| {
+        moves(shape)
+            || scene.get::<Plane>(shape).is_some()
+            || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
+    };
+    let shines = |shape: Entity| {
+        let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
+        emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)
+    };
+    let found = Evidence::of_kind::<With<Placement>>(scene, "light with area", |shape| {
+        is_shape(scene, shape) && shines(shape) && !endless(shape)
+    });
+    let by_chance: Vec<String> = shape_entities(scene)
+        .into_iter()
+        .filter(|&shape| shines(shape) && endless(shape))
+        .map(|shape| called(scene, shape))
+        .collect();
+    if by_chance.is_empty() {
+        return found;
+    }
+    let names = by_chance.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
+    let shapes = counted(by_chance.len(), "shape with no area to aim at");
+    let reason = format!("{}; {shapes}, met by chance only: {names}", found.reason);
+    Evidence { reason, ..found }
+}

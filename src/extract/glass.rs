@@ -1,0 +1,80 @@
+use super::check::{kind_and_name, light_colour, number};
+use super::material::{matter_evidence, used_material};
+use super::shape_entities;
+use crate::plan::{Evidence, Table, entities};
+use crate::scene::{Disk, Glass, Rectangle, Refusal, called};
+use bevy_ecs::prelude::*;
+
+/// The least index of refraction that is accepted, and one over the largest.
+const LEAST_INDEX: f64 = 1e-3;
+
+/// Kinds of glass, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GlassTable {
+    /// The index of refraction against the vacuum.
+    pub ior: Vec<f64>,
+    /// The absorption a scene unit: red, green, blue, at least 0.
+    pub absorption: Vec<[f64; 3]>,
+    /// Which is there where two overlap: the higher.
+    pub priority: Vec<u32>,
+}
+
+impl Table for GlassTable {
+    const NAME: &'static str = "glass";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for entity in entities::<With<Glass>>(scene) {
+            let (ior, absorption, priority) = glass_numbers(scene, entity)?;
+            table.ior.push(ior);
+            table.absorption.push(absorption);
+            table.priority.push(priority);
+        }
+        check_closed(scene)?;
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.ior.len() * (size_of::<[f64; 4]>() + size_of::<u32>())
+    }
+}
+
+/// Index, absorption and priority of a kind of glass, checked.
+fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), Refusal> {
+    let glass = scene.get::<Glass>(entity).copied().unwrap_or_default();
+    let who = kind_and_name(scene, "glass", entity);
+    if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&glass.ior) {
+        let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
+        return Err(Refusal::new(who, "ior", number(glass.ior), accepted));
+    }
+    let absorption = light_colour(&who, "absorption", glass.absorption)?.to_array();
+    Ok((glass.ior, absorption, glass.priority))
+}
+
+/// Checks a glass's numbers; equally in all directions it sends on nothing.
+pub(super) fn glass_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], Refusal> {
+    glass_numbers(scene, entity).map(|_| [0.0; 3])
+}
+
+/// Checks that no shape without an inside is made of glass.
+fn check_closed(scene: &World) -> Result<(), Refusal> {
+    for shape in shape_entities(scene) {
+        let kind = match (scene.get::<Disk>(shape), scene.get::<Rectangle>(shape)) {
+            (Some(_), _) => "disk",
+            (_, Some(_)) => "rectangle",
+            _ => continue,
+        };
+        let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
+            continue;
+        };
+        let value = format!("the glass {}", called(scene, material));
+        let accepted = "glass needs a shape with an inside: a sphere, a cuboid, a plane or triangles that close";
+        return Err(Refusal::new(kind_and_name(scene, kind, shape), "material", value, accepted));
+    }
+    Ok(())
+}
+
+/// Evidence that a shape is made of glass.
+pub fn glass_evidence(scene: &World) -> Evidence {
+    matter_evidence::<Glass>(scene, "glass surface")
+}

@@ -1,0 +1,151 @@
+use super::material::reached_of;
+use super::{
+    Bounds, CuboidTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable,
+    TriangleTable, shape_entities,
+};
+use crate::plan::{Evidence, Table};
+use crate::scene::{Glass, Refusal, called};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// A shape of glass and the box about it.
+struct Piece {
+    /// Its number.
+    shape: usize,
+    /// The row of its glass.
+    of: u32,
+    /// Whether it is a part of a surface rather than all of one.
+    part: bool,
+    bounds: Bounds,
+}
+
+/// Evidence that a shape is made of glass such as this.
+pub fn glass_that(scene: &World, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
+    reached_of::<Glass>(scene, noun, such)
+}
+
+/// Evidence that two shapes of glass may overlap, by the boxes about them.
+///
+/// Triangles of one kind of glass are taken for parts of one surface.
+pub fn glass_overlaps(scene: &World) -> Evidence {
+    let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
+    // What cannot be extracted is refused before anything is rendered.
+    let Ok(pieces) = pieces(scene) else { return none() };
+    match first_overlap(pieces) {
+        None => none(),
+        Some(pair) => {
+            let entities = shape_entities(scene);
+            let [one, other] = pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+            let reason = format!("shapes of glass may overlap: {one}, {other}");
+            Evidence { needed: true, reason, count: 2 }
+        }
+    }
+}
+
+/// The numbers of two shapes whose boxes meet, the first such pair along x.
+fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
+    let by_least = |a: &Piece, b: &Piece| {
+        a.bounds.least.x.partial_cmp(&b.bounds.least.x).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
+    };
+    pieces.sort_by(by_least);
+    let mut open: Vec<&Piece> = Vec::new();
+    for piece in &pieces {
+        open.retain(|other| other.bounds.most.x >= piece.bounds.least.x);
+        let meets = |other: &&&Piece| {
+            let one_surface = piece.part && other.part && piece.of == other.of;
+            let apart = other.bounds.most.cmplt(piece.bounds.least) | piece.bounds.most.cmplt(other.bounds.least);
+            !one_surface && !apart.any()
+        };
+        if let Some(other) = open.iter().find(meets) {
+            let (one, other) = (piece.shape.min(other.shape), piece.shape.max(other.shape));
+            return Some([one, other]);
+        }
+        open.push(piece);
+    }
+    None
+}
+
+/// Every shape of glass.
+fn pieces(scene: &World) -> Result<Vec<Piece>, Refusal> {
+    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
+    let is_glass = |&shape: &usize| {
+        let material = shapes.material[shape];
+        material != NO_ROW && materials.kind[material as usize] == MaterialKind::Glass
+    };
+    let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
+    let spheres = SphereTable::extract(scene)?;
+    let (ellipsoids, cuboids) = (EllipsoidTable::extract(scene)?, CuboidTable::extract(scene)?);
+    let triangles = TriangleTable::extract(scene)?;
+    let pieces = glass.into_iter().map(|shape| {
+        let row = shapes.row[shape] as usize;
+        let bounds = match shapes.kind[shape] {
+            ShapeKind::Sphere => Bounds::of_sphere(spheres.centre(row), spheres.radius[row]),
+            ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
+            ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
+            ShapeKind::Triangle => {
+                let [a, b, c] = triangles.facet[row].corners;
+                Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
+            }
+            // A plane of glass reaches everywhere, and what moves may; disks and rectangles of glass are refused.
+            ShapeKind::Plane | ShapeKind::Disk | ShapeKind::Rectangle | ShapeKind::Moving => {
+                Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY }
+            }
+        };
+        let part = shapes.kind[shape] == ShapeKind::Triangle;
+        Piece { shape, of: materials.row[shapes.material[shape] as usize], part, bounds }
+    });
+    Ok(pieces.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Matte, Name, PerspectiveCamera, Placement, Plane, Sphere, Triangle, UsesMaterial};
+
+    fn world(balls: &[(f64, f64)]) -> World {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 9.0)));
+        for &(x, radius) in balls {
+            world.spawn((
+                Name::new(format!("ball at {x}")),
+                Sphere { radius },
+                Glass::default(),
+                Placement::at(x, 0.0, 0.0),
+            ));
+        }
+        world
+    }
+
+    #[test]
+    fn overlaps_are_found_and_named() {
+        let apart = [(0.0, 1.0), (2.5, 1.0), (-3.0, 0.5), (10.0, 1.0)];
+        assert!(!glass_overlaps(&world(&apart)).needed);
+        let mut touching = world(&apart);
+        touching.spawn((Name::new("bubble"), Sphere { radius: 0.2 }, Glass::default(), Placement::at(2.5, 0.0, 0.0)));
+        let found = glass_overlaps(&touching);
+        assert!(
+            found.needed && found.reason.contains("\"ball at 2.5\"") && found.reason.contains("\"bubble\""),
+            "{found:?}"
+        );
+        let mut pond = world(&apart[..1]);
+        assert!(!glass_overlaps(&pond).needed);
+        pond.spawn((Plane::default(), Glass::default()));
+        assert!(glass_overlaps(&pond).needed, "a plane reaches everywhere");
+        let mut stone = world(&apart[..1]);
+        stone.spawn((Sphere { radius: 0.5 }, Matte::default()));
+        assert!(!glass_overlaps(&stone).needed, "matter that is no glass");
+    }
+
+    #[test]
+    fn a_mesh_is_one_surface() {
+        let mut mesh = world(&[]);
+        let glass = mesh.spawn(Glass::default()).id();
+        for at in 0..4 {
+            mesh.spawn((Triangle::default(), UsesMaterial(glass), Placement::at(0.1 * f64::from(at), 0.0, 0.0)));
+        }
+        assert!(!glass_overlaps(&mesh).needed);
+        mesh.spawn((Sphere { radius: 0.1 }, UsesMaterial(glass)));
+        assert!(glass_overlaps(&mesh).needed);
+    }
+}

@@ -1,0 +1,55 @@
+use super::camera::camera_entity;
+use super::check::{at_most_one, kind_and_name, positive_length};
+use super::integrator::integrator_of;
+use crate::plan::Table;
+use crate::scene::{Integrator, LightSampling, Refusal};
+use bevy_ecs::prelude::*;
+
+/// How far light is followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IntegratorTable {
+    /// The most legs of a way, the one from the camera included.
+    pub legs: u32,
+    /// The leg from which ways end by chance.
+    pub roulette: u32,
+    /// Whether two ways to find a light are weighed against each other.
+    pub weighed: bool,
+    /// How far something still hides the sky, in scene units.
+    pub distance: f32,
+}
+
+impl Table for IntegratorTable {
+    const NAME: &'static str = "integrator";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let camera = camera_entity(scene)?;
+        let who = || kind_and_name(scene, "camera", camera);
+        if let Some(other) = at_most_one::<Integrator>(scene, "integrator", "Integrator")?
+            && other != camera
+        {
+            let who = kind_and_name(scene, "integrator", other);
+            return Err(Refusal::new(who, "integrator", "on no camera", "it must be on the camera"));
+        }
+        let mut table = Self { legs: 1, ..Self::default() };
+        match integrator_of(scene).integrator {
+            Integrator::RayCasting => {}
+            Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
+            Integrator::AmbientOcclusion { distance } => {
+                table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
+            }
+            Integrator::Whitted { legs } | Integrator::Distribution { legs } => table.legs = legs,
+            Integrator::Path { legs, roulette, lights } => {
+                (table.legs, table.roulette, table.weighed) = (legs, roulette, lights == LightSampling::Weighed);
+            }
+        }
+        if table.legs == 0 {
+            let accepted = "it must be at least 1, and 2 for light that comes by one surface";
+            return Err(Refusal::new(who(), "integrator legs", "0", accepted));
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

@@ -1,0 +1,69 @@
+use super::MaterialKind;
+use super::check::{kind_and_name, number, reflectance};
+use super::material::{material_entities, material_kind, reached_of};
+use crate::plan::{Evidence, Table};
+use crate::scene::{Metal, Refusal};
+use bevy_ecs::prelude::*;
+
+/// The least α with which metal is rough; below it, it is a perfect mirror.
+///
+/// There its highlight is 0.1° wide, about as much as the sun's disk is blurred by the air.
+pub const SMOOTHEST_METAL: f64 = 1e-3;
+
+/// Rough metals, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MetalTable {
+    /// The share of the light that each tiny mirror sends on: red, green, blue, from 0 to 1.
+    pub colour: Vec<[f64; 3]>,
+    /// GGX's α, from 0.001 to 1.
+    pub alpha: Vec<f64>,
+}
+
+impl Table for MetalTable {
+    const NAME: &'static str = "metals";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for entity in material_entities(scene) {
+            if material_kind(scene, entity) == Some(MaterialKind::Metal) {
+                let (colour, alpha) = metal_numbers(scene, entity)?;
+                table.colour.push(colour);
+                table.alpha.push(alpha);
+            }
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.alpha.len() * size_of::<[f64; 4]>()
+    }
+}
+
+/// A metal's colour and roughness, checked.
+pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], f64), Refusal> {
+    let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
+    let who = kind_and_name(scene, "metal", entity);
+    let colour = reflectance(&who, "colour", metal.colour)?.to_array();
+    if (0.0..=1.0).contains(&metal.roughness) {
+        Ok((colour, metal.roughness))
+    } else {
+        Err(Refusal::new(who, "roughness", number(metal.roughness), "it must be a number from 0 to 1"))
+    }
+}
+
+/// Checks a metal's numbers; equally in all directions it sends on nothing.
+pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], Refusal> {
+    metal_numbers(scene, entity).map(|_| [0.0; 3])
+}
+
+/// Whether metal is a mirror of its own.
+pub(super) fn metal_kind(scene: &World, entity: Entity) -> MaterialKind {
+    let smooth = scene.get::<Metal>(entity).is_some_and(|metal| metal.roughness < SMOOTHEST_METAL);
+    if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
+}
+
+/// Evidence that a shape is made of rough metal.
+pub fn metal_evidence(scene: &World) -> Evidence {
+    // What is no number counts, so that it is refused and not overlooked.
+    reached_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+}

@@ -1,0 +1,52 @@
+use super::check::{kind_and_name, reflectance};
+use super::material::{material_entities, material_kind, matter_evidence, reached_of};
+use super::metal::metal_numbers;
+use super::{MaterialKind, SMOOTHEST_METAL};
+use crate::plan::{Evidence, Table};
+use crate::scene::{Metal, Mirror, Refusal};
+use bevy_ecs::prelude::*;
+
+/// Perfect mirrors, in spawn order; metal too smooth for its roughness to show is one of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MirrorTable {
+    /// The share of the light that each sends on: red, green, blue, from 0 to 1.
+    pub colour: Vec<[f64; 3]>,
+}
+
+impl Table for MirrorTable {
+    const NAME: &'static str = "mirrors";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let mut table = Self::default();
+        for entity in material_entities(scene) {
+            if material_kind(scene, entity) != Some(MaterialKind::Mirror) {
+                continue;
+            }
+            table.colour.push(match scene.get::<Mirror>(entity) {
+                Some(mirror) => {
+                    reflectance(&kind_and_name(scene, "mirror", entity), "colour", mirror.colour)?.to_array()
+                }
+                None => metal_numbers(scene, entity)?.0,
+            });
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.colour.len() * size_of::<[f64; 3]>()
+    }
+}
+
+/// Checks a mirror's numbers; equally in all directions it sends on nothing.
+pub(super) fn mirror_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], Refusal> {
+    let mirror = scene.get::<Mirror>(entity).copied().unwrap_or_default();
+    reflectance(who, "colour", mirror.colour)?;
+    Ok([0.0; 3])
+}
+
+/// Evidence that a shape is a perfect mirror, by its name or by metal so smooth that it is one.
+pub fn mirror_evidence(scene: &World) -> Evidence {
+    let mirror = matter_evidence::<Mirror>(scene, "mirror");
+    let smooth = reached_of::<Metal>(scene, "polished metal", |metal| metal.roughness < SMOOTHEST_METAL);
+    if smooth.needed { mirror.or(smooth) } else { mirror }
+}

@@ -1,0 +1,138 @@
+use crate::extract::{MaterialKind, MaterialTable, NO_ROW, ShapeTable};
+use crate::intersect::{Hits, NO_SHAPE, shape_evidence};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+
+column! {
+    /// The rows whose surface sends on light equally in all directions, whatever else it does, ascending.
+    pub struct MatteRows("matte rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+        /// The row of the table of materials.
+        of: u32,
+    }
+}
+
+column! {
+    /// The rows that met a perfect mirror, ascending.
+    pub struct MirrorRows("mirror rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+        /// The row of the table of mirrors.
+        of: u32,
+    }
+}
+
+column! {
+    /// The rows that met glass, from either side, ascending.
+    pub struct GlassRows("glass rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+        /// The row of the table of glass.
+        of: u32,
+    }
+}
+
+column! {
+    /// The rows that met rough metal, ascending.
+    pub struct MetalRows("metal rows", "rows of the tile", "rows", Ray) {
+        /// A row of the surfaces.
+        row: u32,
+        /// The row of the table of metals.
+        of: u32,
+    }
+}
+
+/// Lists the rows of each kind of matter; after this each kind visits its own rows only.
+pub fn classify_matter(
+    shapes: Res<Shared<ShapeTable>>,
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(
+        &Hits,
+        Option<&mut MatteRows>,
+        Option<&mut MirrorRows>,
+        Option<&mut GlassRows>,
+        Option<&mut MetalRows>,
+    )>,
+) {
+    let kind_of = |shape: usize| match shapes.material[shape] {
+        NO_ROW => None,
+        material => Some((material, materials.kind[material as usize])),
+    };
+    let of_kind = |shape: usize, kind: MaterialKind| match kind_of(shape) {
+        Some((material, own)) if own == kind => materials.row[material as usize],
+        _ => NO_ROW,
+    };
+    for (hits, matte, mirrors, glass, metal) in &mut tiles {
+        if let Some(mut list) = matte {
+            let list = &mut *list;
+            list_rows(hits, [&mut list.row, &mut list.of], |shape| match kind_of(shape) {
+                Some((material, kind)) if kind.spreads() && kind != MaterialKind::Metal => material,
+                _ => NO_ROW,
+            });
+        }
+        if let Some(mut list) = mirrors {
+            let list = &mut *list;
+            list_rows(hits, [&mut list.row, &mut list.of], |shape| of_kind(shape, MaterialKind::Mirror));
+        }
+        if let Some(mut list) = glass {
+            let list = &mut *list;
+            list_rows(hits, [&mut list.row, &mut list.of], |shape| of_kind(shape, MaterialKind::Glass));
+        }
+        if let Some(mut list) = metal {
+            let list = &mut *list;
+            list_rows(hits, [&mut list.row, &mut list.of], |shape| of_kind(shape, MaterialKind::Metal));
+        }
+    }
+}
+
+/// Writes every row and keeps those whose shape has a row of its kind's table.
+fn list_rows(hits: &Hits, [rows, of]: [&mut Vec<u32>; 2], row_of: impl Fn(usize) -> u32) {
+    rows.resize(hits.rows(), 0);
+    of.resize(hits.rows(), 0);
+    let mut length = 0;
+    for (row, &shape) in hits.shape.iter().enumerate() {
+        rows[length] = row as u32;
+        of[length] = if shape == NO_SHAPE { NO_ROW } else { row_of(shape as usize) };
+        length += usize::from(of[length] != NO_ROW);
+    }
+    rows.truncate(length);
+    of.truncate(length);
+}
+
+impl MatteRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl MirrorRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl GlassRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+impl MetalRows {
+    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
+    }
+}
+
+/// The stage on offer.
+pub fn classify_matter_stage() -> Stage {
+    Stage::new("Classify matter", TileSystems::Classify, classify_matter)
+        .reads::<Hits>()
+        .writes::<MatteRows>()
+        .writes::<MirrorRows>()
+        .writes::<GlassRows>()
+        .writes::<MetalRows>()
+        .table::<ShapeTable>()
+        .table::<MaterialTable>()
+        .when(shape_evidence)
+}

@@ -1,0 +1,121 @@
+use crate::extract::{
+    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, aimed_evidence,
+    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence,
+};
+use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Paths, WorldRays};
+use crate::shade::{Radiance, area_light_density, environment_density, environment_radiance};
+use bevy_ecs::prelude::*;
+
+// ANCHOR: power_heuristic
+/// How much a way counts that was found by one of two chances, by how dense each is there: the power heuristic,
+/// p² / (p² + q²) (Veach and Guibas 1995).
+///
+/// Only the densities' ratio is squared, so that neither of them can be too large or too small for it.
+#[inline(always)]
+pub fn power_heuristic(own: f64, other: f64) -> f64 {
+    if own == 0.0 {
+        return 0.0;
+    }
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
+// ANCHOR_END: power_heuristic
+
+// ANCHOR: add_weighed_emission
+/// Adds what the surface that a ray met emits, as far as nobody aimed at it.
+///
+/// Where no chance was in the ray's direction, or the surface cannot be aimed at, all of it counts.
+/// Else the surface that the ray came from has aimed at lights too; then the two ways to find this one are weighed, or the
+/// aimed one alone counts.
+pub fn add_weighed_emission(
+    emissive: Res<Shared<EmissiveTable>>,
+    lights: Res<Shared<AreaLightTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut tiles: Query<(&Paths, &WorldRays, &Hits, &EmissiveRows, Option<&SurfaceSides>, &mut Radiance)>,
+) {
+    for (paths, rays, hits, list, sides, mut radiance) in &mut tiles {
+        for (&row, &of) in list.row.iter().zip(&list.emissive) {
+            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
+                continue;
+            }
+            let light = lights.light_of_shape[hits.shape[row] as usize];
+            let share = if paths.density[row] == f64::INFINITY || light == NO_ROW {
+                1.0
+            } else if integrator.weighed {
+                let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
+                power_heuristic(paths.density[row], area_light_density(&lights, light as usize, from, at))
+            } else {
+                0.0
+            } as f32;
+            radiance.r[row] += share * r;
+            radiance.g[row] += share * g;
+            radiance.b[row] += share * b;
+        }
+    }
+}
+// ANCHOR_END: add_weighed_emission
+
+/// The stage on offer: the alternative to adding all that surfaces emit.
+pub fn weighed_emission_stage() -> Stage {
+    Stage::new("Add what surfaces emit, as far as not aimed at", TileSystems::Shade, add_weighed_emission)
+        .kind(StageKind::Alternative)
+        .reads::<Paths>()
+        .reads::<WorldRays>()
+        .reads::<Hits>()
+        .reads::<EmissiveRows>()
+        .reads_where::<SurfaceSides>(one_sided_evidence)
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .table::<EmissiveTable>()
+        .table::<AreaLightTable>()
+        .table::<IntegratorTable>()
+        .when(weighed_emission_evidence)
+}
+
+/// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
+fn weighed_emission_evidence(scene: &World) -> Evidence {
+    emissive_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene))
+}
+
+/// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.
+pub fn add_weighed_environment(
+    environment: Res<Shared<EnvironmentTable>>,
+    light: Res<Shared<EnvironmentLightTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut tiles: Query<(&Paths, &WorldRays, Option<&Hits>, &mut Radiance)>,
+) {
+    for (paths, rays, hits, mut radiance) in &mut tiles {
+        for row in (0..rays.rows()).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
+            let direction = rays.direction_of(row);
+            let share = if paths.density[row] == f64::INFINITY {
+                1.0
+            } else if integrator.weighed {
+                power_heuristic(paths.density[row], environment_density(&light, environment.turn, direction))
+            } else {
+                0.0
+            };
+            let [r, g, b] = environment_radiance(&environment, direction).map(|part| (share * part) as f32);
+            radiance.r[row] += r;
+            radiance.g[row] += g;
+            radiance.b[row] += b;
+        }
+    }
+}
+
+/// The stage on offer: the alternative to adding all of the environment.
+pub fn weighed_environment_stage() -> Stage {
+    Stage::new("Add the environment, as far as not aimed at", TileSystems::Background, add_weighed_environment)
+        .kind(StageKind::Alternative)
+        .reads::<Paths>()
+        .reads::<WorldRays>()
+        .reads_if::<Hits>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .table::<EnvironmentTable>()
+        .table::<EnvironmentLightTable>()
+        .table::<IntegratorTable>()
+        .when(|scene| environment_light_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene)))
+}

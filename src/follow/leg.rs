@@ -1,0 +1,126 @@
+use super::media::media_evidence;
+use super::{Media, Scattered};
+use crate::extract::{IntegratorTable, followed_evidence};
+use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
+use crate::rays::{Leg, PathLight, Paths, RayTimes, WorldRays};
+use crate::shade::{Footprints, Radiance};
+use bevy_ecs::prelude::*;
+
+// ANCHOR: add_leg
+/// Adds to every way's light the share that reaches the film of what its ray brought back on this leg.
+pub fn add_leg(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
+    for (paths, radiance, mut light) in &mut tiles {
+        let light = &mut *light;
+        for row in 0..paths.rows() {
+            let (first, [r, g, b]) = (paths.first[row] as usize, paths.share(row));
+            light.r[first] += r * f64::from(radiance.r[row]);
+            light.g[first] += g * f64::from(radiance.g[row]);
+            light.b[first] += b * f64::from(radiance.b[row]);
+        }
+    }
+}
+// ANCHOR_END: add_leg
+
+// ANCHOR: step_on
+/// Makes the scattered rays the rays of the next leg, in the dark; none where this was the last leg.
+pub fn step_on(
+    integrator: Res<Shared<IntegratorTable>>,
+    (mut kept, mut kept_times): (Local<Paths>, Local<RayTimes>),
+    mut tiles: Query<(
+        (&mut Leg, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance),
+        (Option<&mut RayTimes>, Option<&mut Footprints>),
+    )>,
+) {
+    for ((mut leg, scattered, mut rays, mut paths, mut radiance), (times, footprints)) in &mut tiles {
+        leg.0 += 1;
+        let rows = if leg.0 < integrator.legs { scattered.rows() } else { 0 };
+        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
+        let from = [&scattered.ox, &scattered.oy, &scattered.oz, &scattered.dx, &scattered.dy, &scattered.dz];
+        [ox, oy, oz, dx, dy, dz].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+
+        let (first, r, g, b, density) = kept.slices_mut(rows);
+        for (first, &path) in first.iter_mut().zip(&scattered.path) {
+            *first = paths.first[path as usize];
+        }
+        let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.density];
+        [r, g, b, density].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+        std::mem::swap(&mut *kept, &mut *paths);
+        if let Some(mut times) = times {
+            let next = kept_times.slices_mut(rows);
+            next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
+            std::mem::swap(&mut *kept_times, &mut *times);
+        }
+
+        let (r, g, b) = radiance.slices_mut(rows);
+        [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));
+        // What a pixel covers is known on the first leg only; later nothing is filtered.
+        if let Some(mut footprints) = footprints {
+            let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rows);
+            [rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
+        }
+    }
+}
+// ANCHOR_END: step_on
+
+// ANCHOR: follow_legs
+/// Runs the schedule of a leg again and again until no tile has a ray left.
+pub fn follow_legs(world: &mut World, tiles: &mut QueryState<&WorldRays, With<Leg>>) {
+    while tiles.iter(world).any(|rays| rays.rows() > 0) {
+        world.run_schedule(Bounce);
+    }
+}
+// ANCHOR_END: follow_legs
+
+/// Goes back to the first leg and gives its rows the light that their ways brought, as their radiance.
+pub fn gather_light(mut tiles: Query<(&mut Leg, &PathLight, &mut Radiance)>) {
+    for (mut leg, light, mut radiance) in &mut tiles {
+        *leg = Leg(0);
+        let (r, g, b) = radiance.slices_mut(light.rows());
+        for (to, from) in [r, g, b].into_iter().zip([&light.r, &light.g, &light.b]) {
+            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from as f32);
+        }
+    }
+}
+
+/// The stage that adds a leg's light.
+pub fn add_leg_stage() -> Stage {
+    Stage::new("Add the leg's light to its way", TileSystems::AddLeg, add_leg)
+        .reads::<Paths>()
+        .reads::<Radiance>()
+        .reads::<PathLight>()
+        .writes::<PathLight>()
+        .when(followed_evidence)
+}
+
+/// The stage that steps on to the next leg.
+pub fn step_stage() -> Stage {
+    Stage::new("Step to the next leg", TileSystems::Step, step_on)
+        .reads::<Scattered>()
+        .reads::<WorldRays>()
+        .reads::<Paths>()
+        .writes::<WorldRays>()
+        .writes::<Paths>()
+        .table::<IntegratorTable>()
+        .when(followed_evidence)
+}
+
+/// The stage that is all later legs.
+pub fn follow_stage() -> Stage {
+    Stage::new("Follow the legs that are left", TileSystems::Follow, follow_legs)
+        .on_first_leg()
+        .reads::<WorldRays>()
+        .reads_where::<Media>(media_evidence)
+        .reads::<PathLight>()
+        .writes::<PathLight>()
+        .when(followed_evidence)
+}
+
+/// The stage that gathers.
+pub fn gather_stage() -> Stage {
+    Stage::new("Gather the light of all legs", TileSystems::Gather, gather_light)
+        .on_first_leg()
+        .reads::<PathLight>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .when(followed_evidence)
+}

@@ -1,0 +1,139 @@
+use super::{GlassRows, MediumStack, Scattered, transmittance};
+use crate::extract::{GlassTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that};
+use crate::intersect::{Hits, SurfaceSides, Surfaces};
+use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::rays::{Paths, WorldRays};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+column! {
+    /// The glass that each ray goes through, as a stack of what its origin lies in; exists where glass absorbs or overlaps.
+    pub struct Media("media", "light", "rows of the table of glass", Path) {
+        /// The one that is there.
+        first: u32,
+        /// The one that would be there without it.
+        second: u32,
+        /// The next.
+        third: u32,
+        /// And the last that is remembered.
+        fourth: u32,
+    }
+}
+
+impl Media {
+    /// White in glass.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [f32::from(u8::from(self.first[row] != NO_ROW)); 3]
+    }
+
+    /// What a row's ray starts in; nothing where no stage has carried it over.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> MediumStack {
+        if row >= self.first.len() {
+            return MediumStack::OUTSIDE;
+        }
+        MediumStack { rows: [self.first[row], self.second[row], self.third[row], self.fourth[row]] }
+    }
+
+    fn set(&mut self, row: usize, stack: MediumStack) {
+        [self.first[row], self.second[row], self.third[row], self.fourth[row]] = stack.rows;
+    }
+}
+
+/// Starts every ray from the camera outside all glass.
+pub fn start_media(mut tiles: Query<(&WorldRays, &mut Media)>) {
+    for (rays, mut media) in &mut tiles {
+        let (first, second, third, fourth) = media.slices_mut(rays.rows());
+        [first, second, third, fourth].into_iter().for_each(|lane| lane.fill(NO_ROW));
+    }
+}
+
+/// Leaves of each ray's share what the glass on its way lets through; on a way without end that is nothing.
+pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
+    for (hits, media, mut paths) in &mut tiles {
+        let paths = &mut *paths;
+        for row in 0..hits.rows() {
+            let there = media.get(row).top();
+            if there == NO_ROW {
+                continue;
+            }
+            let absorption = glass.absorption[there as usize];
+            paths.r[row] *= transmittance(absorption[0], hits.t[row]);
+            paths.g[row] *= transmittance(absorption[1], hits.t[row]);
+            paths.b[row] *= transmittance(absorption[2], hits.t[row]);
+        }
+    }
+}
+
+/// Gives each scattered ray the media of the ray that it came of, with what it entered or left where it went through
+/// glass.
+pub fn carry_media(
+    glass: Res<Shared<GlassTable>>,
+    mut kept: Local<Media>,
+    mut glass_of: Local<Vec<u32>>,
+    mut tiles: Query<(&Scattered, &Surfaces, &SurfaceSides, &GlassRows, &mut Media)>,
+) {
+    for (scattered, surfaces, sides, list, mut media) in &mut tiles {
+        glass_of.clear();
+        glass_of.resize(surfaces.rows(), NO_ROW);
+        list.row.iter().zip(&list.of).for_each(|(&row, &of)| glass_of[row as usize] = of);
+        kept.slices_mut(scattered.rows());
+        for ray in 0..scattered.rows() {
+            let row = scattered.path[ray] as usize;
+            let goes = DVec3::new(scattered.dx[ray].into(), scattered.dy[ray].into(), scattered.dz[ray].into());
+            let through = glass_of[row] != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
+            let stack = media.get(row);
+            let crossing = || stack.crossing(glass_of[row], sides.outside[row] != 0, &glass.priority);
+            kept.set(ray, if through { crossing().beyond } else { stack });
+        }
+        std::mem::swap(&mut *kept, &mut *media);
+    }
+}
+
+/// The stage that starts.
+pub fn start_media_stage() -> Stage {
+    Stage::new("Start outside all glass", TileSystems::Start, start_media)
+        .on_first_leg()
+        .reads::<WorldRays>()
+        .writes::<Media>()
+        .when(media_evidence)
+}
+
+/// The stage that absorbs.
+pub fn absorb_stage() -> Stage {
+    Stage::new("Absorb light in glass", TileSystems::Absorb, absorb_in_glass)
+        .reads::<Hits>()
+        .reads::<Media>()
+        .reads::<Paths>()
+        .writes::<Paths>()
+        .table::<GlassTable>()
+        .when(|scene| absorption_evidence(scene).and(followed_evidence(scene)))
+}
+
+/// The stage that carries media over to the next leg.
+pub fn carry_media_stage() -> Stage {
+    Stage::new("Carry media to the next leg", TileSystems::Step, carry_media)
+        .reads::<Scattered>()
+        .reads::<Surfaces>()
+        .reads::<SurfaceSides>()
+        .reads::<GlassRows>()
+        .reads::<Media>()
+        .writes::<Media>()
+        .table::<GlassTable>()
+        .when(media_evidence)
+}
+
+/// Evidence that a shape is made of glass that absorbs light.
+fn absorption_evidence(scene: &World) -> Evidence {
+    glass_that(scene, "absorbing glass surface", |glass| glass.absorption.to_array() != [0.0; 3])
+}
+
+/// Evidence that what a ray goes through must be known: that glass absorbs, or that two shapes of it overlap.
+pub fn media_evidence(scene: &World) -> Evidence {
+    let glass = glass_evidence(scene).and(followed_evidence(scene));
+    if !glass.needed {
+        return glass;
+    }
+    let (absorbs, overlaps) = (absorption_evidence(scene), glass_overlaps(scene));
+    absorbs.or(overlaps)
+}

@@ -1,0 +1,79 @@
+//! Light goes on: from each surface new rays, leg after leg, until a way ends.
+//!
+//! Reads: what `shade` made of the leg at hand ([`Radiance`](crate::shade::Radiance)), surfaces, the tables of matter.
+//! Writes: [`Scattered`] rays, [`Paths`](crate::rays::Paths) with what share of their light reaches the film.
+//! Space: render space.
+//!
+//! A later leg runs the very stages that the first one ran, from the start of intersection to the end of shading, over
+//! the rays that are left: so none of them knows of legs, and a row is a ray, not a pixel.
+
+mod beer;
+mod classify;
+mod emission;
+mod frame;
+mod fresnel;
+mod ggx;
+mod glass;
+mod last_leg;
+mod leg;
+mod matte;
+mod media;
+mod medium_stack;
+mod metal;
+mod mirror;
+mod occlusion;
+mod paths;
+mod roulette;
+mod scattered;
+mod weigh;
+
+pub use beer::{absorbed, transmittance};
+pub use classify::{GlassRows, MatteRows, MetalRows, MirrorRows, classify_matter, classify_matter_stage};
+pub use emission::{
+    add_weighed_emission, add_weighed_environment, power_heuristic, weighed_emission_stage, weighed_environment_stage,
+};
+pub use frame::{cosine_density, cosine_direction, frame_of, same_side};
+pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
+pub use ggx::{Glint, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_density, visible_normal};
+pub use glass::{GlassWay, glass_chance_stage, glass_event, glass_stage, glass_ways, scatter_glass, split_at_glass};
+pub use last_leg::{end_at_last_leg, last_leg_stage};
+pub use leg::{add_leg, add_leg_stage, follow_legs, follow_stage, gather_light, gather_stage, step_on, step_stage};
+pub use matte::{matte_stage, scatter_matte};
+pub use media::{
+    Media, absorb_in_glass, absorb_stage, carry_media, carry_media_stage, media_evidence, start_media,
+    start_media_stage,
+};
+pub use medium_stack::{Crossing, MediumStack};
+pub use metal::{add_metal, metal_light_stage, metal_stage, scatter_metal};
+pub use mirror::{mirror_stage, scatter_mirror};
+pub use occlusion::{aim_at_the_sky, show_the_sky, sky_rays_stage, sky_stage};
+pub use paths::{start_paths, start_paths_stage};
+pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
+pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
+pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
+
+use crate::plan::Stage;
+
+/// All that follows light beyond the first surface.
+pub fn stages() -> Vec<Stage> {
+    let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage(), roulette_stage()];
+    stages.extend(matter_stages());
+    stages.extend([sky_rays_stage(), sky_stage()]);
+    stages.extend([
+        last_leg_stage(),
+        weigh_matte_stage(),
+        weigh_metal_stage(),
+        weighed_emission_stage(),
+        weighed_environment_stage(),
+    ]);
+    stages.extend([add_leg_stage(), step_stage(), follow_stage(), gather_stage()]);
+    stages
+}
+
+/// What mirrors, glass and metal do with light.
+pub fn matter_stages() -> Vec<Stage> {
+    let mut stages = vec![classify_matter_stage(), mirror_stage(), metal_light_stage(), metal_stage()];
+    stages.extend([glass_stage(), glass_chance_stage()]);
+    stages.extend([start_media_stage(), absorb_stage(), carry_media_stage()]);
+    stages
+}

@@ -1,0 +1,81 @@
+use super::frame::{cosine_direction, frame_of};
+use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
+use crate::intersect::{Hits, NO_SHAPE, Surfaces, offset_origin, shape_evidence};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Draws, Leg, PixelSamples, SampleNumber, Tile, draws_of_two};
+use crate::sample::Purpose;
+use crate::shade::{LightRays, Radiance, ShadowHits};
+use bevy_ecs::prelude::*;
+use std::f64::consts::PI;
+
+// ANCHOR: aim_at_the_sky
+/// Sends a ray towards the sky from every surface, as densely as the cosine to its normal.
+///
+/// A sky of radiance 1 brings the irradiance π; its mean over such rays, where each is seen or hidden, is what the whole
+/// sky brings past what hides it.
+pub fn aim_at_the_sky(
+    sampling: Res<Shared<SamplingTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut list: Local<Vec<u32>>,
+    mut points: Local<Vec<[f64; 2]>>,
+    mut tiles: Query<((&Tile, Option<&SampleNumber>, Option<&PixelSamples>), (&Hits, &Surfaces, &mut LightRays))>,
+) {
+    for ((tile, number, samples), (hits, surfaces, mut rays)) in &mut tiles {
+        list.clear();
+        list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, leg: Leg(0) };
+        draws_of_two(&draws, Purpose::Direction, &list, &mut points);
+        let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.len());
+        path.copy_from_slice(&list);
+        reach.fill(integrator.distance);
+        [r, g, b].into_iter().for_each(|lane| lane.fill(PI as f32));
+        for (at, &row) in list.iter().enumerate() {
+            let surface = surfaces.get(row as usize);
+            let direction = (frame_of(surface.normal.as_dvec3()) * cosine_direction(points[at])).as_vec3();
+            (ox[at], oy[at], oz[at]) = offset_origin(surface.position, surface.normal, surface.bound).into();
+            (dx[at], dy[at], dz[at]) = direction.into();
+        }
+    }
+}
+// ANCHOR_END: aim_at_the_sky
+
+/// Shows white where a row's ray, or the ray from its surface, leaves the scene, and black where something hides the sky.
+pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
+    for (hits, rays, mut radiance) in &mut tiles {
+        let rows = radiance.rows();
+        let (r, g, b) = radiance.slices_mut(rows);
+        for row in (0..rows).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
+            (r[row], g[row], b[row]) = (1.0, 1.0, 1.0);
+        }
+        let Some((rays, shadows)) = rays else { continue };
+        for ray in (0..rays.rows()).filter(|&ray| shadows.shape[ray] == NO_SHAPE) {
+            let row = rays.path[ray] as usize;
+            (r[row], g[row], b[row]) = (1.0, 1.0, 1.0);
+        }
+    }
+}
+
+/// The stage that aims.
+pub fn sky_rays_stage() -> Stage {
+    Stage::new("Aim at the open sky", TileSystems::Aim, aim_at_the_sky)
+        .kind(StageKind::Alternative)
+        .reads_if::<PixelSamples>()
+        .reads::<Hits>()
+        .reads::<Surfaces>()
+        .appends::<LightRays>()
+        .table::<SamplingTable>()
+        .table::<IntegratorTable>()
+        .when(|scene| occlusion_evidence(scene).and(shape_evidence(scene)))
+}
+
+/// The stage that shows.
+pub fn sky_stage() -> Stage {
+    Stage::new("Show how much of the sky is seen", TileSystems::Shade, show_the_sky)
+        .kind(StageKind::Alternative)
+        .reads_if::<Hits>()
+        .reads_if::<LightRays>()
+        .reads_if::<ShadowHits>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .when(occlusion_evidence)
+}

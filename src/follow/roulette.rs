@@ -1,0 +1,57 @@
+use super::Scattered;
+use crate::extract::{IntegratorTable, SamplingTable, needed_if};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
+use crate::sample::Purpose;
+use crate::scene::Integrator;
+use bevy_ecs::prelude::*;
+
+// ANCHOR: chance_to_go_on
+/// The chance with which a way goes on whose ray brings this share to the film; what goes on counts for more, so that no
+/// light is lost on average (Arvo and Kirk 1990).
+#[inline(always)]
+pub fn chance_to_go_on(share: [f64; 3]) -> f64 {
+    share[0].max(share[1]).max(share[2]).min(1.0)
+}
+// ANCHOR_END: chance_to_go_on
+
+/// Ends ways by chance from a leg on, and lets the others carry what those would have brought.
+pub fn play_roulette(
+    sampling: Res<Shared<SamplingTable>>,
+    integrator: Res<Shared<IntegratorTable>>,
+    mut numbers: Local<Vec<f64>>,
+    mut tiles: Query<(&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &Paths, &mut Scattered)>,
+) {
+    for (tile, &leg, number, samples, paths, mut scattered) in &mut tiles {
+        if leg.0 + 1 < integrator.roulette {
+            continue;
+        }
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+        draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
+        let mut kept = 0;
+        for row in 0..scattered.rows() {
+            let chance = chance_to_go_on([scattered.r[row], scattered.g[row], scattered.b[row]]);
+            if numbers[row] < chance {
+                scattered.moved(row, kept);
+                let more = 1.0 / chance;
+                let light = &mut *scattered;
+                [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|lane| lane[kept] *= more);
+                kept += 1;
+            }
+        }
+        scattered.slices_mut(kept);
+    }
+}
+
+/// The stage on offer.
+pub fn roulette_stage() -> Stage {
+    Stage::new("End ways by chance", TileSystems::Roulette, play_roulette)
+        .kind(StageKind::Estimator)
+        .reads::<Paths>()
+        .reads_if::<PixelSamples>()
+        .reads::<Scattered>()
+        .writes::<Scattered>()
+        .table::<SamplingTable>()
+        .table::<IntegratorTable>()
+        .when(|scene| needed_if(scene, |integrator| matches!(integrator, Integrator::Path { roulette: 1.., .. })))
+}

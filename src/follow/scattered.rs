@@ -1,0 +1,93 @@
+use crate::extract::followed_evidence;
+use crate::plan::{Stage, TileSystems, column};
+use bevy_ecs::prelude::*;
+use glam::{DVec3, Vec3};
+
+column! {
+    /// Rays that go on from surfaces, each kind of matter's after the other's.
+    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray) {
+        /// The row of the ray whose surface it starts on.
+        path: u32,
+        /// Origin, x: off the surface by its bound.
+        ox: f32,
+        /// Origin, y.
+        oy: f32,
+        /// Origin, z.
+        oz: f32,
+        /// Direction, x; the three are a unit vector.
+        dx: f32,
+        /// Direction, y.
+        dy: f32,
+        /// Direction, z.
+        dz: f32,
+        /// The share of what it brings back that reaches the film, red.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+        /// How densely chance sends rays this way, over solid angle; infinite where no chance was in it.
+        density: f64,
+    }
+}
+
+/// One row of [`Scattered`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScatteredRay {
+    /// Where it starts, off the surface.
+    pub origin: Vec3,
+    /// Where it goes, a unit vector.
+    pub direction: DVec3,
+    /// The share of what it brings back that reaches the film; a ray of none is left out.
+    pub share: [f64; 3],
+    /// How densely chance sends rays this way, in 1/sr.
+    pub density: f64,
+}
+
+impl Scattered {
+    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+    }
+
+    /// Appends a ray for each of these rows, but for those that bring nothing back.
+    ///
+    /// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+    #[inline(always)]
+    pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
+        let length = self.path.len();
+        let (path, ox, oy, oz, dx, dy, dz, r, g, b, density) = self.slices_mut(length + rows.len());
+        let mut at = length;
+        for (number, &row) in rows.iter().enumerate() {
+            let ray = ray_of(number, row as usize);
+            path[at] = row;
+            (ox[at], oy[at], oz[at]) = ray.origin.into();
+            (dx[at], dy[at], dz[at]) = ray.direction.as_vec3().into();
+            [r[at], g[at], b[at]] = ray.share;
+            density[at] = ray.density;
+            at += usize::from(ray.share != [0.0; 3]);
+        }
+        self.slices_mut(at);
+    }
+
+    /// Moves a row to a place before it.
+    pub(super) fn moved(&mut self, from: usize, to: usize) {
+        self.path[to] = self.path[from];
+        [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|lane| lane[to] = lane[from]);
+        [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|lane| lane[to] = lane[from]);
+        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|lane| lane[to] = lane[from]);
+        self.density[to] = self.density[from];
+    }
+}
+
+/// Empties every tile's list of scattered rays.
+pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
+    tiles.iter_mut().for_each(|mut scattered| scattered.clear());
+}
+
+/// The stage on offer.
+pub fn start_scattered_stage() -> Stage {
+    Stage::new("Start with nothing scattered", TileSystems::Start, start_scattered)
+        .writes::<Scattered>()
+        .when(followed_evidence)
+}

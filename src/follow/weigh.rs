@@ -1,0 +1,89 @@
+use super::{frame_of, power_heuristic, visible_density};
+use crate::extract::{
+    MaterialKind, MaterialTable, MetalTable, area_light_evidence, environment_light_evidence, material_evidence,
+    metal_evidence, weighed_evidence,
+};
+use crate::intersect::{ShadingNormals, Surfaces};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::WorldRays;
+use crate::shade::{LightDensities, LightRays};
+use bevy_ecs::prelude::*;
+use std::f64::consts::FRAC_1_PI;
+
+// ANCHOR: weigh_matte
+/// Takes from every light ray the part that matte surfaces find by chance: their rays go there as densely as cos θ / π.
+pub fn weigh_matte(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &LightDensities, &mut LightRays)>,
+) {
+    for (surfaces, shading, densities, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let (row, aimed) = (rays.path[ray] as usize, densities.density[ray]);
+            let surface = surfaces.get(row);
+            let scatters = !matches!(materials.kind[surface.material as usize], MaterialKind::Metal);
+            if aimed == 0.0 || !scatters {
+                continue;
+            }
+            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
+            let by_chance = rays.direction_of(ray).dot(normal).max(0.0) * FRAC_1_PI;
+            rays.weigh(ray, power_heuristic(aimed, by_chance));
+        }
+    }
+}
+// ANCHOR_END: weigh_matte
+
+/// Evidence that there is a light that chance may find too.
+fn aimed_light_evidence(scene: &World) -> Evidence {
+    area_light_evidence(scene).or(environment_light_evidence(scene))
+}
+
+/// The stage on offer.
+pub fn weigh_matte_stage() -> Stage {
+    Stage::new("Weigh light aimed at from matte surfaces", TileSystems::Weigh, weigh_matte)
+        .kind(StageKind::Alternative)
+        .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
+        .reads::<LightDensities>()
+        .reads::<LightRays>()
+        .writes::<LightRays>()
+        .table::<MaterialTable>()
+        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(material_evidence(scene)))
+}
+
+/// Takes from every light ray the part that rough metal finds by chance, by its tiny mirrors.
+pub fn weigh_metal(
+    materials: Res<Shared<MaterialTable>>,
+    metals: Res<Shared<MetalTable>>,
+    mut tiles: Query<(&WorldRays, &Surfaces, Option<&ShadingNormals>, &LightDensities, &mut LightRays)>,
+) {
+    for (eye, surfaces, shading, densities, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let (row, aimed) = (rays.path[ray] as usize, densities.density[ray]);
+            let surface = surfaces.get(row);
+            let material = surface.material as usize;
+            if aimed == 0.0 || materials.kind[material] != MaterialKind::Metal {
+                continue;
+            }
+            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
+            let local_from_world = frame_of(normal).transpose();
+            let [to_light, to_eye] = [rays.direction_of(ray), -eye.direction_of(row)].map(|way| local_from_world * way);
+            let by_chance = visible_density(to_light, to_eye, metals.alpha[materials.row[material] as usize]);
+            rays.weigh(ray, power_heuristic(aimed, by_chance));
+        }
+    }
+}
+
+/// The stage on offer for rough metal.
+pub fn weigh_metal_stage() -> Stage {
+    Stage::new("Weigh light aimed at from rough metal", TileSystems::Weigh, weigh_metal)
+        .kind(StageKind::Alternative)
+        .reads::<WorldRays>()
+        .reads::<Surfaces>()
+        .reads_if::<ShadingNormals>()
+        .reads::<LightDensities>()
+        .reads::<LightRays>()
+        .writes::<LightRays>()
+        .table::<MaterialTable>()
+        .table::<MetalTable>()
+        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(metal_evidence(scene)))
+}

@@ -1,0 +1,20 @@
+//! Numbers that theory knows, measured by whole renders.
+//!
+//! Reads: scenes of its own. Writes: means with their standard errors, beside the truth.
+//! A test runs them with few samples, the command `closed-forms` with as many as are asked for.
+
+mod furnace;
+mod matter;
+mod measured;
+mod receiver;
+mod sky;
+
+pub use measured::{ClosedForm, Measured};
+
+/// Every closed form that is held against a render.
+pub const CLOSED_FORMS: &[&[ClosedForm]] = &[furnace::FORMS, sky::FORMS, receiver::FORMS, matter::FORMS];
+
+/// All, in order.
+pub fn closed_forms() -> impl Iterator<Item = &'static ClosedForm> {
+    CLOSED_FORMS.iter().copied().flatten()
+}

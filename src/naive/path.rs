@@ -1,0 +1,52 @@
+//! Following light as first path tracers do.
+
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+// ANCHOR: uniform_direction
+/// A direction about +z, all alike: the height is as likely anywhere (Archimedes).
+#[must_use]
+pub fn uniform_direction([u, v]: [f64; 2]) -> [f64; 3] {
+    let radius = (u * (2.0 - u)).sqrt();
+    [radius * libm::cos(TAU * v), radius * libm::sin(TAU * v), 1.0 - u]
+}
+// ANCHOR_END: uniform_direction
+
+/// The share of the light from a direction of this cosine that a surface of this albedo sends on, over the density of
+/// directions that are all alike.
+#[must_use]
+pub fn uniform_weight(albedo: f64, cosine: f64) -> f64 {
+    albedo * FRAC_1_PI * cosine * TAU
+}
+
+/// The same without the cosine: each direction counts as if it came squarely.
+#[must_use]
+pub fn weight_without_cosine(albedo: f64) -> f64 {
+    albedo * FRAC_1_PI * TAU
+}
+
+/// The share over the density of the cosine, with the albedo for what the surface sends each way: π is forgotten.
+#[must_use]
+pub fn weight_without_pi(albedo: f64) -> f64 {
+    albedo / FRAC_1_PI
+}
+
+// ANCHOR: power_heuristic_f32
+/// p² / (p² + q²) in f32: squares of numbers above 2⁶⁴ are infinite, and those of numbers below 2⁻⁷⁵ are 0.
+#[must_use]
+pub fn power_heuristic_f32(own: f32, other: f32) -> f32 {
+    own * own / (own * own + other * other)
+}
+// ANCHOR_END: power_heuristic_f32
+
+// ANCHOR: light_of_capped_way
+/// What a way brings in a closed room whose walls shine with 1 and send on this share, cut off after so many legs.
+#[must_use]
+pub fn light_of_capped_way(albedo: f64, legs: u32) -> f64 {
+    let (mut light, mut share) = (0.0, 1.0);
+    for _ in 0..legs {
+        light += share;
+        share *= albedo;
+    }
+    light
+}
+// ANCHOR_END: light_of_capped_way

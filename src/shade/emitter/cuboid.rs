@@ -1,0 +1,101 @@
+use super::LightPoint;
+use super::parallelogram::{parallelogram_density, parallelogram_point, parallelogram_solid_angle};
+use crate::extract::{EmittingCuboid, Parallelogram};
+use glam::DVec3;
+
+/// The faces of a cuboid that face a point, and how much of its sight each fills.
+#[derive(Clone, Copy, Debug)]
+pub struct CuboidSeen {
+    /// In sr: the faces at the ends of the three edges, then those at their beginnings; 0 for a face that is hidden.
+    pub solid_angles: [f64; 6],
+    /// Their sum.
+    pub whole: f64,
+}
+
+impl CuboidSeen {
+    /// From outside up to three faces are seen, from inside all six.
+    #[inline(always)]
+    pub fn new(cuboid: &EmittingCuboid, from: DVec3) -> Self {
+        let inside = cuboid.holds(from);
+        let mut solid_angles = [0.0; 6];
+        for (number, solid_angle) in solid_angles.iter_mut().enumerate() {
+            let face = face(cuboid, number);
+            let before = face.normal.dot(from - face.centre);
+            if inside || before > 0.0 {
+                *solid_angle = parallelogram_solid_angle(&face, from);
+            }
+        }
+        Self { solid_angles, whole: solid_angles.iter().sum() }
+    }
+}
+
+/// A point of a cuboid: a face is chosen by how much it fills, then a point on it.
+#[inline(always)]
+pub fn cuboid_point(cuboid: &EmittingCuboid, from: DVec3, u: [f64; 2]) -> LightPoint {
+    let seen = CuboidSeen::new(cuboid, from);
+    let at = u[0] * seen.whole;
+    let (mut chosen, mut before, mut passed) = (None, 0.0, 0.0);
+    for (number, &solid_angle) in seen.solid_angles.iter().enumerate() {
+        if solid_angle > 0.0 && (chosen.is_none() || at >= passed) {
+            (chosen, before) = (Some(number), passed);
+        }
+        passed += solid_angle;
+    }
+    let Some(number) = chosen else { return LightPoint::NONE };
+    let chance = seen.solid_angles[number] / seen.whole;
+    let first = ((at - before) / seen.solid_angles[number]).clamp(0.0, 1.0);
+    let point = parallelogram_point(&face(cuboid, number), from, [first, u[1]]);
+    LightPoint { density: chance * point.density, ..point }
+}
+
+/// How likely [`cuboid_point`] was to choose a direction, in 1/sr; `to` leads to the cuboid's point there.
+#[inline(always)]
+pub fn cuboid_density(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
+    let seen = CuboidSeen::new(cuboid, from);
+    let at = from + to - cuboid.centre;
+    let share = |number: usize| {
+        let face = face(cuboid, number);
+        let out = face.centre - cuboid.centre;
+        face.normal.dot(at) / face.normal.dot(out)
+    };
+    let mut nearest = 0;
+    for number in 1..6 {
+        if share(number) > share(nearest) {
+            nearest = number;
+        }
+    }
+    let density = parallelogram_density(&face(cuboid, nearest), from, to);
+    if seen.whole > 0.0 { density * (seen.solid_angles[nearest] / seen.whole) } else { 0.0 }
+}
+
+/// Where a ray aimed at a cuboid meets it: where it has entered all slabs, or from inside left one.
+#[inline(always)]
+pub fn cuboid_distance(cuboid: &EmittingCuboid, from: DVec3, direction: DVec3) -> f64 {
+    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let normal = cuboid.normals[axis];
+        let (half, along) = (normal.dot(cuboid.half_edges[axis]), normal.dot(direction));
+        if along == 0.0 {
+            continue;
+        }
+        let to_middle = normal.dot(cuboid.centre - from);
+        let reach = if along > 0.0 { half } else { -half };
+        enters = enters.max((to_middle - reach) / along);
+        leaves = leaves.min((to_middle + reach) / along);
+    }
+    if cuboid.holds(from) { leaves } else { enters }
+}
+
+/// One of the six faces, its normal outward.
+#[inline(always)]
+fn face(cuboid: &EmittingCuboid, number: usize) -> Parallelogram {
+    let axis = number % 3;
+    let sign = if number < 3 { 1.0 } else { -1.0 };
+    let half_edges = [cuboid.half_edges[(axis + 1) % 3], cuboid.half_edges[(axis + 2) % 3]];
+    Parallelogram {
+        centre: cuboid.centre + cuboid.half_edges[axis] * sign,
+        half_edges,
+        normal: cuboid.normals[axis] * sign,
+        is_rectangle: cuboid.is_square,
+    }
+}

@@ -1,0 +1,95 @@
+//! Points on lights with an area: how one is chosen, seen from a point, and how likely each was to be.
+//!
+//! Reads: a light's shape, the point that is lit, a point of the unit square.
+//! Gives: the way to a point on the light and its density per unit of solid angle at the lit point, in 1/sr, f64.
+//! Space: any one space; the kit's is render space.
+
+mod cuboid;
+mod disk;
+mod parallelogram;
+mod sphere;
+mod triangle;
+
+pub use cuboid::{CuboidSeen, cuboid_density, cuboid_distance, cuboid_point};
+pub use disk::{disk_density, disk_point};
+pub use parallelogram::{
+    RectangleSeen, parallelogram_area_density, parallelogram_area_point, parallelogram_density, parallelogram_point,
+};
+pub use sphere::{cone_versine, sphere_density, sphere_distance, sphere_point};
+pub use triangle::{
+    TriangleSeen, triangle_area_density, triangle_area_point, triangle_density, triangle_point, triangle_solid_angle,
+};
+
+use crate::extract::Emitter;
+use glam::DVec3;
+
+/// A point on a light, as seen from the point that is lit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightPoint {
+    /// From the lit point to it, in scene units.
+    pub to: DVec3,
+    /// How likely a direction about this one was to be chosen, in 1/sr; 0 where the light has no side to be seen.
+    pub density: f64,
+}
+
+impl LightPoint {
+    /// No point: the light is seen from its edge.
+    pub const NONE: Self = Self { to: DVec3::ZERO, density: 0.0 };
+}
+
+/// A point of a light for a point of the unit square.
+#[inline(always)]
+pub fn point_on(emitter: &Emitter, from: DVec3, u: [f64; 2]) -> LightPoint {
+    match emitter {
+        Emitter::Sphere { centre, radius } => sphere_point(*centre - from, *radius, u),
+        Emitter::Rectangle(rectangle) => parallelogram_point(rectangle, from, u),
+        Emitter::Disk(disk) => disk_point(disk, from, u),
+        Emitter::Triangle { corners, .. } => triangle_point(corners, from, u),
+        Emitter::Cuboid(cuboid) => cuboid_point(cuboid, from, u),
+    }
+}
+
+/// How likely [`point_on`] was to choose a direction about that to a point of the light, in 1/sr.
+#[inline(always)]
+pub fn density_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
+    match emitter {
+        Emitter::Sphere { centre, radius } => sphere_density(*centre - from, *radius),
+        Emitter::Rectangle(rectangle) => parallelogram_density(rectangle, from, at - from),
+        Emitter::Disk(disk) => disk_density(disk, from, at - from),
+        Emitter::Triangle { corners, .. } => triangle_density(corners, from, at - from),
+        Emitter::Cuboid(cuboid) => cuboid_density(cuboid, from, at - from),
+    }
+}
+
+/// Where a ray that was aimed at a light meets it; its direction may be rounded, and so miss the light by that much.
+///
+/// In lengths of the direction.
+#[inline(always)]
+pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
+    match emitter {
+        Emitter::Sphere { centre, radius } => sphere_distance(*centre - from, *radius, direction),
+        Emitter::Rectangle(flat) | Emitter::Disk(flat) => {
+            flat.normal.dot(flat.centre - from) / flat.normal.dot(direction)
+        }
+        Emitter::Triangle { corners, normal } => normal.dot(corners[0] - from) / normal.dot(direction),
+        Emitter::Cuboid(cuboid) => cuboid_distance(cuboid, from, direction),
+    }
+}
+
+// ANCHOR: density_from_area
+/// The density per unit of solid angle of a point chosen evenly on a flat area: d² / (A cos θ), θ at the light.
+///
+/// 0 where the area is seen from its edge, for then it fills no solid angle.
+#[inline(always)]
+pub fn density_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
+    // Not yet over d.
+    let cosine = unit_normal.dot(to).abs();
+    if cosine > 0.0 { to.length_squared() * to.length() / (area * cosine) } else { 0.0 }
+}
+// ANCHOR_END: density_from_area
+
+/// The angle whose sine and cosine are in this proportion, from 0 to π.
+#[inline(always)]
+fn angle_of(sine: f64, cosine: f64) -> f64 {
+    libm::atan2(sine, cosine)
+}

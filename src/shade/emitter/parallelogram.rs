@@ -1,0 +1,225 @@
+use super::triangle::{LEAST_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
+use super::{LightPoint, angle_of, density_from_area};
+use crate::extract::Parallelogram;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// From farther than this many half diagonals a parallelogram is aimed at by its area: there its points are nearly equally
+/// near and equally slanted, so that the angles of [`RectangleSeen`] would cost more than they bring.
+const FAR: f64 = 3.0;
+/// A rectangle that fills less than this many sr is aimed at as the two triangles that it is.
+///
+/// Its solid angle is what four angles have more than 360°, so it is off by some 10⁻¹⁵ sr.
+const LEAST_OF_FOUR_ANGLES: f64 = 1e-4;
+
+/// A rectangle as the lit point sees it, in its own axes: from x₀ to x₁, from y₀ to y₁, at the depth z below 0.
+#[derive(Clone, Copy, Debug)]
+pub struct RectangleSeen {
+    x: [f64; 2],
+    y: [f64; 2],
+    z: f64,
+    axes: [DVec3; 3],
+    /// Cosine and sine of what the angles at the last two corners leave of a full turn.
+    first_angle: [f64; 2],
+    /// Parts along z of the unit normals of the planes through the lit point and the edges y₀ and y₁.
+    lean: [f64; 2],
+    /// What the rectangle fills, in sr.
+    pub solid_angle: f64,
+}
+
+impl RectangleSeen {
+    // ANCHOR: rectangle_seen
+    /// The rectangle with these half edges across each other, seen from a point.
+    ///
+    /// The plane through the lit point and an edge at y leans by −y / √(y² + z²); two such planes meet at the angle whose
+    /// cosine is minus the product of how they lean, and the four angles are 2π and the solid angle together.
+    /// They are added as turns, pairs of a cosine and a sine, so that only their sum is asked of an arc tangent.
+    #[inline(always)]
+    pub fn new(centre: DVec3, half_edges: [DVec3; 2], from: DVec3) -> Self {
+        let [a, b] = half_edges.map(|half| half.length());
+        let (right, up) = (half_edges[0] / a, half_edges[1] / b);
+        let ahead = right.cross(up);
+        let to = centre - from;
+        let (x, y, height) = (right.dot(to), up.dot(to), ahead.dot(to));
+        let axes = if height > 0.0 { [right, up, -ahead] } else { [right, up, ahead] };
+        let (x, y, z) = ([x - a, x + a], [y - b, y + b], -height.abs());
+        let lean = |at: f64| at / (at * at + z * z).sqrt();
+        let steep = |at: f64| z * z / (at * at + z * z);
+        // In the order of the edges y₀, x₁, y₁, x₀.
+        let leans = [-lean(y[0]), lean(x[1]), lean(y[1]), -lean(x[0])];
+        let steeps = [steep(y[0]), steep(x[1]), steep(y[1]), steep(x[0])];
+        let corner = |i: usize, j: usize| {
+            let sine_squared = steeps[i] + leans[i] * leans[i] * steeps[j];
+            [-leans[i] * leans[j], sine_squared.sqrt()]
+        };
+        let [before, after] = [add_turns(corner(0, 1), corner(1, 2)), add_turns(corner(2, 3), corner(3, 0))];
+        let [cosine, sine] = add_turns(before, after);
+        let angle = angle_of(sine, cosine);
+        // More than half a turn only from near; else less than 0 is rounding.
+        let near = z * z < a * a + b * b;
+        let angle = if angle < 0.0 && near { angle + TAU } else { angle.max(0.0) };
+        let solid_angle = if z < 0.0 { angle } else { 0.0 };
+        Self { x, y, z, axes, first_angle: [after[0], -after[1]], lean: [leans[0], leans[2]], solid_angle }
+    }
+    // ANCHOR_END: rectangle_seen
+
+    // ANCHOR: rectangle_at
+    /// The way to a point of the rectangle, evenly over its solid angle (Ureña, Fajardo and King 2013).
+    ///
+    /// The first number picks x so that what lies left of it fills that share of the solid angle; the second picks y, where
+    /// the sine of the angle up from the plane y = 0 is spread evenly.
+    #[inline(always)]
+    pub fn at(&self, u: [f64; 2]) -> DVec3 {
+        let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
+        let (sine, cosine) = libm::sincos(u[0] * self.solid_angle);
+        let [cosine, sine] = add_turns([cosine, sine], self.first_angle);
+        let f = (cosine * self.lean[0] - self.lean[1]) / sine;
+        // f² + lean² − 1 with 1 − lean² in one piece.
+        let rest = f * f - z * z / (y0 * y0 + z * z);
+        let x = -f.signum() * z / rest.max(0.0).sqrt();
+        let x = if x.is_nan() { x0 + u[0] * (x1 - x0) } else { x.clamp(x0, x1) };
+        self.along(x, [y0, y1], u[1])
+    }
+    // ANCHOR_END: rectangle_at
+
+    /// The way to the point at this x and at a y between two, evenly over the sine of its angle.
+    #[inline(always)]
+    fn along(&self, x: f64, y: [f64; 2], u: f64) -> DVec3 {
+        let [low, high] = self.sines(x, y);
+        let sine = low + u * (high - low);
+        let depth = (x * x + self.z * self.z).sqrt();
+        let at = sine * depth / (1.0 - sine * sine).max(f64::MIN_POSITIVE).sqrt();
+        let at = at.clamp(y[0], y[1]);
+        self.axes[0] * x + self.axes[1] * at + self.axes[2] * self.z
+    }
+
+    /// The sines of the angles of two points at this x, up from the plane y = 0.
+    #[inline(always)]
+    fn sines(&self, x: f64, y: [f64; 2]) -> [f64; 2] {
+        let depth_squared = x * x + self.z * self.z;
+        y.map(|y| y / (y * y + depth_squared).sqrt())
+    }
+
+    /// The half of the piece of the line at an x that lies in the ellipse whose box this rectangle is.
+    #[inline(always)]
+    fn half_chord(&self, x: f64) -> f64 {
+        let [half_x, half_y] = [self.x, self.y].map(|ends| 0.5 * (ends[1] - ends[0]));
+        let share = (x - self.x[0]) * (self.x[1] - x);
+        half_y * (share.max(0.0)).sqrt() / half_x
+    }
+
+    /// The way to a point of the ellipse whose box this rectangle is, and its density: x as for the rectangle, y within the
+    /// ellipse.
+    #[inline(always)]
+    pub(super) fn in_ellipse(&self, u: [f64; 2]) -> LightPoint {
+        let x = self.axes[0].dot(self.at(u));
+        let (middle, half) = (0.5 * (self.y[0] + self.y[1]), self.half_chord(x));
+        let to = self.along(x, [middle - half, middle + half], u[1]);
+        LightPoint { to, density: self.ellipse_density(to) }
+    }
+
+    /// How likely [`Self::in_ellipse`] was to choose a direction, in 1/sr; without end at the two ends, which are points.
+    #[inline(always)]
+    pub(super) fn ellipse_density(&self, to: DVec3) -> f64 {
+        let x = self.axes[0].dot(to) * (self.z / self.axes[2].dot(to));
+        let (middle, half) = (0.5 * (self.y[0] + self.y[1]), self.half_chord(x));
+        let [low, high] = self.sines(x, self.y);
+        let [chord_low, chord_high] = self.sines(x, [middle - half, middle + half]);
+        (high - low) / ((chord_high - chord_low) * self.solid_angle)
+    }
+}
+
+/// One turn after another, each as its cosine and sine.
+#[inline(always)]
+fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
+/// A point of a parallelogram: evenly over the directions that it fills, or over its area where it is far.
+#[inline(always)]
+pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
+    match Seen::of(shape, from) {
+        Seen::Rectangle(seen) => LightPoint { to: seen.at(u), density: 1.0 / seen.solid_angle },
+        Seen::Triangles(solid_angles) => {
+            let whole = solid_angles[0] + solid_angles[1];
+            let at = u[0] * whole;
+            let (which, before) = if at < solid_angles[0] { (0, 0.0) } else { (1, solid_angles[0]) };
+            let first = ((at - before) / solid_angles[which]).clamp(0.0, 1.0);
+            let corners = halves(shape)[which].map(|corner| corner - from);
+            LightPoint { to: TriangleSeen::new(corners, solid_angles[which]).at([first, u[1]]), density: 1.0 / whole }
+        }
+        Seen::Small => parallelogram_area_point(shape, from, u),
+    }
+}
+
+/// How likely [`parallelogram_point`] was to choose a direction, in 1/sr; `to` leads to the light's point there.
+#[inline(always)]
+pub fn parallelogram_density(shape: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
+    match Seen::of(shape, from) {
+        Seen::Rectangle(seen) => 1.0 / seen.solid_angle,
+        Seen::Triangles(solid_angles) => 1.0 / (solid_angles[0] + solid_angles[1]),
+        Seen::Small => parallelogram_area_density(shape, to),
+    }
+}
+
+/// A point of a parallelogram, evenly over its area.
+#[inline(always)]
+pub fn parallelogram_area_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
+    let [x, y] = shape.half_edges;
+    let to = shape.centre - from + x * (2.0 * u[0] - 1.0) + y * (2.0 * u[1] - 1.0);
+    LightPoint { to, density: parallelogram_area_density(shape, to) }
+}
+
+/// The density of [`parallelogram_area_point`], in 1/sr.
+#[inline(always)]
+pub fn parallelogram_area_density(shape: &Parallelogram, to: DVec3) -> f64 {
+    density_from_area(to, shape.normal, shape.area())
+}
+
+/// The solid angle of a parallelogram, in sr; where it is small, what its area would fill at its middle.
+#[inline(always)]
+pub(super) fn parallelogram_solid_angle(shape: &Parallelogram, from: DVec3) -> f64 {
+    match Seen::of(shape, from) {
+        Seen::Rectangle(seen) => seen.solid_angle,
+        Seen::Triangles(solid_angles) => solid_angles[0] + solid_angles[1],
+        Seen::Small => {
+            let to = shape.centre - from;
+            shape.normal.dot(to).abs() * shape.area() / (to.length_squared() * to.length())
+        }
+    }
+}
+
+/// How a parallelogram is aimed at from a point.
+enum Seen {
+    Rectangle(RectangleSeen),
+    Triangles([f64; 2]),
+    Small,
+}
+
+impl Seen {
+    #[inline(always)]
+    fn of(shape: &Parallelogram, from: DVec3) -> Self {
+        let [x, y] = shape.half_edges;
+        let half_diagonal_squared = x.length_squared() + y.length_squared() + 2.0 * x.dot(y).abs();
+        if (from - shape.centre).length_squared() > FAR * FAR * half_diagonal_squared {
+            return Self::Small;
+        }
+        if shape.is_rectangle {
+            let seen = RectangleSeen::new(shape.centre, shape.half_edges, from);
+            if seen.solid_angle >= LEAST_OF_FOUR_ANGLES {
+                return Self::Rectangle(seen);
+            }
+        }
+        let solid_angles = halves(shape).map(|half| triangle_solid_angle(&half.map(|corner| corner - from)));
+        let enough = solid_angles[0] + solid_angles[1] >= LEAST_SOLID_ANGLE;
+        if enough { Self::Triangles(solid_angles) } else { Self::Small }
+    }
+}
+
+/// The two triangles that a parallelogram is.
+#[inline(always)]
+fn halves(shape: &Parallelogram) -> [[DVec3; 3]; 2] {
+    let (centre, [x, y]) = (shape.centre, shape.half_edges);
+    let [a, b, c, d] = [centre - x - y, centre + x - y, centre + x + y, centre - x + y];
+    [[a, b, c], [a, c, d]]
+}

@@ -1,0 +1,196 @@
+//! Pinhole beside Mitsuba 3 on the public scenes: error against run time, in turns, on one machine.
+//!
+//! `cargo bench --bench peers -- --peers FOLDER --python PROGRAM` runs both; FOLDER holds `mitsuba_bench.py`, `scenes.py`
+//! and references in `ref/`, PROGRAM is a Python that has numpy and mitsuba.
+//! `--variant scalar_rgb`, `--scenes cornell,veach-mis`, `--samples 4,16,64`, `--rounds 5` and `--sampler sobol` ask for
+//! less or other; without `--python` only pinhole runs and its images are held against the references.
+//! relMSE is the mean of (x − r)² / (r² + 0.01); the reference's own is subtracted from both sides.
+#![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
+
+#[allow(dead_code, reason = "a benchmark takes what it needs")]
+mod interval;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+
+use interval::interval;
+use pinhole::measure::image_error::{Numbers, image_error};
+use pinhole::measure::image_file::read_numbers;
+use pinhole::render::{Execution, RenderUnderWay};
+use pinhole::report::distribution::normal_share;
+use pinhole::report::run::numbers;
+use pinhole::scene::{LightSampling, Sampler, Sampling};
+use scenes::public::{PUBLIC, public};
+use scenes::{named, offer};
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Instant;
+
+/// The relMSE of each reference, as shared/peers/README.md states it.
+fn of_reference(scene: &str) -> f64 {
+    match scene {
+        "veach-mis" => 2.9e-4,
+        "cornell-glass" => 4.9e-4,
+        _ => 4.5e-5,
+    }
+}
+
+struct Options {
+    peers: PathBuf,
+    python: Option<String>,
+    variants: Vec<String>,
+    scenes: Vec<String>,
+    samples: Vec<u32>,
+    rounds: u64,
+    sampler: Sampler,
+    converge: u32,
+}
+
+impl Options {
+    fn read() -> Option<Self> {
+        let words: Vec<String> = std::env::args().collect();
+        let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1)).cloned();
+        let list = |flag: &str, default: &str| -> Vec<String> {
+            after(flag).unwrap_or(default.into()).split(',').map(String::from).collect()
+        };
+        let sampler = after("--sampler").unwrap_or("independent".into());
+        Some(Self {
+            peers: after("--peers")?.into(),
+            python: after("--python"),
+            variants: list("--variant", "scalar_rgb,llvm_ad_rgb"),
+            scenes: list("--scenes", &PUBLIC.join(",")),
+            samples: list("--samples", "4,16,64").iter().filter_map(|word| word.parse().ok()).collect(),
+            rounds: after("--rounds").and_then(|word| word.parse().ok()).unwrap_or(5),
+            sampler: Sampler::ALL.iter().find(|(word, _)| *word == sampler).map(|(_, own)| *own).expect("a sampler"),
+            converge: after("--converge").and_then(|word| word.parse().ok()).unwrap_or(64),
+        })
+    }
+}
+
+/// One render: seconds, and the image.
+fn ours(scene: &str, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
+    let mut world = public(scene, LightSampling::Weighed);
+    let camera = named(&mut world, "camera");
+    world.entity_mut(camera).insert(Sampling { samples, seed, sampler, ..Sampling::default() });
+    let started = Instant::now();
+    let mut render = RenderUnderWay::begin(&world, &offer(), &Execution::default()).expect("begins");
+    render.advance(render.steps(), &()).expect("renders");
+    let seconds = started.elapsed().as_secs_f64();
+    (seconds, numbers(&render.finish().film))
+}
+
+/// Seconds and relMSE of Mitsuba's renders, one for each sample count.
+fn theirs(options: &Options, python: &str, variant: &str, scene: &str) -> Vec<(f64, f64)> {
+    let counts: Vec<String> = options.samples.iter().map(u32::to_string).collect();
+    let output = Command::new(python)
+        .arg(options.peers.join("mitsuba_bench.py"))
+        .args(["run", "--variant", variant, "--scenes", scene, "--reps", "1", "--spp", &counts.join(",")])
+        .env("PEERS_REF", options.peers.join("ref"))
+        .output()
+        .expect("Python starts");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let value = |line: &str, word: &str| -> Option<f64> {
+        line.split_whitespace().find_map(|part| part.strip_prefix(word)?.strip_prefix('=')?.parse().ok())
+    };
+    let rows: Vec<(f64, f64)> =
+        text.lines().filter_map(|line| Some((value(line, "time")?, value(line, "relmse")?))).collect();
+    assert_eq!(rows.len(), counts.len(), "Mitsuba said: {text}{}", String::from_utf8_lossy(&output.stderr));
+    rows
+}
+
+fn main() {
+    let Some(options) = Options::read() else {
+        println!("peers: nothing is run without --peers FOLDER (see the head of tests/bench/peers.rs)");
+        return;
+    };
+    for scene in &options.scenes {
+        let file = options.peers.join(format!("ref/{scene}.exr"));
+        let reference = read_numbers(&file).expect("a reference");
+        converged(scene, &reference, &options);
+        compare(scene, &reference, &options);
+    }
+}
+
+/// Blocks of the mean of many renders against the reference, each by how far chance may have moved both.
+fn converged(scene: &str, reference: &Numbers, options: &Options) {
+    const RUNS: u64 = 8;
+    const SIDE: u32 = 16;
+    let images: Vec<Numbers> =
+        (0..RUNS).map(|seed| ours(scene, options.converge, 900 + seed, Sampler::Independent).1).collect();
+    let [width, height] = reference.size;
+    let (mut tests, mut apart, mut worst) = (0, 0, 0.0_f64);
+    let limit = {
+        let count = f64::from(width.div_ceil(SIDE) * height.div_ceil(SIDE) * 3);
+        1.0 - 0.99_f64.powf(1.0 / count)
+    };
+    let mut squares = 0.0;
+    for (y, x) in
+        (0..height).step_by(SIDE as usize).flat_map(|y| (0..width).step_by(SIDE as usize).map(move |x| (y, x)))
+    {
+        for part in 0..3 {
+            let pixels: Vec<usize> = (y..(y + SIDE).min(height))
+                .flat_map(|y| (x..(x + SIDE).min(width)).map(move |x| (y * width + x) as usize))
+                .collect();
+            let of =
+                |image: &Numbers| pixels.iter().map(|&at| image.pixels[at][part]).sum::<f64>() / pixels.len() as f64;
+            let means: Vec<f64> = images.iter().map(of).collect();
+            let mean = means.iter().sum::<f64>() / RUNS as f64;
+            let own =
+                means.iter().map(|own| (own - mean) * (own - mean)).sum::<f64>() / (RUNS - 1) as f64 / RUNS as f64;
+            let spread = pixels.iter().map(|&at| reference.pixels[at][part].powi(2) + 0.01).sum::<f64>();
+            let of_reference = of_reference(scene) * spread / (pixels.len() as f64).powi(2);
+            let z = (mean - of(reference)) / (own + of_reference).sqrt();
+            squares += z * z;
+            tests += 1;
+            worst = worst.max(z.abs());
+            apart += usize::from(2.0 * normal_share(-z.abs()) < limit);
+        }
+    }
+    println!(
+        "{scene}: mean of {RUNS} renders with {} samples against the reference: {apart} of {tests} blocks apart, worst {worst:.1} SE, root mean square {:.2} SE",
+        options.converge,
+        (squares / f64::from(tests)).sqrt()
+    );
+}
+
+/// Efficiency, 1 / (relMSE · seconds), ours over theirs.
+fn compare(scene: &str, reference: &Numbers, options: &Options) {
+    let own_error = |image: &Numbers| image_error(reference, image).expect("one size").means.expect("means").rel_mse;
+    let less = of_reference(scene);
+    let run = |samples, seed| {
+        let (seconds, image) = ours(scene, samples, seed, options.sampler);
+        (seconds, own_error(&image) - less)
+    };
+    let Some(python) = &options.python else {
+        for &samples in &options.samples {
+            let (seconds, error) = run(samples, 1);
+            println!(
+                "{scene} {samples} samples: {seconds:.3} s, relMSE {error:.5}, efficiency {:.1}",
+                1.0 / (error * seconds)
+            );
+        }
+        return;
+    };
+    for variant in &options.variants {
+        let mut logs: Vec<Vec<f64>> = vec![Vec::new(); options.samples.len()];
+        let mut last = Vec::new();
+        for round in 0..options.rounds {
+            let own: Vec<(f64, f64)> = options.samples.iter().map(|&samples| run(samples, 10 + round)).collect();
+            let other = theirs(options, python, variant, scene);
+            last = own.iter().copied().zip(other.iter().copied()).collect();
+            for (level, (own, other)) in last.iter().enumerate() {
+                let efficiency = |(seconds, error): (f64, f64)| 1.0 / (seconds * error);
+                logs[level].push((efficiency(*own) / efficiency((other.0, other.1 - less))).ln());
+            }
+        }
+        for (level, &samples) in options.samples.iter().enumerate() {
+            let (low, middle, high) = interval(&logs[level]);
+            let ((seconds, error), (their_seconds, their_error)) = last[level];
+            println!(
+                "{scene} {samples} samples, {:?} against {variant}: efficiency ratio {middle:.2} [{low:.2}, {high:.2}] of {} rounds; last: {seconds:.3} s relMSE {error:.5}, theirs {their_seconds:.3} s {:.5}",
+                options.sampler,
+                options.rounds,
+                their_error - less
+            );
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What pages 22 and 25 say of rays to the sky and of ways of light, from closed forms and sums.
+
+use crate::page_says;
+use pinhole::film::{Curve, byte_from_linear};
+use pinhole::naive::path::{
+    light_of_capped_way, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
+};
+
+/// Slices of the half ball, or rings of the disk.
+const SLICES: u32 = 1_000_000;
+
+/// Mean and variance of what a ray counts whose direction's height is drawn so, where it sees the sky by its height and
+/// the share of turns at which nothing else is in the way.
+fn mean_and_variance(counts: impl Fn(f64) -> f64, turns: f64) -> [f64; 2] {
+    let (mut mean, mut square) = (0.0, 0.0);
+    for slice in 0..SLICES {
+        let count = counts((f64::from(slice) + 0.5) / f64::from(SLICES));
+        mean += turns * count / f64::from(SLICES);
+        square += turns * count * count / f64::from(SLICES);
+    }
+    [mean, square - mean * mean]
+}
+
+#[test]
+fn directions_vary_as_page_22_says() {
+    let page = "22_ambient_occlusion.md";
+    let mut ratio = 0.0;
+    for (name, share, lowest, turns) in [
+        ("nothing", "1", 1.0, 1.0),
+        ("an endless wall, straight up", "0.5", 1.0, 0.5),
+        ("a ball overhead, $r/h = 0.8$", "0.36", 0.6, 1.0),
+    ] {
+        let seen = |height: f64| f64::from(u8::from(height < lowest));
+        let alike = |u: f64| {
+            let height = uniform_direction([u, 0.0])[2];
+            seen(height) * uniform_weight(1.0, height)
+        };
+        let [of_alike, of_dense] =
+            [mean_and_variance(alike, turns), mean_and_variance(|u| seen((1.0 - u).sqrt()), turns)];
+        let expected: f64 = share.parse().expect("a number");
+        assert!((of_alike[0] - expected).abs() < 1e-5 && (of_dense[0] - expected).abs() < 1e-5, "{name}");
+        let [alike, dense] = [of_alike[1], of_dense[1]].map(f64::abs);
+        page_says(page, &format!("| {name} | {share} | {alike:.3} | {dense:.3} |"));
+        if turns < 1.0 {
+            ratio = alike / dense;
+        }
+    }
+    page_says(page, &format!("needs {ratio:.1} times the rays"));
+    let [plain, _] = mean_and_variance(|u| f64::from(u8::from(uniform_direction([u, 0.0])[2] < 0.6)), 1.0);
+    page_says(page, &format!("$\\sqrt{{1 - 0.64}} = {plain:.1}$, instead of 0.36"));
+}
+
+#[test]
+fn a_cap_loses_what_page_25_says() {
+    let page = "25_path_tracing.md";
+    let left = |albedo: f64| light_of_capped_way(albedo, 64) * (1.0 - albedo);
+    page_says(page, &format!("{:.3} of the light is left. At 0.9999 it is {:.4}.", left(0.99), left(0.9999)));
+}
+
+#[test]
+fn factors_too_many_are_what_page_25_says() {
+    let page = "25_path_tracing.md";
+    page_says(page, &format!("twice what it may, {:.1}.", weight_without_cosine(0.8)));
+    page_says(page, &format!("$0.8\\,\\pi = {:.2}$", weight_without_pi(0.8)));
+    let once = byte_from_linear(0.5, Curve::Srgb);
+    let twice = byte_from_linear(f32::from(once) / 255.0, Curve::Srgb);
+    page_says(page, &format!("half the light is byte {once}, and twice encoded {twice}"));
+}

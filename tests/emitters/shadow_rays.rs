@@ -1,0 +1,237 @@
+//! Rays to lights with an area: a light never stands in its own way, and what stands before it always does.
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::RunSystemOnce;
+use glam::{DQuat, DVec3, Vec3};
+use pinhole::extract::{
+    AreaLightTable, CuboidTable, DiskTable, PlaneTable, RectangleTable, SamplingTable, SphereTable, TriangleTable,
+};
+use pinhole::intersect::{
+    MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_cuboids, intersect_disks, intersect_planes,
+    intersect_rectangles, intersect_spheres, intersect_triangles, offset_bound,
+};
+use pinhole::measure::ray_aim::Draws;
+use pinhole::plan::{Column, Shared, Table};
+use pinhole::rays::{SampleNumber, Tile};
+use pinhole::scene::*;
+use pinhole::shade::emitter::point_on;
+use pinhole::shade::{LightDensities, LightRays, ShadowHits, aim_at_area_lights, area_light_density, start_shadows};
+
+/// Surfaces at once.
+const ROWS: u32 = 1024;
+
+fn share<T: Table>(world: &mut World, scene: &World) {
+    world.insert_resource(Shared::new(T::extract(scene).expect("a table")));
+}
+
+/// A world with the stages' tables and one tile.
+fn tile_world(scene: &World) -> (World, Entity) {
+    let mut world = World::new();
+    share::<AreaLightTable>(&mut world, scene);
+    share::<SamplingTable>(&mut world, scene);
+    share::<SphereTable>(&mut world, scene);
+    share::<DiskTable>(&mut world, scene);
+    share::<RectangleTable>(&mut world, scene);
+    share::<CuboidTable>(&mut world, scene);
+    share::<TriangleTable>(&mut world, scene);
+    share::<PlaneTable>(&mut world, scene);
+    let columns = (
+        Surfaces::default(),
+        MaterialRows::default(),
+        LightRays::default(),
+        LightDensities::default(),
+        ShadowHits::default(),
+    );
+    let tile = world.spawn((Tile { x: 0, y: 0, width: 32, height: 32 }, SampleNumber(0), columns)).id();
+    (world, tile)
+}
+
+/// Aims from these surfaces and looks for everything in the way: how many rays were sent, and what each met.
+fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) -> (usize, Vec<u32>) {
+    let mut entity = world.entity_mut(tile);
+    entity.insert(SampleNumber(sample));
+    {
+        let mut columns = entity.get_mut::<Surfaces>().expect("surfaces");
+        columns.slices_mut(surfaces.len());
+        surfaces.iter().enumerate().for_each(|(row, &surface)| columns.set(row, surface));
+    }
+    entity.get_mut::<MaterialRows>().expect("rows").row = (0..surfaces.len() as u32).collect();
+    entity.get_mut::<LightRays>().expect("rays").clear();
+    entity.get_mut::<LightDensities>().expect("densities").clear();
+    world.run_system_once(aim_at_area_lights).expect("runs");
+    world.run_system_once(start_shadows).expect("runs");
+    world.run_system_once(intersect_spheres::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_disks::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_rectangles::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_cuboids::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_triangles::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_planes::<LightRays, ShadowHits>).expect("runs");
+    let entity = world.entity(tile);
+    let rays = entity.get::<LightRays>().expect("rays");
+    assert_eq!(entity.get::<LightDensities>().expect("densities").rows(), rays.rows());
+    (rays.rows(), entity.get::<ShadowHits>().expect("hits").shape.clone())
+}
+
+type Lamp = fn(&mut World, Placement, f64);
+
+/// Every kind of light, of about this size.
+const LAMPS: [(&str, Lamp); 8] = [
+    ("sphere", |w, at, size| {
+        w.spawn((Sphere { radius: size }, at, Emissive::default()));
+    }),
+    ("disk", |w, at, size| {
+        w.spawn((Disk { radius: size }, at, Emissive::default()));
+    }),
+    ("ellipse", |w, at, size| {
+        let scale = DVec3::new(1.0, 1.0, 0.3);
+        w.spawn((Disk { radius: size }, Placement { scale, ..at }, Emissive::default()));
+    }),
+    ("rectangle", |w, at, size| {
+        w.spawn((Rectangle { width: size, depth: 2.0 * size }, at, Emissive::default()));
+    }),
+    ("parallelogram", |w, at, size| {
+        let lean = Placement { orientation: DQuat::from_xyzw(0.1, 0.5, 0.2, 0.8).normalize(), ..Placement::default() };
+        let parent = w.spawn(Placement { scale: DVec3::new(1.0, 0.4, 1.0), ..at }).id();
+        w.spawn((Rectangle { width: size, depth: size }, lean, ChildOf(parent), Emissive::default()));
+    }),
+    ("triangle", |w, at, size| {
+        let vertices = [DVec3::ZERO, DVec3::new(size, 0.2 * size, 0.0), DVec3::new(0.3 * size, 0.0, size)];
+        w.spawn((Triangle { vertices, ..Triangle::default() }, at, Emissive::default()));
+    }),
+    ("cuboid", |w, at, size| {
+        w.spawn((Cuboid { size: DVec3::new(1.0, 0.3, 2.0) * size }, at, Emissive::default()));
+    }),
+    ("several", |w, at, size| {
+        w.spawn((Sphere { radius: size }, at, Emissive::default()));
+        let beside = at.position + DVec3::new(9.0, 2.0, -9.0) * size;
+        w.spawn((Rectangle { width: size, depth: size }, Placement { position: beside, ..at }, Emissive::default()));
+    }),
+];
+
+fn lit_scene(lamp: Lamp, at: Placement, size: f64) -> World {
+    let mut scene = World::new();
+    scene.spawn((PerspectiveCamera::default(), Placement::default()));
+    lamp(&mut scene, at, size);
+    scene
+}
+
+fn turned(draws: &mut Draws) -> DQuat {
+    let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
+    DQuat::from_xyzw(x, y, z, w).normalize()
+}
+
+/// From as near as rounding lets a surface come, to a thousand sizes away.
+#[test]
+fn no_light_stands_in_its_own_way() {
+    let (mut sent, mut blocked) = (0, 0);
+    for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
+        for case in 0..24 {
+            let mut draws = Draws::new(500 + index as u64, case);
+            let size = draws.power_of_ten(-3.0, 3.0);
+            let far_off = draws.unit_vector() * (size * draws.power_of_ten(-1.0, 3.0));
+            let at = Placement { position: far_off, orientation: turned(&mut draws), ..Placement::default() };
+            let scene = lit_scene(lamp, at, size);
+            let (mut world, tile) = tile_world(&scene);
+            let lights = AreaLightTable::extract(&scene).expect("lights");
+            let surfaces: Vec<Surface> = (0..ROWS)
+                .map(|row| {
+                    let mut draws = Draws::new(900 + case, u64::from(row));
+                    let from = far_off + draws.unit_vector() * size * 3.0;
+                    let on = from + point_on(&lights.emitter[0], from, [draws.unit(), draws.unit()]).to;
+                    let away = draws.unit_vector() * (size * draws.power_of_ten(-7.0, 3.0));
+                    let position = (on + away).as_vec3();
+                    let normal = (-away.normalize() + 0.9 * draws.unit_vector()).normalize().as_vec3();
+                    let bound = offset_bound(position.as_dvec3(), DVec3::ZERO, size);
+                    Surface { position, normal, bound, material: 0 }
+                })
+                .collect();
+            for sample in 0..2 {
+                let (rays, met) = traced(&mut world, tile, &surfaces, sample);
+                let in_the_way = met.iter().filter(|&&shape| shape != NO_SHAPE).count();
+                // Of several, one may hide the other.
+                if lights.emitter.len() == 1 {
+                    assert_eq!(in_the_way, 0, "{name}, case {case}, size {size:e} at {far_off}");
+                    blocked += in_the_way;
+                }
+                sent += rays;
+            }
+        }
+    }
+    eprintln!("light rays: {sent} sent to 8 kinds of light, {blocked} stopped by the light itself");
+    assert!(sent > 100_000);
+}
+
+/// Surfaces below a plane, lights above it.
+#[test]
+fn what_stands_before_a_light_hides_it() {
+    let mut sent = 0;
+    for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
+        for case in 0..8 {
+            let mut draws = Draws::new(1500 + index as u64, case);
+            let (size, height) = (draws.power_of_ten(-2.0, 0.0), draws.power_of_ten(-3.0, 1.0));
+            let at = Placement {
+                position: DVec3::Y * (6.0 * size + 1e-3),
+                orientation: turned(&mut draws),
+                ..Placement::default()
+            };
+            let mut scene = lit_scene(lamp, at, size);
+            scene.spawn((Plane::default(), Matte::default()));
+            let (mut world, tile) = tile_world(&scene);
+            let surfaces: Vec<Surface> = (0..ROWS)
+                .map(|row| {
+                    let mut draws = Draws::new(1900 + case, u64::from(row));
+                    let position = DVec3::new(draws.between(-3.0, 3.0), -height, draws.between(-3.0, 3.0)).as_vec3();
+                    let bound = offset_bound(position.as_dvec3(), DVec3::ZERO, 0.0);
+                    Surface { position, normal: Vec3::Y, bound, material: 0 }
+                })
+                .collect();
+            let (rays, met) = traced(&mut world, tile, &surfaces, 0);
+            assert!(met.iter().all(|&shape| shape != NO_SHAPE), "{name}, case {case}");
+            sent += rays;
+        }
+    }
+    eprintln!("light rays: {sent} sent at lights behind a plane, none arrived");
+    assert!(sent > 30_000);
+}
+
+/// The density beside each ray is the one that a ray which meets the light by chance is told.
+#[test]
+fn both_ways_to_a_light_know_one_density() {
+    let (mut compared, mut worst) = (0, 0.0_f64);
+    for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
+        let mut draws = Draws::new(2500, index as u64);
+        let at =
+            Placement { position: DVec3::new(0.0, 4.0, 0.0), orientation: turned(&mut draws), ..Placement::default() };
+        let scene = lit_scene(lamp, at, 1.0);
+        let lights = AreaLightTable::extract(&scene).expect("lights");
+        let chances: f64 = lights.chance.iter().sum();
+        assert_eq!(chances, 1.0);
+        let (mut world, tile) = tile_world(&scene);
+        let surfaces: Vec<Surface> = (0..ROWS)
+            .map(|row| {
+                let mut draws = Draws::new(2600, u64::from(row));
+                let position = DVec3::new(draws.between(-3.0, 3.0), 0.0, draws.between(-3.0, 3.0)).as_vec3();
+                Surface { position, normal: Vec3::Y, bound: 1e-6, material: 0 }
+            })
+            .collect();
+        traced(&mut world, tile, &surfaces, 3);
+        let entity = world.entity(tile);
+        let (rays, densities) =
+            (entity.get::<LightRays>().expect("rays"), entity.get::<LightDensities>().expect("densities"));
+        for ray in 0..rays.rows() {
+            let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+            let direction = rays.direction_of(ray);
+            let at = from + direction * f64::from(rays.reach[ray]);
+            let told = |light| area_light_density(&lights, light, from, at);
+            let nearest = (0..lights.emitter.len()).map(|light| (told(light) / densities.density[ray] - 1.0).abs());
+            let off = nearest.fold(f64::INFINITY, f64::min);
+            // The direction is rounded to f32 in between, which at a disk's ends, where its density grows without end,
+            // is much.
+            assert!(off < if matches!(name, "disk" | "ellipse") { 1e-3 } else { 2e-6 }, "{name}, ray {ray}: {off}");
+            worst = worst.max(off);
+            compared += 1;
+        }
+    }
+    eprintln!("densities: {compared} rays, worst {worst:.1e} apart");
+    assert!(compared > 4000);
+}
