@@ -238,7 +238,7 @@ fn what_stands_still_is_left_alone() {
     film(&later).assert_is(&film(&there), "at the moment 0.1");
     assert!(film(&later) != expected);
     let moves = with((shutter, Some(fast)));
-    assert!(names(&moves).contains(&"Draw times") && names(&moves).contains(&"Look for moving shapes in the way"));
+    assert!(names(&moves).contains(&"Draw times") && names(&moves).contains(&"Look for what moves in the way"));
     assert!(film(&moves) != expected);
 }
 

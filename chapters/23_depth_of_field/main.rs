@@ -43,11 +43,9 @@ fn scene(world: &mut World) {
     }
     for lamp in 0..9 {
         let (x, y) = (1.9 * f64::from(lamp) - 8.6, 2.2 + 0.9 * f64::from(lamp % 3));
-        let glow = Emissive {
-            radiance: Rgb::new(9.0, 7.0 - 0.5 * f64::from(lamp), 3.0 + 0.5 * f64::from(lamp)),
-            ..Emissive::default()
-        };
-        world.spawn((Name::new(format!("lamp {lamp}")), Sphere { radius: 0.06 }, Placement::at(x, y, -14.0), glow));
+        let (green, blue) = (2.4 - 0.2 * f64::from(lamp), 1.0 + 0.2 * f64::from(lamp));
+        let glow = Emissive { radiance: Rgb::new(3.0, green, blue), ..Emissive::default() };
+        world.spawn((Name::new(format!("lamp {lamp}")), Sphere { radius: 0.12 }, Placement::at(x, y, -14.0), glow));
     }
     world.spawn((Name::new("ground"), Plane::default(), Checker { size: 0.5, ..Checker::default() }, Matte::default()));
     let sun = DirectionalLight { irradiance: Rgb::new(2.2, 2.0, 1.8), ..DirectionalLight::default() };

@@ -141,7 +141,7 @@ pub fn triangle_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with moving shapes, each at the time of the ray that met the surface.
 pub fn moving_shadow_stage() -> Stage {
     let intersect = intersect_moving::<LightRays, ShadowHits>;
-    Stage::new("Look for moving shapes in the way", TileSystems::Occlude, intersect)
+    Stage::new("Look for what moves in the way", TileSystems::Occlude, intersect)
         .reads::<LightRays>()
         .reads::<RayTimes>()
         .reads::<ShadowHits>()

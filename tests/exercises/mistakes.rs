@@ -274,7 +274,7 @@ fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64)
 }
 
 fn not_of_length_1(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
-    lens_direction(screen, tangent, lens, focus).map(|part| 2.0 * part)
+    [screen[0] * tangent * focus - lens[0], screen[1] * tangent * focus - lens[1], -focus]
 }
 
 const AHEAD: [f64; 3] = [0.0, 0.0, -1.0];
