@@ -1,6 +1,6 @@
 use super::media::media_evidence;
 use super::{Media, Scattered};
-use crate::extract::{IntegratorTable, followed_evidence};
+use crate::extract::{IntegratorTable, filtered_evidence, followed_evidence, motion_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
 use crate::rays::{Leg, PathLight, Paths, RayTimes, WorldRays};
 use crate::shade::{Footprints, Radiance};
@@ -25,13 +25,10 @@ pub fn add_leg(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
 /// Makes the scattered rays the rays of the next leg, in the dark; none where this was the last leg.
 pub fn step_on(
     integrator: Res<Shared<IntegratorTable>>,
-    (mut kept, mut kept_times): (Local<Paths>, Local<RayTimes>),
-    mut tiles: Query<(
-        (&mut Leg, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance),
-        (Option<&mut RayTimes>, Option<&mut Footprints>),
-    )>,
+    mut kept: Local<Paths>,
+    mut tiles: Query<(&mut Leg, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance)>,
 ) {
-    for ((mut leg, scattered, mut rays, mut paths, mut radiance), (times, footprints)) in &mut tiles {
+    for (mut leg, scattered, mut rays, mut paths, mut radiance) in &mut tiles {
         leg.0 += 1;
         let rows = if leg.0 < integrator.legs { scattered.rows() } else { 0 };
         let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
@@ -45,22 +42,30 @@ pub fn step_on(
         let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.density];
         [r, g, b, density].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
         std::mem::swap(&mut *kept, &mut *paths);
-        if let Some(mut times) = times {
-            let next = kept_times.slices_mut(rows);
-            next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
-            std::mem::swap(&mut *kept_times, &mut *times);
-        }
 
         let (r, g, b) = radiance.slices_mut(rows);
         [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));
-        // What a pixel covers is known on the first leg only; later nothing is filtered.
-        if let Some(mut footprints) = footprints {
-            let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rows);
-            [rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
-        }
     }
 }
 // ANCHOR_END: step_on
+
+/// Gives the rays of the next leg the times of those that they come from.
+pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
+    for (scattered, rays, mut times) in &mut tiles {
+        let next = kept.slices_mut(rays.rows());
+        next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
+        std::mem::swap(&mut *kept, &mut *times);
+    }
+}
+
+/// Leaves the rays of the next leg no footprints: what a pixel covers is known on the first leg only, and later nothing is
+/// filtered.
+pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
+    for (rays, mut footprints) in &mut tiles {
+        let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
+        [rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
+    }
+}
 
 // ANCHOR: follow_legs
 /// Runs the schedule of a leg again and again until no tile has a ray left.
@@ -98,10 +103,31 @@ pub fn step_stage() -> Stage {
         .reads::<Scattered>()
         .reads::<WorldRays>()
         .reads::<Paths>()
+        .reads::<Radiance>()
         .writes::<WorldRays>()
         .writes::<Paths>()
+        .writes::<Radiance>()
         .table::<IntegratorTable>()
         .when(followed_evidence)
+}
+
+/// The stage that takes times along.
+pub fn times_stage() -> Stage {
+    Stage::new("Take times along", TileSystems::Step, take_times_along)
+        .reads::<Scattered>()
+        .reads::<WorldRays>()
+        .reads::<RayTimes>()
+        .writes::<RayTimes>()
+        .when(|scene| motion_evidence(scene).and(followed_evidence(scene)))
+}
+
+/// The stage that takes footprints away.
+pub fn footprints_stage() -> Stage {
+    Stage::new("Take footprints away", TileSystems::Step, take_footprints_away)
+        .reads::<WorldRays>()
+        .reads::<Footprints>()
+        .writes::<Footprints>()
+        .when(|scene| filtered_evidence(scene).and(followed_evidence(scene)))
 }
 
 /// The stage that is all later legs.

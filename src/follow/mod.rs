@@ -37,7 +37,10 @@ pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{Glint, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_density, visible_normal};
 pub use glass::{GlassWay, glass_chance_stage, glass_event, glass_stage, glass_ways, scatter_glass, split_at_glass};
 pub use last_leg::{end_at_last_leg, last_leg_stage};
-pub use leg::{add_leg, add_leg_stage, follow_legs, follow_stage, gather_light, gather_stage, step_on, step_stage};
+pub use leg::{
+    add_leg, add_leg_stage, follow_legs, follow_stage, footprints_stage, gather_light, gather_stage, step_on,
+    step_stage, take_footprints_away, take_times_along, times_stage,
+};
 pub use matte::{matte_stage, scatter_matte};
 pub use media::{
     Media, absorb_in_glass, absorb_stage, carry_media, carry_media_stage, media_evidence, start_media,
@@ -66,7 +69,7 @@ pub fn stages() -> Vec<Stage> {
         weighed_emission_stage(),
         weighed_environment_stage(),
     ]);
-    stages.extend([add_leg_stage(), step_stage(), follow_stage(), gather_stage()]);
+    stages.extend([add_leg_stage(), step_stage(), times_stage(), footprints_stage(), follow_stage(), gather_stage()]);
     stages
 }
 

@@ -1,7 +1,7 @@
 use super::disk::disk_verdict;
 use super::narrow::narrow;
 use super::rectangle::rectangle_verdict;
-use super::sphere::{LANES, RayBlock, sphere_verdict};
+use super::sphere::{LANES, RayBlock, sphere_verdict, vector};
 use super::surface::{Surface, SurfaceSides, Surfaces, offset_bound, sum_of_parts};
 use super::wide::wide_sphere_t;
 use super::wide_flat::{wide_disk_t, wide_rectangle_t};
@@ -56,9 +56,8 @@ fn moving_rows(
         let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
             let mut own = RayBlock { o: block.o, d: block.d, inverse: block.inverse };
-            for lane in 0..LANES {
-                let origin = DVec3::new(own.o[0][lane], own.o[1][lane], own.o[2][lane]);
-                let origin = at_rest(origin, *velocity, times[lane]);
+            for (lane, &time) in times.iter().enumerate() {
+                let origin = at_rest(vector(&own.o, lane), *velocity, time);
                 (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
             }
             match body {

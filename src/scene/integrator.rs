@@ -55,8 +55,8 @@ impl LightSampling {
 }
 
 impl Integrator {
-    /// Paths without a practical end.
-    pub const PATH: Self = Self::Path { legs: 1 << 20, lights: LightSampling::Weighed, roulette: 5 };
+    /// Paths that end by chance, and at the latest where light that is caught between perfect surfaces has long been lost.
+    pub const PATH: Self = Self::Path { legs: 1 << 12, lights: LightSampling::Weighed, roulette: 5 };
     /// As many legs as light still shows after.
     pub const WHITTED: Self = Self::Whitted { legs: 12 };
     /// The same.

@@ -18,7 +18,8 @@ fn every_component_of_a_scene_has_a_word() {
         for after in text.split("#[derive(").skip(1) {
             let (derived, rest) = after.split_once(')').expect("a closed derive");
             if derived.split(',').any(|word| word.trim() == "Component") {
-                let (_, named) = rest.split_once("pub struct ").expect("a component is a struct");
+                let (_, named) = rest.split_once("pub ").expect("a component is public");
+                let (_, named) = named.split_once(' ').expect("a struct or an enum, and its name");
                 components.push(named.chars().take_while(|letter| letter.is_alphanumeric()).collect::<String>());
             }
         }

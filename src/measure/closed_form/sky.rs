@@ -7,13 +7,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 pub(super) const FORMS: &[ClosedForm] = &[
-    ClosedForm {
-        name: "sky over open ground",
-        formula: "1",
-        truth: || 1.0,
-        few: 1 << 12,
-        scene: |world| ground(world),
-    },
+    ClosedForm { name: "sky over open ground", formula: "1", truth: || 1.0, few: 1 << 12, scene: ground },
     ClosedForm {
         name: "sky beside an endless wall",
         formula: "1/2",
