@@ -182,7 +182,7 @@ fn bad_views_and_pixels() {
     assert!(matches!(prepare(&scene, &offer()), Err(Error::Plan(PlanError::NoSuchView { .. }))));
     lines.push(refusal(&scene, "an unknown column"));
     let shapes = ["ball", "floor", "sail", "glossy", "satin", "glow"];
-    let lights = ["lamp", "sun", "spot"];
+    let lights = ["lamp", "sun", "spot", "glow"];
     for (word, gone) in [("surface", shapes.as_slice()), ("shadow", &lights), ("light", &lights)] {
         let mut scene = view(word);
         for name in gone {

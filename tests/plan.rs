@@ -331,7 +331,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         ("spot", "Aim at spot lights"),
         ("glossy ball", "Add Phong highlights"),
         ("satin ball", "Add Blinn–Phong highlights"),
-        ("glow", "Add what surfaces emit"),
+        ("glow", "Add what surfaces emit, as far as not aimed at"),
     ];
     for (name, stage) in kinds {
         let mut scene = toggled(&[&on[..], &scenes::MORE].concat());
@@ -432,7 +432,8 @@ fn three(noun: &str) -> String {
 fn an_emissive_surface_is_seen_and_lights_nothing() {
     let mut scene = toggled(&[Toggle::Emissive, Toggle::Plane]);
     let aimed = plan_of(&scene);
-    assert_eq!(row(&aimed, "Add what surfaces emit").reason, "1 emissive surface: \"glow\"");
+    assert_eq!(row(&aimed, "Add what surfaces emit").reason, "added as far as it is not aimed at");
+    assert!(row(&aimed, "Add what surfaces emit, as far as not aimed at").kept);
     assert!(row(&aimed, "Aim at lights with area").kept && row(&aimed, "Add the light that arrives").kept);
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert(Integrator::RayCasting);

@@ -24,6 +24,7 @@ pub struct EnvironmentLightTable {
 }
 
 impl EnvironmentLightTable {
+    // ANCHOR: environment_cells
     /// The cells of an image, each with the mean luminance of its corners times the solid angle that it fills.
     pub fn new(image: &Texels) -> Self {
         let (columns, rows) = (image.width, image.height + 1);
@@ -56,6 +57,7 @@ impl EnvironmentLightTable {
         }
         table
     }
+    // ANCHOR_END: environment_cells
 
     /// The cell that two numbers from 0 to below 1 choose, and where in it they fall: row, column, and the two shares.
     ///

@@ -30,7 +30,8 @@ impl Table for IntegratorTable {
             let who = kind_and_name(scene, "integrator", other);
             return Err(Refusal::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
-        let mut table = Self { legs: 1, ..Self::default() };
+        // Without more, light comes from a light by one surface to the camera.
+        let mut table = Self { legs: 2, ..Self::default() };
         match integrator_of(scene).integrator {
             Integrator::RayCasting => {}
             Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,

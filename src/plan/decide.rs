@@ -134,7 +134,8 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         .collect();
     let painted_over = view.is_some_and(|column| column.name != "radiance")
         && !stage.reads_view
-        && (stage.set == TileSystems::Step || stage.writes.iter().all(|column| column.name == "radiance"));
+        && (matches!(stage.set, TileSystems::Step | TileSystems::Follow)
+            || stage.writes.iter().all(|column| column.name == "radiance"));
     let (kept, reason) = if !evidence.needed {
         (false, evidence.reason)
     } else if let (true, Some(column)) = (painted_over, view) {
@@ -151,7 +152,8 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
     } else {
         (Vec::new(), Vec::new())
     };
-    PlanRow { stage: stage.name, kept, reason, count: evidence.count, columns, tables }
+    let count = if kept || !evidence.needed { evidence.count } else { 0 };
+    PlanRow { stage: stage.name, kept, reason, count, columns, tables }
 }
 
 fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> Result<(), PlanError> {
@@ -195,14 +197,15 @@ fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
 
 fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
-    let names = view_names(&stages);
+    let mut names = view_names(&stages);
+    names.retain(|name| !name.ends_with(" rows"));
     let found = offer
         .iter()
         .flat_map(|stage| &stage.writes)
         .find(|column| column.name == asked && column.lifetime != Lifetime::Film);
     found.copied().ok_or_else(|| PlanError::NoSuchView {
         asked: asked.into(),
-        why: format!("the columns on offer are {}", names.join(", ")),
+        why: format!("the columns on offer are {} and lists of rows", names.join(", ")),
     })
 }
 

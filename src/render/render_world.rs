@@ -128,19 +128,23 @@ fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: fn
     for pair in TileSystems::ALL.windows(2) {
         schedule.configure_sets(pair[0].before(pair[1]));
     }
-    for (slot, stage) in plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)) {
+    let held: Vec<(usize, &Stage)> = plan.stages.iter().enumerate().filter(|(_, stage)| holds(stage)).collect();
+    for (at, &(slot, stage)) in held.iter().enumerate() {
         let mut system = (stage.system)().in_set(stage.set).in_set(Slot(slot));
         if stage.set.order_free() {
             system = system.ambiguous_with(stage.set);
         }
         schedule.add_systems(system);
+        let next = held.get(at + 1);
         for (turn, hook) in hooks.iter().enumerate() {
             let hook = hook(slot, stage, plan).in_set(stage.set).in_set(HookTurn(slot, turn));
-            schedule.add_systems(hook.after(Slot(slot)).before(Slot(slot + 1)).before(HookTurn(slot, turn + 1)));
+            let before = next.map_or(slot + 1, |(next, _)| *next);
+            schedule.add_systems(hook.after(Slot(slot)).before(Slot(before)).before(HookTurn(slot, turn + 1)));
         }
-        let ordered = plan.stages.get(slot + 1).is_some_and(|next| next.set == stage.set && !stage.set.order_free());
+        let Some(&(next, follower)) = next else { continue };
+        let ordered = follower.set == stage.set && !stage.set.order_free();
         if ordered || !hooks.is_empty() {
-            schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
+            schedule.configure_sets(Slot(slot).before(Slot(next)));
         }
     }
     schedule

@@ -34,11 +34,11 @@ impl Agreement {
 /// Blocks, not pixels, since a mean of many is nearer to a normal variable.
 /// Errors: images of two sizes, or fewer than two a set.
 pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreement, String> {
-    let [one, other] = [blocks(one, side)?, blocks(other, side)?];
-    if one.len() != other.len() {
+    if one.iter().chain(other).any(|image| image.size != one[0].size) {
         return Err("the images have two sizes".into());
     }
-    let limit = 1.0 - (1.0 - FAMILY).powf(1.0 / one.len() as f64);
+    let [one, other] = [blocks(one, side)?, blocks(other, side)?];
+    let limit = 1.0 - libm::pow(1.0 - FAMILY, 1.0 / one.len() as f64);
     let (mut apart, mut least, mut tests) = (0, 1.0_f64, 0);
     let (mut errors, mut light) = (0.0, 0.0);
     for (a, b) in one.iter().zip(&other) {
@@ -67,9 +67,6 @@ struct Block {
 
 fn blocks(images: &[Numbers], side: u32) -> Result<Vec<Block>, String> {
     let [first, _, ..] = images else { return Err("two images at least are needed to tell how they vary".into()) };
-    if images.iter().any(|image| image.size != first.size) {
-        return Err("the images have two sizes".into());
-    }
     let [width, height] = first.size;
     let corners =
         (0..height).step_by(side as usize).flat_map(|y| (0..width).step_by(side as usize).map(move |x| [x, y]));

@@ -3,11 +3,15 @@
 use super::*;
 use scenes::followed::{FollowToggle, INTEGRATORS, followed_by};
 
-/// All combinations of what a followed scene may have.
+/// Nothing, all, each alone, and all pairs of what a followed scene may have.
 fn all() -> Vec<Vec<FollowToggle>> {
     let toggles = FollowToggle::ALL;
-    let chosen = |bits: usize| (0..toggles.len()).filter(|bit| bits >> bit & 1 == 1).map(|bit| toggles[bit]).collect();
-    (0..1 << toggles.len()).map(chosen).collect()
+    let mut found = vec![Vec::new(), toggles.to_vec()];
+    for (at, &one) in toggles.iter().enumerate() {
+        found.push(vec![one]);
+        found.extend(toggles[at + 1..].iter().map(|&other| vec![one, other]));
+    }
+    found
 }
 
 #[test]

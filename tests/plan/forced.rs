@@ -89,6 +89,7 @@ fn beside(scene: &World, offer: &[Stage]) -> (Vec<FilmLayers>, Vec<FilmMoments>)
 
 #[test]
 fn forcing_a_needed_stage_off_shows() {
+    let two_legs = Integrator::Path { legs: 2, lights: LightSampling::Weighed, roulette: 0 };
     let offer = offer();
     let size = [24, 16];
     let witnesses: Vec<(&str, World)> = vec![
@@ -112,6 +113,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
+        ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),

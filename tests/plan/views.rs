@@ -2,6 +2,8 @@
 
 use super::*;
 use pinhole::plan::Lifetime;
+use pinhole::plan::TileSystems;
+use scenes::followed::{INTEGRATORS, followed};
 
 #[test]
 fn a_view_of_an_unknown_word_names_what_is_on_offer() {
@@ -32,11 +34,15 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scene.entity_mut(camera).insert(sampling);
         scene
     };
-    let scenes: [fn(Setup) -> World; 9] =
-        [full, stretched, pieces, shining, textured, soft, sampled, scenes::blurred, scenes::moving];
+    let paths = |setup: Setup| followed(INTEGRATORS[6], setup);
+    let scenes: [fn(Setup) -> World; 10] =
+        [full, stretched, pieces, shining, textured, soft, sampled, scenes::blurred, scenes::moving, paths];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
-        let whole = inspect(&scene_of(setup), &offer(), 32).expect("inspects");
+        // Later legs write over what the first one wrote, and a view is of the first.
+        let mut first_leg = offer();
+        first_leg.retain(|stage| !matches!(stage.set, TileSystems::Step | TileSystems::Follow));
+        let whole = inspect(&scene_of(setup), &first_leg, 32).expect("inspects");
         for column in &whole.plan.columns {
             if column.lifetime == Lifetime::Film || column.name == "radiance" {
                 continue;

@@ -103,9 +103,9 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
     ("20_glass", Attempt::Refracted(glass::refracted)),
     ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
+    ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
     ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
     ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
-    ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
     ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
     ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
 ];

@@ -2,7 +2,7 @@
 
 use super::ClosedForm;
 use super::receiver::look_down;
-use crate::scene::{DQuat, Degrees, Integrator, Matte, Placement, Plane, Rectangle, Sphere};
+use crate::scene::{DQuat, Integrator, Matte, Placement, Plane, Rectangle, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -26,7 +26,8 @@ pub(super) const FORMS: &[ClosedForm] = &[
         few: 1 << 15,
         scene: |world| {
             ground(world);
-            let orientation = DQuat::from_rotation_z(Degrees(90.0).radians());
+            let half = std::f64::consts::FRAC_1_SQRT_2;
+            let orientation = DQuat::from_xyzw(0.0, 0.0, half, half);
             let place = Placement { position: DVec3::new(1.0, 0.0, 0.0), orientation, ..Placement::default() };
             world.spawn((Rectangle { width: 2.0, depth: 2e5 }, place, Matte::default()));
         },

@@ -5,6 +5,7 @@
 
 mod hits;
 mod light;
+mod moving;
 mod pieces;
 mod rays;
 mod table;

@@ -1,4 +1,4 @@
-use super::{Bug, Planted, hits, light, pieces, rays, textures, triangles};
+use super::{Bug, Planted, hits, light, moving, pieces, rays, textures, triangles};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
@@ -25,6 +25,12 @@ const FACETS: &str = "14_transforms";
 const SAMPLED: &str = "17_sampling";
 /// Lights with an area.
 const SOFT: &str = "21_soft_shadows";
+/// An opening in place of the pinhole.
+const BLURRED: &str = "23_depth_of_field";
+/// Things that move while the shutter is open.
+const MOVING: &str = "24_motion_blur";
+/// A gradient behind mirrors.
+const MIRRORED: &str = "19_mirrors";
 /// A column painted for the picture.
 const PAINTED: &str = "02_ray";
 
@@ -37,6 +43,9 @@ pub static PLANTED: &[Planted] = &[
     bug("size-less-one", "Free points of the image's size", "divided by size − 1", MOST, Bug::After(|| rays::size_less_one.into_configs())),
     bug("y-down", "Centre points on the screen", "sign of y", MOST, Bug::After(|| rays::y_down.into_configs())),
     bug("no-aspect", "Centre points on the screen", "aspect left out", MOST, Bug::After(|| rays::no_aspect.into_configs())),
+    bug("half-open", "Draw points on the lens", "half of the opening", BLURRED, Bug::After(|| moving::half_open.into_configs())),
+    bug("all-at-once", "Draw times", "one time for all rays", MOVING, Bug::After(|| moving::all_at_once.into_configs())),
+    bug("left-for-right", "Aim rays through the lens", "left for right", BLURRED, Bug::After(|| moving::left_for_right.into_configs())),
     bug("whole-angle", "Aim rays from the eye", "tangent of the whole angle", MOST, Bug::After(|| rays::whole_angle.into_configs())),
     bug("plus-z", "Aim rays from the eye", "looks along +z", MOST, Bug::After(|| rays::plus_z.into_configs())),
     bug("whole-height", "Start rays on the rectangle", "height for its half", PARALLEL, Bug::After(|| rays::whole_height.into_configs())),
@@ -51,6 +60,7 @@ pub static PLANTED: &[Planted] = &[
     bug("disk-square", "Intersect disks", "the square about it", PIECES, Bug::Instead(|| pieces::disk_square.into_configs())),
     bug("one-coordinate", "Intersect rectangles", "one coordinate asked", PIECES, Bug::Instead(|| pieces::one_coordinate.into_configs())),
     bug("cuboid-far-side", "Intersect cuboids", "where the ray leaves", PIECES, Bug::Instead(|| pieces::cuboid_far_side.into_configs())),
+    bug("nothing-moves", "Intersect moving shapes", "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("zero-is-none", "Classify hits", "shape 0 taken for none", MOST, Bug::After(|| hits::zero_is_none.into_configs())),
     bug("normal-inward", "Describe sphere surfaces", "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", "Describe sphere surfaces", "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
@@ -61,6 +71,7 @@ pub static PLANTED: &[Planted] = &[
     bug("disk-inward", "Describe disk surfaces", "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
     bug("rectangle-epsilon", "Describe rectangle surfaces", "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
     bug("round-cuboid", "Describe cuboid surfaces", "normal as a sphere's", PIECES, Bug::After(|| pieces::round_cuboid.into_configs())),
+    bug("turned-inward", "Describe moving surfaces", "sign of the normal", MOVING, Bug::After(|| moving::turned_inward.into_configs())),
     bug("two-pixels", "Measure footprints", "two pixels for one", TEXTURED, Bug::After(|| textures::two_pixels.into_configs())),
     bug("half-colour", "Colour surfaces", "half of red", TEXTURED, Bug::After(|| textures::half_colour.into_configs())),
     bug("half-cell", "Lay textures", "corner for middle", TEXTURED, Bug::After(|| textures::half_cell.into_configs())),
@@ -68,6 +79,7 @@ pub static PLANTED: &[Planted] = &[
     bug("stripes-at-a-point", "Colour stripes", "a point for the mean", TEXTURED, Bug::After(|| textures::stripes_at_a_point.into_configs())),
     bug("bytes-for-light", "Colour images", "bytes taken for light", TEXTURED, Bug::After(|| textures::bytes_for_light.into_configs())),
     bug("mirrored", "Add the environment", "left for right", TEXTURED, Bug::Instead(|| textures::mirrored.into_configs())),
+    bug("upside-down", "Add the gradient", "below for above", MIRRORED, Bug::Instead(|| moving::upside_down.into_configs())),
     bug("background-everywhere", "Add the background", "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", "Aim at point lights", "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
     bug("sun-without-slant", "Aim at directional lights", "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
@@ -81,6 +93,7 @@ pub static PLANTED: &[Planted] = &[
     bug("disks-ignored", "Look for disks in the way", "not looked for", PIECES, Bug::Instead(|| light::disks_ignored.into_configs())),
     bug("rectangles-ignored", "Look for rectangles in the way", "not looked for", PIECES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
     bug("cuboids-ignored", "Look for cuboids in the way", "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
+    bug("movers-ignored", "Look for what moves in the way", "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", "Show surfaces unlit", "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", "Add the light that arrives", "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
     bug("phong-forgotten", "Add Phong highlights", "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
