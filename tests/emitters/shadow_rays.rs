@@ -226,8 +226,9 @@ fn both_ways_to_a_light_know_one_density() {
             let nearest = (0..lights.emitter.len()).map(|light| (told(light) / densities.density[ray] - 1.0).abs());
             let off = nearest.fold(f64::INFINITY, f64::min);
             // The direction is rounded to f32 in between, which at a disk's ends, where its density grows without end,
-            // is much; from afar a density goes with the square of the distance, and the reach ends short of the light.
-            assert!(off < if matches!(name, "disk" | "ellipse") { 1e-3 } else { 1e-5 }, "{name}, ray {ray}: {off}");
+            // is much; from afar a density goes with the square of the distance, and the reach ends short of the light;
+            // and where a flat light is seen at a slant, the rounding counts by as much more as it is slanted.
+            assert!(off < if matches!(name, "disk" | "ellipse") { 1e-3 } else { 1e-4 }, "{name}, ray {ray}: {off}");
             worst = worst.max(off);
             compared += 1;
         }
