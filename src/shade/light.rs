@@ -43,6 +43,8 @@ column! {
 column! {
     /// How likely each light ray was to be sent where it goes; beside the light rays, where something reads it.
     pub struct LightDensities("light density", "directions", "1/sr", Ray) {
+        /// The row of the tile whose surface the light ray starts on.
+        path: u32,
         /// Per unit of solid angle, the chance of having chosen that light included; 0 for a light without an area, which
         /// no other ray can find by chance.
         density: f64,
@@ -177,7 +179,8 @@ pub(super) fn append_rays(
         }
     }
     if let Some(densities) = densities {
-        densities.slices_mut(rays.rows());
+        let (path, _) = densities.slices_mut(rays.rows());
+        path.copy_from_slice(&rays.path);
     }
 }
 
@@ -228,7 +231,7 @@ pub(super) fn append_chosen(
         reach[at] = ray.reach;
         [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
         if let Some(likely) = &mut likely {
-            likely[at] = density;
+            (likely.0[at], likely.1[at]) = (row, density);
         }
         at += usize::from(ray.aimed.cosine > 0.0);
     }

@@ -15,7 +15,7 @@ fn a_view_of_an_unknown_word_names_what_is_on_offer() {
         let error = plan(&scene, &offer()).expect_err("no such column");
         let PlanError::NoSuchView { asked, why } = &error else { panic!("{error}") };
         assert_eq!(asked, word);
-        for name in view_names(&offer()) {
+        for name in view_names(&offer()).into_iter().filter(|name| !name.ends_with(" rows")) {
             assert!(why.contains(name), "`{word}`: {why} must name `{name}`");
         }
         assert_eq!(error.to_string(), format!("the view asks for the column `{word}`, but {why}"));
