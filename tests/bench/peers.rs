@@ -18,7 +18,7 @@ use pinhole::measure::image_file::read_numbers;
 use pinhole::render::{Execution, RenderUnderWay};
 use pinhole::report::distribution::normal_share;
 use pinhole::report::run::numbers;
-use pinhole::scene::{LightSampling, Sampler, Sampling};
+use pinhole::scene::{Filter, LightSampling, Sampler, Sampling};
 use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
 use std::path::PathBuf;
@@ -70,7 +70,9 @@ impl Options {
 fn ours(scene: &str, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
     let mut world = public(scene, LightSampling::Weighed);
     let camera = named(&mut world, "camera");
-    world.entity_mut(camera).insert(Sampling { samples, seed, sampler, ..Sampling::default() });
+    // The references have each sample in its own pixel only.
+    let filter = Filter::Box { radius: 0.5 };
+    world.entity_mut(camera).insert(Sampling { samples, seed, sampler, filter });
     let started = Instant::now();
     let mut render = RenderUnderWay::begin(&world, &offer(), &Execution::default()).expect("begins");
     render.advance(render.steps(), &()).expect("renders");
