@@ -3,7 +3,7 @@ use crate::extract::{
     EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, unless_occlusion,
 };
 use crate::intersect::{EmissiveRows, SurfaceSides};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: add_emission
@@ -29,6 +29,7 @@ pub fn add_emission(
 /// The stage on offer.
 pub fn emissive_stage() -> Stage {
     Stage::new("Add what surfaces emit", TileSystems::Shade, add_emission)
+        .kind(StageKind::Alternative)
         .reads::<EmissiveRows>()
         .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads::<Radiance>()

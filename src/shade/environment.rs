@@ -4,7 +4,7 @@ use crate::extract::{
     EnvironmentTable, Texels, aimed_evidence, environment_light_evidence, followed_evidence, unless_occlusion,
 };
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Column, Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Environment;
 use bevy_ecs::prelude::*;
@@ -86,6 +86,7 @@ pub fn add_environment(
 /// The stage on offer.
 pub fn environment_stage() -> Stage {
     Stage::new("Add the environment", TileSystems::Background, add_environment)
+        .kind(StageKind::Alternative)
         .reads::<WorldRays>()
         .reads_if::<Hits>()
         .reads::<Radiance>()
