@@ -58,7 +58,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
             // An orthographic camera's rays all have one direction.
             let one_direction = eye == Eye::Orthographic && matches!(column.name, "camera" | "world");
             // And the first sample of every pixel has one number.
-            let uniform = one_direction || column.name == "samples";
+            let uniform = one_direction || matches!(column.name, "samples" | "path" | "path light" | "media");
             assert_eq!(viewed.colours() == 1, uniform, "{eye:?}: the view of {} shows nothing", column.name);
             seen.insert(format!("{eye:?} {}", column.name));
             compared += 1;
