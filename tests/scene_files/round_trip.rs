@@ -115,11 +115,10 @@ fn numbers_come_back_bit_for_bit() {
     eprintln!("numbers: {tried} come back bit for bit");
 }
 
-/// A scene file's text without blanks and closing commas.
-///
-/// Where a component folds into several lines depends on how long the path of its image is.
+/// A scene file's text with every component on one line, whatever the length of the path of its image.
 fn unfolded(text: &str) -> String {
-    text.split_whitespace().collect::<String>().replace(",)", ")")
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    lines.join(" ").replace("( ", "(").replace(", )", ")")
 }
 
 #[test]
