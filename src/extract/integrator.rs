@@ -27,7 +27,7 @@ pub fn integrator_of(scene: &World) -> ChosenIntegrator {
         return chosen(named, format!("named on the camera {}", called(scene, camera)));
     }
     let metal = metal_evidence(scene);
-    let lamps = emissive_evidence(scene).and(material_evidence(scene));
+    let lamps = emissive_evidence(scene).and(|| material_evidence(scene));
     let polished = mirror_evidence(scene).or(glass_evidence(scene));
     let by_chance = metal.or(lamps);
     if by_chance.needed {

@@ -77,7 +77,7 @@ pub fn weighed_emission_stage() -> Stage {
 
 /// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
 fn weighed_emission_evidence(scene: &World) -> Evidence {
-    emissive_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene))
+    emissive_evidence(scene).and(|| followed_evidence(scene)).and(|| aimed_evidence(scene))
 }
 
 /// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.
@@ -117,5 +117,5 @@ pub fn weighed_environment_stage() -> Stage {
         .table::<EnvironmentTable>()
         .table::<EnvironmentLightTable>()
         .table::<IntegratorTable>()
-        .when(|scene| environment_light_evidence(scene).and(followed_evidence(scene)).and(aimed_evidence(scene)))
+        .when(|scene| environment_light_evidence(scene).and(|| followed_evidence(scene)).and(|| aimed_evidence(scene)))
 }

@@ -163,7 +163,7 @@ pub fn split_at_glass(
 pub fn glass_stage() -> Stage {
     reading(Stage::new("Reflect and refract at glass", TileSystems::Scatter, split_at_glass))
         .kind(StageKind::Alternative)
-        .when(|scene| glass_evidence(scene).and(both_ways_evidence(scene)))
+        .when(|scene| glass_evidence(scene).and(|| both_ways_evidence(scene)))
 }
 
 /// The stage that sends one on by chance.
@@ -175,7 +175,7 @@ pub fn glass_chance_stage() -> Stage {
         .when(|scene| {
             let both = both_ways_evidence(scene);
             let one = Evidence { needed: !both.needed, ..both };
-            glass_evidence(scene).and(followed_evidence(scene)).and(one)
+            glass_evidence(scene).and(|| followed_evidence(scene)).and(|| one)
         })
 }
 

@@ -118,7 +118,7 @@ pub fn times_stage() -> Stage {
         .reads::<WorldRays>()
         .reads::<RayTimes>()
         .writes::<RayTimes>()
-        .when(|scene| motion_evidence(scene).and(followed_evidence(scene)))
+        .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that takes footprints away.
@@ -127,7 +127,7 @@ pub fn footprints_stage() -> Stage {
         .reads::<WorldRays>()
         .reads::<Footprints>()
         .writes::<Footprints>()
-        .when(|scene| filtered_evidence(scene).and(followed_evidence(scene)))
+        .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that is all later legs.

@@ -67,5 +67,5 @@ pub fn matte_stage() -> Stage {
 
 /// Evidence that matte surfaces light each other.
 pub(super) fn scattered_evidence(scene: &World) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(material_evidence(scene))
+    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(|| material_evidence(scene))
 }

@@ -107,7 +107,7 @@ pub fn absorb_stage() -> Stage {
         .reads::<Paths>()
         .writes::<Paths>()
         .table::<GlassTable>()
-        .when(|scene| absorption_evidence(scene).and(followed_evidence(scene)))
+        .when(|scene| absorption_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that carries media over to the next leg.
@@ -130,7 +130,7 @@ fn absorption_evidence(scene: &World) -> Evidence {
 
 /// Evidence that what a ray goes through must be known: that glass absorbs, or that two shapes of it overlap.
 pub fn media_evidence(scene: &World) -> Evidence {
-    let glass = glass_evidence(scene).and(followed_evidence(scene));
+    let glass = glass_evidence(scene).and(|| followed_evidence(scene));
     if !glass.needed {
         return glass;
     }

@@ -90,7 +90,7 @@ pub fn metal_stage() -> Stage {
         .appends::<Scattered>()
         .table::<SamplingTable>()
         .table::<MetalTable>()
-        .when(|scene| metal_evidence(scene).and(scattered_evidence(scene)))
+        .when(|scene| metal_evidence(scene).and(|| scattered_evidence(scene)))
 }
 
 /// The stage that answers lamps.
@@ -105,7 +105,7 @@ pub fn metal_light_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<MetalTable>()
-        .when(|scene| metal_evidence(scene).and(lit_evidence(scene)))
+        .when(|scene| metal_evidence(scene).and(|| lit_evidence(scene)))
 }
 
 /// Evidence that directions off rough metal are drawn.

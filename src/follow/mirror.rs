@@ -46,5 +46,5 @@ pub fn mirror_stage() -> Stage {
         .reads::<MirrorRows>()
         .appends::<Scattered>()
         .table::<MirrorTable>()
-        .when(|scene| mirror_evidence(scene).and(followed_evidence(scene)))
+        .when(|scene| mirror_evidence(scene).and(|| followed_evidence(scene)))
 }

@@ -65,7 +65,7 @@ pub fn sky_rays_stage() -> Stage {
         .appends::<LightRays>()
         .table::<SamplingTable>()
         .table::<IntegratorTable>()
-        .when(|scene| occlusion_evidence(scene).and(shape_evidence(scene)))
+        .when(|scene| occlusion_evidence(scene).and(|| shape_evidence(scene)))
 }
 
 /// The stage that shows.

@@ -47,7 +47,7 @@ pub fn weigh_matte_stage() -> Stage {
         .reads::<LightRays>()
         .writes::<LightRays>()
         .table::<MaterialTable>()
-        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(material_evidence(scene)))
+        .when(|scene| aimed_light_evidence(scene).and(|| weighed_evidence(scene)).and(|| material_evidence(scene)))
 }
 
 /// Takes from every light ray the part that rough metal finds by chance, by its tiny mirrors.
@@ -85,5 +85,5 @@ pub fn weigh_metal_stage() -> Stage {
         .writes::<LightRays>()
         .table::<MaterialTable>()
         .table::<MetalTable>()
-        .when(|scene| aimed_light_evidence(scene).and(weighed_evidence(scene)).and(metal_evidence(scene)))
+        .when(|scene| aimed_light_evidence(scene).and(|| weighed_evidence(scene)).and(|| metal_evidence(scene)))
 }

@@ -67,15 +67,16 @@ impl Evidence {
         Self { needed: !found.is_empty(), reason, count: found.len() }
     }
 
-    /// Needed if both are.
-    pub fn and(self, other: Self) -> Self {
-        match (self.needed, other.needed) {
-            (true, true) => {
-                Self { reason: format!("{}; {}", self.reason, other.reason), count: self.count + other.count, ..self }
-            }
-            (true, false) => other,
-            _ => self,
+    /// Needed if both are; the other is not looked at where this is not.
+    pub fn and(self, other: impl FnOnce() -> Self) -> Self {
+        if !self.needed {
+            return self;
         }
+        let other = other();
+        if !other.needed {
+            return other;
+        }
+        Self { reason: format!("{}; {}", self.reason, other.reason), count: self.count + other.count, ..self }
     }
 
     /// Needed if either is.

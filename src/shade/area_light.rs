@@ -126,5 +126,5 @@ pub fn area_light_stage() -> Stage {
         .writes::<LightDensities>()
         .table::<AreaLightTable>()
         .table::<SamplingTable>()
-        .when(|scene| area_light_evidence(scene).and(aimed_evidence(scene)).and(material_evidence(scene)))
+        .when(|scene| area_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| material_evidence(scene)))
 }

@@ -51,5 +51,5 @@ pub fn blinn_phong_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<BlinnPhongTable>()
-        .when(|scene| matter_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(light_evidence(scene)))
+        .when(|scene| matter_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(|| light_evidence(scene)))
 }

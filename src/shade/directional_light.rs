@@ -52,7 +52,7 @@ pub fn directional_light_stage() -> Stage {
         .when(|scene| {
             unless_occlusion(
                 scene,
-                Evidence::of::<DirectionalLight>(scene, "directional light").and(material_evidence(scene)),
+                Evidence::of::<DirectionalLight>(scene, "directional light").and(|| material_evidence(scene)),
             )
         })
 }

@@ -123,5 +123,5 @@ pub fn environment_light_stage() -> Stage {
         .table::<EnvironmentTable>()
         .table::<EnvironmentLightTable>()
         .table::<SamplingTable>()
-        .when(|scene| environment_light_evidence(scene).and(aimed_evidence(scene)).and(material_evidence(scene)))
+        .when(|scene| environment_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| material_evidence(scene)))
 }

@@ -37,7 +37,7 @@ pub fn flat_stage() -> Stage {
             let material = shown_evidence(scene);
             let followed = followed_evidence(scene).or(occlusion_evidence(scene));
             let shining = light_evidence(scene).or(emissive_evidence(scene)).or(followed);
-            if material.needed { Evidence { needed: !shining.needed, ..shining }.and(material) } else { material }
+            if material.needed { Evidence { needed: !shining.needed, ..shining }.and(|| material) } else { material }
         })
 }
 

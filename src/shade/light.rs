@@ -308,7 +308,7 @@ pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
 
 /// Evidence that there is a light and material that it can fall on.
 pub fn lit_evidence(scene: &World) -> Evidence {
-    light_evidence(scene).and(material_evidence(scene))
+    light_evidence(scene).and(|| material_evidence(scene))
 }
 
 /// Evidence that there is a light of any kind that rays are sent to.
@@ -323,7 +323,7 @@ pub fn point_evidence(scene: &World) -> Evidence {
 
 /// The evidence of lights without an area, or else that there are others and that they are aimed at.
 pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
-    let others = area_light_evidence(scene).or(environment_light_evidence(scene)).and(aimed_evidence(scene));
+    let others = area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| aimed_evidence(scene));
     if others.needed { points.or(others) } else { points }
 }
 

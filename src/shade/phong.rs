@@ -51,5 +51,5 @@ pub fn phong_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<PhongTable>()
-        .when(|scene| matter_evidence::<Phong>(scene, "Phong surface").and(light_evidence(scene)))
+        .when(|scene| matter_evidence::<Phong>(scene, "Phong surface").and(|| light_evidence(scene)))
 }

@@ -51,6 +51,6 @@ pub fn point_light_stage() -> Stage {
         .writes::<LightDensities>()
         .table::<PointLightTable>()
         .when(|scene| {
-            unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(material_evidence(scene)))
+            unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(|| material_evidence(scene)))
         })
 }

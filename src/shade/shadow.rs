@@ -69,7 +69,7 @@ pub fn sphere_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<SphereTable>()
-        .when(|scene| sphere_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| sphere_evidence(scene).and(|| shadow_evidence(scene)))
 }
 // ANCHOR_END: sphere_shadow_stage
 
@@ -81,7 +81,7 @@ pub fn ellipsoid_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<EllipsoidTable>()
-        .when(|scene| ellipsoid_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| ellipsoid_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with planes.
@@ -91,7 +91,7 @@ pub fn plane_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<PlaneTable>()
-        .when(|scene| Evidence::of::<Plane>(scene, "plane").and(shadow_evidence(scene)))
+        .when(|scene| Evidence::of::<Plane>(scene, "plane").and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with disks.
@@ -102,7 +102,7 @@ pub fn disk_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<DiskTable>()
-        .when(|scene| disk_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| disk_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with rectangles.
@@ -113,7 +113,7 @@ pub fn rectangle_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<RectangleTable>()
-        .when(|scene| rectangle_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| rectangle_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with cuboids.
@@ -124,7 +124,7 @@ pub fn cuboid_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<CuboidTable>()
-        .when(|scene| cuboid_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| cuboid_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with triangles.
@@ -135,7 +135,7 @@ pub fn triangle_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<TriangleTable>()
-        .when(|scene| triangle_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| triangle_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with moving shapes, each at the time of the ray that met the surface.
@@ -147,7 +147,7 @@ pub fn moving_shadow_stage() -> Stage {
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
         .table::<MovingTable>()
-        .when(|scene| moving_evidence(scene).and(shadow_evidence(scene)))
+        .when(|scene| moving_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// Evidence that a light casts shadows on matter.
@@ -157,6 +157,6 @@ pub fn shadow_evidence(scene: &World) -> Evidence {
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     });
-    let lit = or_aimed(scene, points).and(material_evidence(scene));
+    let lit = or_aimed(scene, points).and(|| material_evidence(scene));
     either(unless_occlusion(scene, lit), occlusion_evidence(scene))
 }

@@ -68,7 +68,7 @@ pub fn spot_light_stage() -> Stage {
         .writes::<LightDensities>()
         .table::<SpotLightTable>()
         .when(|scene| {
-            unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(material_evidence(scene)))
+            unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(|| material_evidence(scene)))
         })
 }
 
