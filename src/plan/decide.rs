@@ -201,10 +201,7 @@ fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
     let mut names = view_names(&stages);
     names.retain(|name| !name.ends_with(" rows"));
-    let found = offer
-        .iter()
-        .flat_map(|stage| &stage.writes)
-        .find(|column| column.name == asked && column.is_viewed());
+    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && column.is_viewed());
     found.copied().ok_or_else(|| PlanError::NoSuchView {
         asked: asked.into(),
         why: format!("the columns on offer are {} and lists of rows", names.join(", ")),

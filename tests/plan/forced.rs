@@ -28,7 +28,11 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         .collect();
     for eye in EYES {
         scenes.push((format!("pieces, {eye:?}"), pieces(Setup { eye, size: [24, 16], ..Setup::default() }), true));
-        scenes.push((format!("stretched, {eye:?}"), stretched(Setup { eye, size: [24, 16], ..Setup::default() }), true));
+        scenes.push((
+            format!("stretched, {eye:?}"),
+            stretched(Setup { eye, size: [24, 16], ..Setup::default() }),
+            true,
+        ));
         scenes.push((format!("textured, {eye:?}"), textured(Setup { eye, size: [24, 16], ..Setup::default() }), true));
         scenes.push((format!("shining, {eye:?}"), shining(Setup { eye, size: [24, 16], ..Setup::default() }), true));
         scenes.push((format!("soft, {eye:?}"), soft(Setup { eye, size: [24, 16], ..Setup::default() }), true));
@@ -98,6 +102,8 @@ fn forcing_a_needed_stage_off_shows() {
     let offer = offer();
     let size = [24, 16];
     let witnesses: Vec<(&str, World)> = vec![
+        // First the one whose ways end by themselves where no chance ends them.
+        ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("pieces", pieces(Setup { size, ..Setup::default() })),
@@ -117,7 +123,6 @@ fn forcing_a_needed_stage_off_shows() {
         ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
-        ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
         ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
