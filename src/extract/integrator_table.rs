@@ -12,6 +12,8 @@ pub struct IntegratorTable {
     pub legs: u32,
     /// The leg from which ways end by chance.
     pub roulette: u32,
+    /// Whether points on lights are aimed at.
+    pub aimed: bool,
     /// Whether two ways to find a light are weighed against each other.
     pub weighed: bool,
     /// How far something still hides the sky, in scene units.
@@ -38,9 +40,11 @@ impl Table for IntegratorTable {
             Integrator::AmbientOcclusion { distance } => {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
-            Integrator::Whitted { legs } | Integrator::Distribution { legs } => table.legs = legs,
+            Integrator::Whitted { legs } => table.legs = legs,
+            Integrator::Distribution { legs } => (table.legs, table.aimed) = (legs, true),
             Integrator::Path { legs, roulette, lights } => {
                 (table.legs, table.roulette, table.weighed) = (legs, roulette, lights == LightSampling::Weighed);
+                table.aimed = lights != LightSampling::ByChance;
             }
         }
         if table.legs == 0 {
