@@ -139,9 +139,10 @@ fn targets(scene: &World) -> Result<Vec<Target>, Refusal> {
             let reach = DVec3::splat(target.radius);
             (target.centre - reach, target.centre + reach)
         };
-        let (least, most) = found.iter().map(ends).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| {
-            (all.0.min(own.0), all.1.max(own.1))
-        });
+        let (least, most) = found
+            .iter()
+            .map(ends)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
         found = vec![Target::about(least, most)];
     }
     Ok(found)

@@ -4,9 +4,7 @@ use super::{
     material_evidence, mirror_evidence, motion_evidence,
 };
 use crate::plan::{Carried, Evidence, Table};
-use crate::scene::{
-    EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, Refusal, SpotLight,
-};
+use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, Refusal, SpotLight};
 use bevy_ecs::prelude::*;
 
 /// The most rays from the lights for a ray of the camera.
@@ -90,4 +88,3 @@ pub fn started_on_evidence(scene: &World) -> Evidence {
     });
     area_light_evidence(scene).or(points)
 }
-

@@ -71,7 +71,13 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         out.write_u32(number)?;
     }
     let kinds = film.layers.first().map_or(0, FilmLayers::kind_bits);
-    let keeps = [!film.moments.is_empty(), !film.layers.is_empty(), film.pilot, !film.planned.is_empty(), film.splats.is_some()];
+    let keeps = [
+        !film.moments.is_empty(),
+        !film.layers.is_empty(),
+        film.pilot,
+        !film.planned.is_empty(),
+        film.splats.is_some(),
+    ];
     out.write_u32(keeps.iter().rev().fold(0, |bits, &keeps| bits << 1 | u32::from(keeps)))?;
     out.write_u32(kinds)?;
     for (number, tile) in film.tiles.iter().enumerate() {

@@ -1,7 +1,7 @@
 use crate::extract::traced_evidence;
 use crate::intersect::MaterialRows;
 use crate::plan::{Stage, StageKind, TileSystems, column};
-use crate::rays::{WorldRays};
+use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 
 column! {

@@ -1,8 +1,7 @@
 use super::CausticPaths;
 use crate::extract::{
     AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, aimed_evidence,
-    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence,
-    traced_evidence,
+    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence, traced_evidence,
 };
 use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};

@@ -1,7 +1,9 @@
 use super::media::media_evidence;
 use super::mirror::mirroring_normal;
 use super::{GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
-use crate::extract::{GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence};
+use crate::extract::{
+    GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
+};
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Draws, Paths, draws_of_one};

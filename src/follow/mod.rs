@@ -27,6 +27,7 @@ mod occlusion;
 mod paths;
 mod roulette;
 mod scattered;
+mod shading_adjoint;
 mod splat;
 mod weigh;
 
@@ -40,7 +41,8 @@ pub use frame::{cosine_density, cosine_direction, frame_of, same_side};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{Glint, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_density, visible_normal};
 pub use glass::{
-    GlassWay, glass_chance_stage, glass_event, glass_light_stage, glass_stage, glass_ways, scatter_glass, split_at_glass,
+    GlassWay, glass_chance_stage, glass_event, glass_light_stage, glass_stage, glass_ways, scatter_glass,
+    split_at_glass,
 };
 pub use last_leg::{end_at_last_leg, last_leg_stage};
 pub use leg::{
@@ -62,6 +64,7 @@ pub use occlusion::{aim_at_the_sky, show_the_sky, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
+pub use shading_adjoint::{shading_adjoint, shading_adjoint_stage, weigh_by_shading_normals};
 pub use splat::{Splats, keep_polished, keep_polished_stage, splat_light, splat_stage};
 pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
 
@@ -87,7 +90,7 @@ pub fn stages() -> Vec<Stage> {
 
 /// Caustics from the lights.
 pub fn light_stages() -> Vec<Stage> {
-    let start = [light_start_stage(), keep_polished_stage(), glass_light_stage()];
+    let start = [light_start_stage(), keep_polished_stage(), glass_light_stage(), shading_adjoint_stage()];
     start.into_iter().chain([camera_join_stage(), splat_stage(), caustic_paths_stage()]).collect()
 }
 

@@ -235,15 +235,7 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
     if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {
         passes.push(Pass { name: "light", row: RowKind::LightPath, product: "splats on the film" });
     }
-    Plan {
-        rows,
-        stages,
-        columns,
-        tables,
-        passes,
-        view,
-        statistics: requested::<Statistics>(scene).is_some(),
-    }
+    Plan { rows, stages, columns, tables, passes, view, statistics: requested::<Statistics>(scene).is_some() }
 }
 
 fn requested<R: Component>(scene: &World) -> Option<&R> {

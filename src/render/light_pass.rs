@@ -4,7 +4,7 @@ use super::render_world::RenderWorld;
 use crate::extract::{FilterTable, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
 use crate::follow::{LIGHT_PATHS, Splats};
-use crate::plan::{Column, ExtractedTable, Plan, RowKind, Shared, Table};
+use crate::plan::{ExtractedTable, Plan, RowKind, Shared, Table};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
 use crate::scene::Refusal;

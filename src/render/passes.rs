@@ -220,7 +220,9 @@ impl Film {
     pub fn is_like(&self, other: &Self) -> bool {
         let kinds = |film: &Self| film.layers.first().map(|layers| layers.kinds.clone());
         let size = |film: &Self| [film.width, film.height];
-        size(self) == size(other) && self.moments.is_empty() == other.moments.is_empty() && kinds(self) == kinds(other)
+        size(self) == size(other)
+            && self.moments.is_empty() == other.moments.is_empty()
+            && kinds(self) == kinds(other)
             && self.splats.is_some() == other.splats.is_some()
     }
 

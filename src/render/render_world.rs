@@ -73,7 +73,9 @@ impl RenderWorld {
             schedule
         };
         if plan.stages.iter().any(|stage| stage.set == TileSystems::Follow) {
-            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| stage.runs_in(row) && stage.on_every_leg)));
+            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
+                stage.runs_in(row) && stage.on_every_leg
+            })));
         }
         let schedule = arranged(schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row)));
         Self { world, schedule, tiles }
@@ -125,9 +127,8 @@ impl RenderWorld {
 
 fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
     let mut tile = world.spawn((Tile::default(), Leg::default()));
-    let written = |column: &&ColumnKind| {
-        plan.stages.iter().any(|stage| stage.runs_in(row) && stage.writes.contains(column))
-    };
+    let written =
+        |column: &&ColumnKind| plan.stages.iter().any(|stage| stage.runs_in(row) && stage.writes.contains(column));
     let columns: Vec<&ColumnKind> = plan.columns.iter().filter(written).collect();
     if row == RowKind::LightPath {
         tile.insert(SampleNumber::default());

@@ -1,6 +1,7 @@
 use super::Radiance;
 use crate::extract::{
-    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, traced_evidence, unless_occlusion,
+    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, traced_evidence,
+    unless_occlusion,
 };
 use crate::intersect::{EmissiveRows, SurfaceSides};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};

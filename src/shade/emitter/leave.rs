@@ -40,9 +40,8 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
             (at, *normal, [a, b, c].into_iter().map(|corner| sum_of_parts(*corner)).fold(0.0, f64::max))
         }
         Emitter::Cuboid(cuboid) => {
-            let area = |axis: usize| {
-                cuboid.half_edges[(axis + 1) % 3].cross(cuboid.half_edges[(axis + 2) % 3]).length()
-            };
+            let area =
+                |axis: usize| cuboid.half_edges[(axis + 1) % 3].cross(cuboid.half_edges[(axis + 2) % 3]).length();
             let areas = [area(0), area(1), area(2)];
             let all: f64 = areas.iter().sum();
             // Twice three faces share the first number; what is left of it is even again.
