@@ -5,7 +5,7 @@ use crate::scene::Filter;
 ///
 /// Exists only where caustics are traced from the lights.
 /// A ray from a light may land on any pixel, so no tile owns these; they are added in the order of the ways.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct FilmSplats {
     /// Pixels from left to right and from top to bottom.
     pub size: [u32; 2],
@@ -15,6 +15,16 @@ pub struct FilmSplats {
     pub paths: u64,
     /// Splats that could not join, because a part of them was negative or not finite.
     pub rejected: u64,
+    /// What a splat counts for in each of the columns that it reaches: memory for one, kept for the next.
+    across: Vec<f64>,
+}
+
+/// Two that say the same of the film.
+impl PartialEq for FilmSplats {
+    fn eq(&self, other: &Self) -> bool {
+        let told = |film: &Self| (film.size, film.paths, film.rejected);
+        told(self) == told(other) && self.sums == other.sums
+    }
 }
 
 impl FilmSplats {
@@ -36,14 +46,14 @@ impl FilmSplats {
         }
         let [width, height] = self.size.map(i64::from);
         let (columns, lines) = (filter.reached(x, width), filter.reached(y, height));
+        self.across.clear();
+        self.across.extend(columns.clone().map(|column| filter.share(column as f64 + 0.5 - x)));
         for line in lines {
             let down = filter.share(line as f64 + 0.5 - y);
-            for column in columns.clone() {
-                let share = down * filter.share(column as f64 + 0.5 - x);
-                let pixel = (line * width + column) as usize;
-                for (sums, part) in self.sums.iter_mut().zip(light) {
-                    sums[pixel] += share * part;
-                }
+            let first = (line * width + columns.start) as usize;
+            for (sums, part) in self.sums.iter_mut().zip(light) {
+                let along = sums[first..].iter_mut().zip(&self.across);
+                along.for_each(|(sum, across)| *sum += across * down * part);
             }
         }
     }
@@ -81,7 +91,7 @@ impl SplatFilter {
     /// The pixels along an axis of so many whose centres lie within the filter's radius of a place.
     #[inline(always)]
     fn reached(&self, place: f64, pixels: i64) -> std::ops::Range<i64> {
-        let first = (place - self.radius - 0.5).ceil().max(0.0) as i64;
+        let first = ((place - self.radius - 0.5).ceil().max(0.0) as i64).min(pixels);
         let end = (place + self.radius - 0.5).floor() + 1.0;
         first..(end.max(0.0) as i64).min(pixels)
     }

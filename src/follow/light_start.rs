@@ -8,7 +8,7 @@ use crate::scene::Sampler;
 use crate::shade::emitter::{
     WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction, targets_solid_angle,
 };
-use crate::shade::{Footprints, Radiance, spot_share, versine};
+use crate::shade::{Radiance, spot_share, versine};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
@@ -110,13 +110,9 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 pub fn start_on_lights(
     table: Res<Shared<LightPathTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    mut tiles: Query<(
-        (&Tile, &SampleNumber, &mut Leg),
-        (&mut WorldRays, &mut Paths, &mut LightPower, &mut Radiance),
-        Option<&mut Footprints>,
-    )>,
+    mut tiles: Query<((&Tile, &SampleNumber, &mut Leg), (&mut WorldRays, &mut Paths, &mut LightPower, &mut Radiance))>,
 ) {
-    for ((tile, number, mut leg), (mut rays, mut paths, mut power, mut radiance), footprints) in &mut tiles {
+    for ((tile, number, mut leg), (mut rays, mut paths, mut power, mut radiance)) in &mut tiles {
         *leg = Leg(0);
         let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
         let of = (&**table, tile, sampling.seed);
@@ -128,10 +124,6 @@ pub fn start_on_lights(
         let rows = crate::plan::Column::rows(&*rays);
         let (r, g, b) = radiance.slices_mut(rows);
         [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));
-        if let Some(mut footprints) = footprints {
-            let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rows);
-            [rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
-        }
     }
 }
 

@@ -59,12 +59,13 @@ mod tests {
     use super::*;
     use crate::measure::ray_aim::Draws;
     use crate::rays::{camera_ray_orthographic, camera_ray_perspective, ndc_from_raster, screen_from_ndc};
-    use glam::{DMat3, DQuat};
+    use glam::DMat3;
 
     fn join(draws: &mut Draws, is_perspective: bool) -> CameraJoinTable {
-        let turn = DQuat::from_axis_angle(draws.unit_vector().normalize(), draws.between(0.0, 6.0));
+        let back = draws.unit_vector().normalize();
+        let right = draws.unit_vector_across(back).normalize();
         CameraJoinTable {
-            camera_from_world: DMat3::from_quat(turn).transpose(),
+            camera_from_world: DMat3::from_cols(right, back.cross(right), back).transpose(),
             is_perspective,
             half_height: draws.power_of_ten(-2.0, 1.0),
             size: DVec2::new(draws.between(1.0, 4000.0).floor(), draws.between(1.0, 4000.0).floor()),
