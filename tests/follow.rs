@@ -1,5 +1,7 @@
 //! Light that is followed, held against what is known of it.
 
+#[path = "follow/caustics.rs"]
+mod caustics;
 #[path = "../chapters/mod.rs"]
 mod chapters;
 mod scenes;
@@ -9,6 +11,7 @@ use pinhole::Asked;
 use pinhole::extract::integrator_of;
 use pinhole::measure::closed_form::closed_forms;
 use pinhole::measure::image_error::Numbers;
+use pinhole::plan::Stage;
 use pinhole::render::{Execution, render};
 use pinhole::report::agreement::{Agreement, agreement};
 use pinhole::report::run::numbers;

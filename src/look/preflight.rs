@@ -1,12 +1,12 @@
 use crate::extract::{
     CuboidTable, ImageShape, ShapeTable, SphereTable, area_light_evidence, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, mirror_evidence,
+    glass_evidence, integrator_of, mirror_evidence, traced_evidence,
 };
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, Evidence, Plan, Stage, Table};
 use crate::rays::{Leg, Tile};
 use crate::render::{Execution, Hook, inspect_tile};
-use crate::scene::Integrator;
+use crate::scene::{DirectionalLight, Integrator};
 use crate::shade::{LightRays, Radiance, ShadowHits, point_evidence};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -91,11 +91,21 @@ fn out_of_reach(scene: &World) -> Vec<String> {
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }
-    let mut told = vec![format!(
-        "light that comes by way of mirrors or glass ({}) from a light without an area ({}) is missing from matte \
-         surfaces, for no ray meets a point; a small sphere that emits is found by paths",
-        bends.reason, points.reason
-    )];
+    let traced = traced_evidence(scene).needed;
+    let directional = Evidence::of::<DirectionalLight>(scene, "directional light");
+    let mut told = Vec::new();
+    if !traced {
+        told.push(format!(
+            "light that comes by way of mirrors or glass ({}) from a light without an area ({}) is missing from matte \
+             surfaces, for no ray meets a point; LightTracing on the camera, beside paths, finds it from the light",
+            bends.reason, points.reason
+        ));
+    } else if directional.needed {
+        told.push(format!(
+            "no rays start on lights without a place ({}): what comes from there by way of mirrors or glass is missing",
+            directional.reason
+        ));
+    }
     let by_chance = matches!(integrator_of(scene).integrator, Integrator::Whitted { .. });
     if by_chance && area_light_evidence(scene).needed {
         told.push("Whitted's rays light nothing by surfaces that emit; a path does".into());
