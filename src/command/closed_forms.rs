@@ -6,11 +6,12 @@ use std::io::Write;
 
 /// A line a closed form: what was measured, its standard error, the truth, how many standard errors lie between.
 ///
+/// Where nothing is left to chance, what rounding may do stands in for the standard error.
 /// Errors: one that lies more than four standard errors from the truth.
 pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result {
     writeln!(
         out,
-        "{:<44} {:<38} {:>9} {:>20} {:>8}",
+        "{:<46} {:<45} {:>9} {:>20} {:>9}",
         "measured by whole renders", "formula", "truth", "measured", "off"
     )?;
     let mut missed = None;
@@ -21,14 +22,13 @@ pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result
         }
         let truth = (form.truth)();
         let measured = form.measure(form.few.saturating_mul(asked.times), asked.seed)?;
-        let (mean, error, off) = (measured.mean, measured.standard_error / truth, measured.deviation(truth));
-        writeln!(
-            out,
-            "{:<44} {:<38} {truth:>9.5} {mean:>9.5} ± {:>6.3} % {off:>+5.1} SE",
-            form.name,
-            form.formula,
-            100.0 * error
-        )?;
+        let (mean, off) = (measured.mean, measured.deviation(truth));
+        write!(out, "{:<46} {:<45} {truth:>9.5} {mean:>9.5} ", form.name, form.formula)?;
+        if measured.is_exact(truth) {
+            writeln!(out, "± rounding {off:>+6.1} r")?;
+        } else {
+            writeln!(out, "± {:>6.3} % {off:>+6.1} SE", 100.0 * measured.standard_error / truth)?;
+        }
         found = true;
         if off.abs() > 4.0 {
             missed = missed.or(Some(form.name));

@@ -96,7 +96,8 @@ pub fn environment_stage() -> Stage {
             let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
             });
-            let aimed = environment_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| followed_evidence(scene));
+            let aimed =
+                environment_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| followed_evidence(scene));
             if found.needed && aimed.needed {
                 let reason = "added as far as it is not aimed at".into();
                 return Evidence { needed: false, reason, count: 0 };

@@ -1,6 +1,6 @@
 //! A closed room whose walls all shine and send light on alike: L = E + aE + a²E + … = E / (1 − a).
 
-use super::ClosedForm;
+use super::{ClosedForm, GREEN};
 use crate::scene::{Emissive, Integrator, LightSampling, Matte, PerspectiveCamera, Placement, Rgb, Sphere};
 use bevy_ecs::prelude::*;
 
@@ -10,6 +10,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 / (1 − a)",
         truth: || 2.0,
         few: 1 << 14,
+        lane: GREEN,
         scene: |world| room(world, 0.5),
     },
     ClosedForm {
@@ -17,6 +18,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 / (1 − a)",
         truth: || 5.0,
         few: 1 << 15,
+        lane: GREEN,
         scene: |world| room(world, 0.8),
     },
     ClosedForm {
@@ -24,6 +26,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 / (1 − a)",
         truth: || 1.0 / (1.0 - 0.99),
         few: 1 << 15,
+        lane: GREEN,
         scene: |world| room(world, 0.99),
     },
 ];
