@@ -1,7 +1,13 @@
 //! Light that is followed, held against what is known of it.
 
+#[path = "follow/broken.rs"]
+mod broken;
 #[path = "../chapters/mod.rs"]
 mod chapters;
+#[path = "follow/numerics.rs"]
+mod numerics;
+#[path = "follow/preflight.rs"]
+mod preflight;
 mod scenes;
 
 use bevy_ecs::prelude::*;

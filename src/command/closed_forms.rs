@@ -1,6 +1,6 @@
 use super::arguments::TryClosedForms;
 use super::interrupt::interrupted;
-use crate::measure::closed_form::closed_forms;
+use crate::measure::closed_form::{ClosedForm, closed_forms};
 use crate::{Error, Result};
 use std::io::Write;
 
@@ -11,8 +11,8 @@ use std::io::Write;
 pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result {
     writeln!(
         out,
-        "{:<46} {:<45} {:>9} {:>20} {:>9}",
-        "measured by whole renders", "formula", "truth", "measured", "off"
+        "{:<46}{:>10}{:>11}{:>13}{:>10}   {}",
+        "measured by whole renders", "truth", "measured", "error", "off by", "formula"
     )?;
     let mut missed = None;
     let mut found = false;
@@ -23,12 +23,13 @@ pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result
         let truth = (form.truth)();
         let measured = form.measure(form.few.saturating_mul(asked.times), asked.seed)?;
         let (mean, off) = (measured.mean, measured.deviation(truth));
-        write!(out, "{:<46} {:<45} {truth:>9.5} {mean:>9.5} ", form.name, form.formula)?;
-        if measured.is_exact(truth) {
-            writeln!(out, "± rounding {off:>+6.1} r")?;
+        let (error, unit) = if measured.is_exact(truth) {
+            ("rounding".into(), "r ")
         } else {
-            writeln!(out, "± {:>6.3} % {off:>+6.1} SE", 100.0 * measured.standard_error / truth)?;
-        }
+            (format!("± {:.3} %", 100.0 * measured.standard_error / truth), "SE")
+        };
+        let ClosedForm { name, formula, .. } = form;
+        writeln!(out, "{name:<46}{truth:>10.5}{mean:>11.5}{error:>13}{off:>+7.1} {unit}   {formula}")?;
         found = true;
         if off.abs() > 4.0 {
             missed = missed.or(Some(form.name));

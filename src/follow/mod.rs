@@ -25,6 +25,7 @@ mod occlusion;
 mod paths;
 mod roulette;
 mod scattered;
+mod unfollowed;
 mod weigh;
 
 pub use beer::{absorbed, transmittance};
@@ -53,6 +54,7 @@ pub use occlusion::{aim_at_the_sky, show_the_sky, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
+pub use unfollowed::check_matter_is_followed;
 pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
 
 use crate::plan::Stage;

@@ -1,6 +1,7 @@
 //! Every number that theory knows, by whole renders with so many samples that chance leaves a thousandth.
 //!
-//! cargo bench --bench closed_forms [-- --seed 7]
+//! `cargo bench --bench closed_forms` prints them; `-- --seed 7` takes other random numbers.
+#![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use pinhole::measure::closed_form::closed_forms;
 

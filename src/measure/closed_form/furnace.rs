@@ -11,7 +11,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || 2.0,
         few: 1 << 14,
         lane: GREEN,
-        scene: |world| room(world, 0.5),
+        scene: |world| room(world, 0.5, WAYS),
     },
     ClosedForm {
         name: "furnace, albedo 0.8",
@@ -19,7 +19,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || 5.0,
         few: 1 << 15,
         lane: GREEN,
-        scene: |world| room(world, 0.8),
+        scene: |world| room(world, 0.8, WAYS),
     },
     ClosedForm {
         name: "furnace, albedo 0.99",
@@ -27,13 +27,25 @@ pub(super) const FORMS: &[ClosedForm] = &[
         truth: || 1.0 / (1.0 - 0.99),
         few: 1 << 15,
         lane: GREEN,
-        scene: |world| room(world, 0.99),
+        scene: |world| room(world, 0.99, WAYS),
+    },
+    ClosedForm {
+        name: "furnace, albedo 0.99, 64 legs at most",
+        formula: "(1 − a⁶⁴) / (1 − a)",
+        truth: || (1.0 - libm::pow(0.99, 64.0)) / (1.0 - 0.99),
+        few: 1 << 11,
+        lane: GREEN,
+        scene: |world| {
+            room(world, 0.99, Integrator::Path { legs: 64, lights: LightSampling::ByChance, roulette: 0 });
+        },
     },
 ];
 
+/// Ways that end by chance alone.
+const WAYS: Integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
+
 /// The camera stands off the middle of a hollow ball.
-fn room(world: &mut World, albedo: f64) {
-    let integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
+fn room(world: &mut World, albedo: f64, integrator: Integrator) {
     world.spawn((PerspectiveCamera::default(), Placement::at(0.2, -0.1, 0.3), integrator));
     let wall = (Matte { colour: Rgb::grey(albedo) }, Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
     world.spawn((Sphere { radius: 1.0 }, wall));

@@ -63,8 +63,15 @@ impl ClosedForm {
     /// A pixel's own mean differs between the two renders by chance alone, whatever the picture shows there.
     /// Errors: a refused scene.
     pub fn measure(&self, samples: u32, seed: u64) -> Result<Measured> {
+        self.measure_by(&every_stage(), samples, seed)
+    }
+
+    /// The same by other stages: a test replaces some by ones that do something wrong, and asks that it shows.
+    ///
+    /// Errors: a refused scene, or stages that do not make a picture of it.
+    pub fn measure_by(&self, stages: &[Stage], samples: u32, seed: u64) -> Result<Measured> {
         let samples = samples.div_ceil(2 * SIDE * SIDE).max(1);
-        let [one, other] = [self.half(samples, 2 * seed)?, self.half(samples, 2 * seed + 1)?];
+        let [one, other] = [self.half(stages, samples, 2 * seed)?, self.half(stages, samples, 2 * seed + 1)?];
         let pixels = one.len() as f64;
         let (mut sum, mut squares) = (0.0, 0.0);
         for (a, b) in one.iter().zip(&other) {
@@ -79,13 +86,13 @@ impl ClosedForm {
     }
 
     /// The means of the pixels, each with so many samples spread evenly over it.
-    fn half(&self, samples: u32, seed: u64) -> Result<Vec<f64>> {
+    fn half(&self, stages: &[Stage], samples: u32, seed: u64) -> Result<Vec<f64>> {
         let mut world = World::new();
         (self.scene)(&mut world);
         let camera = camera_entity(&world)?;
         let sampling = Sampling { samples, seed, sampler: Sampler::Independent, filter: Filter::BOX };
         world.entity_mut(camera).insert((sampling, Resolution { width: SIDE, height: SIDE }));
-        let film = render(&world, &every_stage(), &Execution::default(), &())?.film;
+        let film = render(&world, stages, &Execution::default(), &())?.film;
         let of_tile = |tile: &FilmTile| {
             let FilmTile { r, g, b, count, .. } = tile;
             let lane = [r, g, b][self.lane.min(2)];
@@ -95,7 +102,8 @@ impl ClosedForm {
     }
 }
 
-fn every_stage() -> Vec<Stage> {
+/// All that closed forms are measured by.
+pub fn every_stage() -> Vec<Stage> {
     let mut stages = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
     if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
         stages.push(place_samples_stage());

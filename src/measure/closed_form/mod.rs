@@ -14,7 +14,7 @@ mod receiver;
 mod sky;
 
 use measured::GREEN;
-pub use measured::{ClosedForm, Measured};
+pub use measured::{ClosedForm, Measured, every_stage};
 
 /// Every closed form that is held against a render.
 pub const CLOSED_FORMS: &[&[ClosedForm]] = &[
