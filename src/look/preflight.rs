@@ -6,7 +6,7 @@ use crate::extract::{
     followed_evidence, glass_evidence, mirror_evidence, shape_entities, validate,
 };
 use crate::plan::{Evidence, Plan, Stage, Table};
-use crate::scene::{Environment, Glass, UsesMaterial};
+use crate::scene::{Environment, Glass, Rgb, UsesMaterial};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -123,7 +123,7 @@ fn out_of_reach(scene: &World) -> Vec<String> {
     )]
 }
 
-/// That a shape holds the camera, and which; what is said of glass is that the kit does not know it.
+/// That a shape holds the camera, and which; the list of media starts empty whatever that is made of.
 fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<String>> {
     let spheres = SphereTable::extract(scene)?;
     let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
@@ -140,10 +140,10 @@ fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<Stri
     let Some(shape) = sphere.or(cuboid).or(ellipsoid) else { return Ok(None) };
     let name = shapes.name.get(shape as usize).cloned().unwrap_or_default();
     let entity = shape_entities(scene).get(shape as usize).copied();
-    let of_glass = entity.is_some_and(|entity| {
+    let absorbs = entity.is_some_and(|entity| {
         let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
-        scene.get::<Glass>(entity).or(used).is_some()
+        scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
     });
-    let glass = if of_glass { ", and light is followed as if it stood outside of all glass" } else { "" };
-    Ok(Some(format!("the camera is inside the {name}, and sees it from within{glass}")))
+    let lost = if absorbs { "; what it absorbs on the first leg is not counted" } else { "" };
+    Ok(Some(format!("the camera is inside the {name}, and sees it from within{lost}")))
 }

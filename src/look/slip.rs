@@ -57,13 +57,14 @@ pub const SLIPS: &[Slip] = &[
         },
     },
     Slip {
-        what: "the camera inside a box of glass",
+        what: "the camera inside a block of tinted glass",
         scene: |world| {
             eye(world, 6.0);
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 100.0);
             let block = Cuboid { size: DVec3::splat(1.0) };
-            world.spawn((Name::new("block"), block, Placement::at(0.0, 1.0, 6.0), Glass::default()));
+            let glass = Glass { absorption: Rgb::new(0.5, 0.1, 0.1), ..Glass::default() };
+            world.spawn((Name::new("block"), block, Placement::at(0.0, 1.0, 6.0), glass));
         },
     },
     Slip {

@@ -1,19 +1,24 @@
 //! Stages with one mistake each, to take the place of the kit's or to spoil what they wrote: for figures, and for tests
 //! that must notice.
 
+use super::emitter::{density_without_cosine, density_without_jacobian};
+use super::motion::time_of_frame;
 use super::path::uniform_direction;
 use crate::extract::{
-    GlassTable, IntegratorTable, MaterialKind, MaterialTable, SamplingTable, glass_evidence, material_evidence,
-    metal_evidence, occlusion_evidence, weighed_evidence,
+    AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
+    ShutterTable, glass_evidence, material_evidence, metal_evidence, occlusion_evidence, weighed_evidence,
 };
 use crate::follow::{GlassRows, Scattered, ScatteredRay, cosine_density, frame_of};
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_two};
-use crate::sample::Purpose;
-use crate::shade::LightRays;
+use crate::rays::{
+    Draws, Leg, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
+};
+use crate::sample::{Purpose, uniform};
+use crate::shade::emitter::{distance_to, parallelogram_area_density};
+use crate::shade::{LightRays, area_light_stage};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// How a matte surface sends light on: a direction about +z by two numbers, and the share that it counts by albedo and
@@ -160,9 +165,87 @@ pub fn sky_in_all_directions_alike() -> Stage {
 
 /// Light that was aimed at counts in full, though chance finds it too; in the place of all that weigh.
 pub fn aimed_light_counted_in_full() -> Stage {
-    Stage::new("Forget to weigh", TileSystems::Weigh, |_: Query<&mut LightRays>| ())
+    Stage::new("Count aimed light in full", TileSystems::Weigh, |_: Query<&mut LightRays>| ())
         .kind(StageKind::Alternative)
         .reads::<LightRays>()
         .writes::<LightRays>()
         .when(weighed_evidence)
+}
+
+/// How far a ray's end may lie from a light's plane, as a share of its length, and count as on it.
+const ON_LIGHT: f64 = 1e-5;
+
+/// The light's own cosine forgotten in the density of its area.
+pub fn light_without_cosine() -> Stage {
+    spoils_aimed("Forget the light's cosine", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, density_without_cosine));
+    })
+}
+
+/// The Jacobian forgotten: the density of an area taken for one of directions.
+pub fn light_without_jacobian() -> Stage {
+    spoils_aimed("Forget the Jacobian", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, |_, area| density_without_jacobian(area)));
+    })
+}
+
+/// After the rays to lights, before what is in their way.
+fn spoils_aimed(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
+    Stage::new(name, TileSystems::Aim, forget)
+        .kind(StageKind::Alternative)
+        .appends::<LightRays>()
+        .table::<AreaLightTable>()
+        .when(|scene| (area_light_stage().when)(scene))
+}
+
+/// Multiplies what each ray to a rectangle brings by the right density of a point of its area over another: on average
+/// that is what points of the area would bring, weighed by that other.
+fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, f64) -> f64) {
+    for ray in 0..rays.rows() {
+        let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+        let (direction, reach) = (rays.direction_of(ray), f64::from(rays.reach[ray]));
+        let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / reach - 1.0).abs() < ON_LIGHT;
+        let Some(Emitter::Rectangle(flat)) = lights.emitter.iter().find(ends_on) else { continue };
+        let to = direction * reach;
+        let factor = (parallelogram_area_density(flat, to) / naive(to, flat.area())) as f32;
+        for part in [&mut rays.r, &mut rays.g, &mut rays.b] {
+            part[ray] *= factor;
+        }
+    }
+}
+
+/// The stage that draws points on the lens, by another way of filling it.
+pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
+    let fill = move |lens: Res<Shared<LensTable>>, mut tiles: Query<(&RasterPoints, &mut LensPoints)>| {
+        for (raster, mut points) in &mut tiles {
+            let (x, y) = raster.slices();
+            let (lens_x, lens_y) = points.slices_mut(x.len());
+            for row in 0..x.len() {
+                // Where in its pixel a sample is decides; enough for a picture.
+                let key = [x[row].to_bits() as u32, y[row].to_bits() as u32];
+                let u = DVec2::new(uniform(1, key, 0, Purpose::Lens), uniform(2, key, 0, Purpose::Lens));
+                (lens_x[row], lens_y[row]) = (point(u) * lens.radius).into();
+            }
+        }
+    };
+    Stage::new("Draw points on the lens otherwise", TileSystems::Lens, fill)
+        .kind(StageKind::Alternative)
+        .reads::<RasterPoints>()
+        .writes::<LensPoints>()
+        .table::<LensTable>()
+}
+
+/// The stage that draws times, by so many moments in turn.
+pub fn moments_in_turn(frames: u32) -> Stage {
+    let fill = move |shutter: Res<Shared<ShutterTable>>, mut tiles: Query<(&PixelSamples, &mut RayTimes)>| {
+        for (samples, mut times) in &mut tiles {
+            times.time.clear();
+            times.time.extend(samples.sample.iter().map(|&sample| time_of_frame(sample, frames, shutter.length)));
+        }
+    };
+    Stage::new("Take moments in turn", TileSystems::Lens, fill)
+        .kind(StageKind::Alternative)
+        .reads::<PixelSamples>()
+        .writes::<RayTimes>()
+        .table::<ShutterTable>()
 }
