@@ -29,7 +29,7 @@ fn exhibit(picture: Result<Picture>, [what, why]: [&str; 2]) -> Result<Exhibit> 
 /// Right, and with one stage more that spoils it.
 fn spoiled(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, lines: [&str; 2]) -> Result<Drawing> {
     let exhibits = [
-        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", ""])?,
+        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", "as it should be"])?,
         exhibit(Picture::beside(chapter, SIZE, Some(stage), sampled(samples)), lines)?,
     ];
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
@@ -38,7 +38,7 @@ fn spoiled(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, lines
 /// Right, and with another stage in the place of those that do the same.
 fn replaced(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, lines: [&str; 2]) -> Result<Drawing> {
     let exhibits = [
-        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", ""])?,
+        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", "as it should be"])?,
         exhibit(Picture::of(chapter, SIZE, Some(stage), sampled(samples)), lines)?,
     ];
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
@@ -60,7 +60,7 @@ pub fn draw_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     };
     let narrow = Picture::beside(chapter, SIZE, Some(glass_that_keeps_beams_narrow()), sampled(4));
     let exhibits = [
-        exhibit(Picture::of(chapter, SIZE, None, sampled(4)), ["right", ""])?,
+        exhibit(Picture::of(chapter, SIZE, None, sampled(4)), ["right", "as it should be"])?,
         exhibit(Picture::of(chapter, SIZE, None, upside_down), ["*η* upside down", "as if air were the denser"])?,
         exhibit(narrow, ["*η*² forgotten on the way out", "beams stay narrow, and dark"])?,
     ];

@@ -57,9 +57,15 @@ pub fn pilot(scene: &World, offer: &[Stage]) -> Result<Pilot> {
     for (shape, count) in counted.blocked.into_values().flatten() {
         *pilot.blocked.entry(shape).or_default() += count;
     }
-    for radiance in inspection.tiles.iter().filter_map(|&tile| inspection.world.get::<Radiance>(tile)) {
+    for &tile in &inspection.tiles {
+        let rays = inspection.world.get::<Tile>(tile).map_or(0, Tile::rows);
+        pilot.rays += rays;
+        let Some(radiance) = inspection.world.get::<Radiance>(tile) else {
+            // Nothing in the scene brings light, so none is kept.
+            pilot.black += rays;
+            continue;
+        };
         let (r, g, b) = radiance.slices();
-        pilot.rays += radiance.rows();
         pilot.black += (0..radiance.rows()).filter(|&row| r[row].max(g[row]).max(b[row]) < DARK).count();
         pilot.beyond_white += (0..radiance.rows()).filter(|&row| r[row].min(g[row]).min(b[row]) > 1.0).count();
     }

@@ -3,10 +3,10 @@ use super::slow::{Effort, slow};
 use super::unseen::unseen;
 use crate::extract::{
     CuboidTable, EllipsoidTable, ImageShape, SamplingTable, ShapeTable, SphereTable, aimed_evidence, emissive_evidence,
-    followed_evidence, glass_evidence, mirror_evidence, shape_entities, validate,
+    followed_evidence, glass_evidence, integrator_of, mirror_evidence, shape_entities,
 };
 use crate::plan::{Evidence, Plan, Stage, Table};
-use crate::scene::{Environment, Glass, Rgb, UsesMaterial};
+use crate::scene::{Environment, Glass, Integrator, Rgb, UsesMaterial};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -34,7 +34,6 @@ pub fn preflight(scene: &World, offer: &[Stage], plan: &Plan, asked: Preflight) 
     if plan.view.is_some() {
         return Ok(Vec::new());
     }
-    validate(scene)?;
     let pilot = pilot(scene, offer)?;
     let shapes = ShapeTable::extract(scene).map_err(Error::from)?;
     let mut told = Vec::new();
@@ -70,18 +69,25 @@ fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
     let aimed = points.needed || aimed_evidence(scene).needed;
     let lit = points.or(areas);
     let blocked: usize = pilot.blocked.values().sum();
-    if pilot.met == 0 {
-        return format!("none of {} rays meets a shape, and there is no background with a colour", pilot.rays);
+    let integrator = integrator_of(scene).integrator;
+    if let Integrator::AmbientOcclusion { distance } = integrator {
+        return format!("within the distance of {distance} something hides the sky from all that the camera sees");
     }
     if !lit.needed {
         return "there is no light, no surface that emits, and no background with a colour".into();
     }
-    if !aimed {
-        let found = pilot.rays - pilot.black;
+    if pilot.met == 0 {
+        return format!("none of {} rays meets a shape, and there is no background with a colour", pilot.rays);
+    }
+    if !aimed && matches!(integrator, Integrator::Path { .. }) {
+        let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
         return format!(
-            "only {found} of {} rays came upon a light by chance ({}); LightSampling::Weighed aims at lights too",
-            pilot.rays, lit.reason
+            "{found} of {rays} rays came upon a light by chance ({}); LightSampling::Weighed aims at lights too",
+            lit.reason
         );
+    }
+    if !aimed {
+        return format!("no light that is aimed at is there, and others light nothing here ({})", lit.reason);
     }
     if pilot.to_lights == 0 {
         return format!(

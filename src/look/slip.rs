@@ -61,7 +61,8 @@ pub const SLIPS: &[Slip] = &[
         scene: |world| {
             eye(world, 6.0);
             floor_and_ball(world);
-            lamp(world, [3.0, 5.0, 4.0], 100.0);
+            let bulb = Emissive { radiance: Rgb::grey(100.0), ..Emissive::default() };
+            world.spawn((Name::new("bulb"), Sphere { radius: 0.5 }, Placement::at(3.0, 5.0, 4.0), bulb));
             let block = Cuboid { size: DVec3::splat(1.0) };
             let glass = Glass { absorption: Rgb::new(0.5, 0.1, 0.1), ..Glass::default() };
             world.spawn((Name::new("block"), block, Placement::at(0.0, 1.0, 6.0), glass));

@@ -29,9 +29,15 @@ fn slips_are_told_before_the_picture_is_rendered() {
         ("the camera looks the other way", &[&["likely to be black", "rays meets a shape", "no background"]]),
         ("the same before a blue sky", &[&["none of", "rays tried", "meets a shape"]]),
         ("a lamp a hundred times too bright", &[&["% of the rays tried", "more than white", "EXR"]]),
-        ("a small lamp left to chance", &[&["likely to be black", "by chance", "LightSampling::Weighed"]]),
+        ("a small lamp left to chance", &[&["likely to be black", "0 of 6144 rays", "by chance", "Weighed"]]),
         ("a mirror, by ray casting", &[&["shows mirrors and glass dark", "\"mirror\"", "Integrator::Whitted"]]),
-        ("a lamp with an area, by Whitted's rays", &[&["lights nothing", "\"panel\"", "Integrator::Path"]]),
+        (
+            "a lamp with an area, by Whitted's rays",
+            &[
+                &["likely to be black", "light nothing here", "\"panel\""],
+                &["lights nothing", "\"panel\"", "Integrator::Path"],
+            ],
+        ),
         ("focus at 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
     ];
     assert_eq!(
@@ -45,7 +51,6 @@ fn slips_are_told_before_the_picture_is_rendered() {
         let told = said(&world).unwrap_or_else(|error| vec![format!("refused: {error}")]);
         eprintln!("{}: {told:#?}", slip.what);
         let holds = |(sentence, words): (&String, &&[&str])| words.iter().all(|word| sentence.contains(word));
-        // A mirror beside a light without an area has more to say, and others say it.
         if told.len() != sentences.len() || !told.iter().zip(*sentences).all(holds) {
             failures.push((slip.what, told));
         }
@@ -123,7 +128,11 @@ fn nothing_is_said_of_the_chapters_scenes() {
         let scene = chapter.world(&asked);
         let plan = prepare(&scene, &chapter.stages()).expect("prepared").0;
         let asked = Preflight { threads: Some(1), ends_in_time: true };
-        let told = preflight(&scene, &chapter.stages(), &plan, asked).expect("said");
+        let mut told = preflight(&scene, &chapter.stages(), &plan, asked).expect("said");
+        // That is so there: the first two of light that is followed show it.
+        if ["19_mirrors", "20_glass"].contains(&chapter.name) {
+            told.retain(|sentence| !sentence.contains("mirrors or glass"));
+        }
         said.extend(told.into_iter().map(|sentence| format!("{}: {sentence}", chapter.name)));
     }
     eprintln!("{} chapters: {said:#?}", chapters.len());
