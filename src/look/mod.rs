@@ -5,6 +5,7 @@
 
 pub mod convention;
 
+mod inside;
 mod pilot;
 mod preflight;
 mod slip;

@@ -1,12 +1,13 @@
+use super::inside::shape_around_camera;
 use super::pilot::{Pilot, pilot};
 use super::slow::{Effort, slow};
 use super::unseen::unseen;
 use crate::extract::{
-    CuboidTable, EllipsoidTable, ImageShape, SamplingTable, ShapeTable, SphereTable, aimed_evidence, emissive_evidence,
-    followed_evidence, glass_evidence, integrator_of, mirror_evidence, shape_entities,
+    ImageShape, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence, followed_evidence, glass_evidence,
+    integrator_of, mirror_evidence,
 };
 use crate::plan::{Evidence, Plan, Stage, Table};
-use crate::scene::{Environment, Glass, Integrator, Rgb, UsesMaterial};
+use crate::scene::{Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -127,29 +128,4 @@ fn out_of_reach(scene: &World) -> Vec<String> {
          surfaces, for no ray meets a point; a small sphere that emits is found by paths",
         bends.reason, points.reason
     )]
-}
-
-/// That a shape holds the camera, and which; the list of media starts empty whatever that is made of.
-fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<String>> {
-    let spheres = SphereTable::extract(scene)?;
-    let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
-    let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
-    let cuboids = CuboidTable::extract(scene)?;
-    let within = |row: &usize| cuboids.slabs[*row].holds_the_eye();
-    let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
-    let ellipsoids = EllipsoidTable::extract(scene)?;
-    let within = |row: &usize| {
-        let egg = &ellipsoids.ellipsoid[*row];
-        (egg.unit_from_world * egg.centre).length() < 1.0
-    };
-    let ellipsoid = (0..ellipsoids.ellipsoid.len()).find(within).map(|row| ellipsoids.shape[row]);
-    let Some(shape) = sphere.or(cuboid).or(ellipsoid) else { return Ok(None) };
-    let name = shapes.name.get(shape as usize).cloned().unwrap_or_default();
-    let entity = shape_entities(scene).get(shape as usize).copied();
-    let absorbs = entity.is_some_and(|entity| {
-        let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
-        scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
-    });
-    let lost = if absorbs { "; what it absorbs on the first leg is not counted" } else { "" };
-    Ok(Some(format!("the camera is inside the {name}, and sees it from within{lost}")))
 }

@@ -106,7 +106,7 @@ fn a_light_inside_something_opaque_lights_nothing() {
 }
 
 /// An octahedron whose faces have been cut in four so many times and moved out to the unit sphere; shaded as the sphere.
-fn ball_of_triangles(world: &mut World, times: u32) -> usize {
+pub fn ball_of_triangles(world: &mut World, times: u32) -> usize {
     let mut faces: Vec<[DVec3; 3]> = Vec::new();
     for signs in 0..8 {
         let axis = |bit: u32, axis: DVec3| if signs >> bit & 1 == 0 { axis } else { -axis };

@@ -96,7 +96,21 @@ fn a_camera_inside_a_shape_is_told() {
             tried += 1;
         }
     }
-    eprintln!("cameras: {tried} places about 3 kinds of shapes");
+    // Triangles that close; and with one of them taken away.
+    for (eye, open, within) in [(0.0, false, true), (0.9, false, true), (1.1, false, false), (0.0, true, false)] {
+        let mut world = World::new();
+        world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 0.0, eye)));
+        world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(0.2, 0.3, 0.1)));
+        numerics::ball_of_triangles(&mut world, 2);
+        if open {
+            let face = world.query_filtered::<Entity, With<Triangle>>().iter(&world).next().expect("a face");
+            world.despawn(face);
+        }
+        let told = said(&world).expect("said");
+        assert_eq!(told.iter().any(|sentence| sentence.contains("inside the triangle")), within, "{eye}: {told:?}");
+        tried += 1;
+    }
+    eprintln!("cameras: {tried} places about 4 kinds of shapes");
 }
 
 /// A one-sided lamp that shines upward over the floor lights nothing that is seen.
