@@ -214,18 +214,6 @@ pub fn figures() -> Vec<Figure> {
             draw: samples::draw_variance,
         },
         Figure {
-            name: "19_broken",
-            chapter: "19_mirrors",
-            about: "rough metal, and rough metal by the density of something else",
-            draw: broken_ways::draw_metal,
-        },
-        Figure {
-            name: "20_broken",
-            chapter: "20_glass",
-            about: "glass, glass that bends the wrong way, and glass that keeps beams narrow",
-            draw: broken_ways::draw_glass,
-        },
-        Figure {
             name: "20_glass",
             chapter: "20_glass",
             about: "how much of the light glass mirrors at each angle, from outside and from inside",
@@ -268,12 +256,6 @@ pub fn figures() -> Vec<Figure> {
             draw: cameras::draw_shutters,
         },
         Figure {
-            name: "22_broken",
-            chapter: "22_ambient_occlusion",
-            about: "how much of the sky points see, with the cosine and without",
-            draw: broken_ways::draw_sky,
-        },
-        Figure {
             name: "22_distance",
             chapter: "22_ambient_occlusion",
             about: "how much of the sky points see, with what is near alone in the way, and with all",
@@ -286,24 +268,15 @@ pub fn figures() -> Vec<Figure> {
             draw: integrators::draw_legs,
         },
         Figure {
-            name: "25_broken",
-            chapter: "25_path_tracing",
-            about: "one scene by paths with a factor too few or too many, and encoded twice",
-            draw: broken_paths::draw,
-        },
-        Figure {
-            name: "26_broken",
-            chapter: "26_choosing_samples",
-            about: "two ways to find a lamp, weighed, and both counted",
-            draw: broken_ways::draw_weights,
-        },
-        Figure {
             name: "26_ways",
             chapter: "26_choosing_samples",
             about: "lamps found by chance, by aiming, and by both, weighed",
             draw: integrators::draw_ways,
         },
     ]
+    .into_iter()
+    .chain(broken_ways::figures())
+    .collect()
 }
 
 /// Draws the figure of this name.

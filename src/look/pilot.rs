@@ -60,8 +60,8 @@ pub fn pilot(scene: &World, offer: &[Stage]) -> Result<Pilot> {
     for &tile in &inspection.tiles {
         let rays = inspection.world.get::<Tile>(tile).map_or(0, Tile::rows);
         pilot.rays += rays;
-        let Some(radiance) = inspection.world.get::<Radiance>(tile) else {
-            // Nothing in the scene brings light, so none is kept.
+        // Where nothing in the scene brings light, there is no such column, or it has no rows.
+        let Some(radiance) = inspection.world.get::<Radiance>(tile).filter(|radiance| radiance.rows() == rays) else {
             pilot.black += rays;
             continue;
         };

@@ -4,6 +4,7 @@ use crate::extract::{
     emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence,
 };
 use crate::scene::Integrator;
+use crate::shade::point_evidence;
 use bevy_ecs::prelude::*;
 
 /// A sentence for each kind of light or matter that the scene has and its integrator does not show.
@@ -20,7 +21,8 @@ pub fn unseen(scene: &World) -> Vec<String> {
                     polished.reason
                 ));
             }
-            if lit_by_area {
+            // Beside other lights, that surfaces which emit are only seen is what was asked for.
+            if lit_by_area && !point_evidence(scene).needed {
                 told.push(format!(
                     "ray casting lights nothing by surfaces that emit ({}); Integrator::Path does",
                     lamps.reason

@@ -35,7 +35,7 @@ fn slips_are_told_before_the_picture_is_rendered() {
             "a lamp with an area, by Whitted's rays",
             &[
                 &["likely to be black", "light nothing here", "\"panel\""],
-                &["lights nothing", "\"panel\"", "Integrator::Path"],
+                &["rays light nothing by", "\"panel\"", "Integrator::Path"],
             ],
         ),
         ("focus at 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
