@@ -4,12 +4,18 @@
 #[path = "../chapters/mod.rs"]
 mod chapters;
 
+use std::sync::OnceLock;
+
 use pinhole::figure::{self, Drawing, Grid, Subject, chosen_rays, drawn_distance, overlap};
 
-fn drawings() -> Vec<(&'static str, Drawing)> {
-    let chapters = chapters::all();
-    let draw = |figure: &figure::Figure| (figure.name, figure::draw(&chapters, figure.name).expect(figure.name));
-    figure::figures().iter().map(draw).collect()
+/// All of them, drawn once for all tests.
+fn drawings() -> &'static [(&'static str, Drawing)] {
+    static DRAWINGS: OnceLock<Vec<(&str, Drawing)>> = OnceLock::new();
+    DRAWINGS.get_or_init(|| {
+        let chapters = chapters::all();
+        let draw = |figure: &figure::Figure| (figure.name, figure::draw(&chapters, figure.name).expect(figure.name));
+        figure::figures().iter().map(draw).collect()
+    })
 }
 
 /// Reads tags and checks that each is closed by its own name.

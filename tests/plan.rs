@@ -29,7 +29,7 @@ use scenes::{
     EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
     shining, singles_and_pairs, soft, stretched, textured, toggled,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a combination cannot make a picture: its view asks for what nothing in it writes.
 fn pictureless(on: &[Toggle]) -> bool {

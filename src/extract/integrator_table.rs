@@ -1,5 +1,6 @@
 use super::camera::camera_entity;
 use super::check::{at_most_one, kind_and_name, positive_length};
+use super::glass::{GlassTable, glass_evidence};
 use super::integrator::integrator_of;
 use crate::plan::Table;
 use crate::scene::{Integrator, LightSampling, Refusal};
@@ -12,6 +13,8 @@ pub struct IntegratorTable {
     pub legs: u32,
     /// The leg from which ways end by chance.
     pub roulette: u32,
+    /// How many times as large radiance is in the densest glass as outside: its index of refraction squared, at least 1.
+    pub narrowing: f64,
     /// Whether two ways to find a light are weighed against each other.
     pub weighed: bool,
     /// How far something still hides the sky, in scene units.
@@ -31,7 +34,7 @@ impl Table for IntegratorTable {
             return Err(Refusal::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
         // Without more, light comes from a light by one surface to the camera.
-        let mut table = Self { legs: 2, ..Self::default() };
+        let mut table = Self { legs: 2, narrowing: narrowing_in_glass(scene)?, ..Self::default() };
         match integrator_of(scene).integrator {
             Integrator::RayCasting => {}
             Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
@@ -53,4 +56,12 @@ impl Table for IntegratorTable {
     fn bytes(&self) -> usize {
         size_of::<Self>()
     }
+}
+
+/// The largest index of refraction squared among the kinds of glass that shapes are made of; 1 without any.
+fn narrowing_in_glass(scene: &World) -> Result<f64, Refusal> {
+    if !glass_evidence(scene).needed {
+        return Ok(1.0);
+    }
+    Ok(GlassTable::extract(scene)?.ior.into_iter().fold(1.0, f64::max).powi(2))
 }

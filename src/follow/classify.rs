@@ -4,16 +4,6 @@ use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 
 column! {
-    /// The rows whose surface sends on light equally in all directions, whatever else it does, ascending.
-    pub struct MatteRows("matte rows", "rows of the tile", "rows", Ray) {
-        /// A row of the surfaces.
-        row: u32,
-        /// The row of the table of materials.
-        of: u32,
-    }
-}
-
-column! {
     /// The rows that met a perfect mirror, ascending.
     pub struct MirrorRows("mirror rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
@@ -47,30 +37,14 @@ column! {
 pub fn classify_matter(
     shapes: Res<Shared<ShapeTable>>,
     materials: Res<Shared<MaterialTable>>,
-    mut tiles: Query<(
-        &Hits,
-        Option<&mut MatteRows>,
-        Option<&mut MirrorRows>,
-        Option<&mut GlassRows>,
-        Option<&mut MetalRows>,
-    )>,
+    mut tiles: Query<(&Hits, Option<&mut MirrorRows>, Option<&mut GlassRows>, Option<&mut MetalRows>)>,
 ) {
-    let kind_of = |shape: usize| match shapes.material[shape] {
-        NO_ROW => None,
-        material => Some((material, materials.kind[material as usize])),
-    };
-    let of_kind = |shape: usize, kind: MaterialKind| match kind_of(shape) {
-        Some((material, own)) if own == kind => materials.row[material as usize],
+    let of_kind = |shape: usize, kind: MaterialKind| match shapes.material[shape] {
+        NO_ROW => NO_ROW,
+        material if materials.kind[material as usize] == kind => materials.row[material as usize],
         _ => NO_ROW,
     };
-    for (hits, matte, mirrors, glass, metal) in &mut tiles {
-        if let Some(mut list) = matte {
-            let list = &mut *list;
-            list_rows(hits, [&mut list.row, &mut list.of], |shape| match kind_of(shape) {
-                Some((material, kind)) if kind.spreads() && kind != MaterialKind::Metal => material,
-                _ => NO_ROW,
-            });
-        }
+    for (hits, mirrors, glass, metal) in &mut tiles {
         if let Some(mut list) = mirrors {
             let list = &mut *list;
             list_rows(hits, [&mut list.row, &mut list.of], |shape| of_kind(shape, MaterialKind::Mirror));
@@ -100,12 +74,6 @@ fn list_rows(hits: &Hits, [rows, of]: [&mut Vec<u32>; 2], row_of: impl Fn(usize)
     of.truncate(length);
 }
 
-impl MatteRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
 impl MirrorRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
@@ -128,7 +96,6 @@ impl MetalRows {
 pub fn classify_matter_stage() -> Stage {
     Stage::new("Classify matter", TileSystems::Classify, classify_matter)
         .reads::<Hits>()
-        .writes::<MatteRows>()
         .writes::<MirrorRows>()
         .writes::<GlassRows>()
         .writes::<MetalRows>()

@@ -29,7 +29,7 @@ mod unfollowed;
 mod weigh;
 
 pub use beer::{absorbed, transmittance};
-pub use classify::{GlassRows, MatteRows, MetalRows, MirrorRows, classify_matter, classify_matter_stage};
+pub use classify::{GlassRows, MetalRows, MirrorRows, classify_matter, classify_matter_stage};
 pub use emission::{
     add_weighed_emission, add_weighed_environment, power_heuristic, weighed_emission_stage, weighed_environment_stage,
 };

@@ -16,6 +16,9 @@ pub fn chance_to_go_on(share: [f64; 3]) -> f64 {
 // ANCHOR_END: chance_to_go_on
 
 /// Ends ways by chance from a leg on, and lets the others carry what those would have brought.
+///
+/// In glass of index n a share is 1/n² of what it is again outside, which is no reason to end a way; so at mirrors and
+/// glass, which no chance sent the ray off, it counts for n² as much.
 pub fn play_roulette(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
@@ -30,7 +33,9 @@ pub fn play_roulette(
         draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
         let mut kept = 0;
         for row in 0..scattered.rows() {
-            let chance = chance_to_go_on([scattered.r[row], scattered.g[row], scattered.b[row]]);
+            let own = if scattered.density[row] == f64::INFINITY { integrator.narrowing } else { 1.0 };
+            let share = [scattered.r[row], scattered.g[row], scattered.b[row]];
+            let chance = chance_to_go_on(share.map(|part| part * own));
             if numbers[row] < chance {
                 scattered.moved(row, kept);
                 let more = 1.0 / chance;

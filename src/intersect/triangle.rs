@@ -141,7 +141,10 @@ pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
 /// Rays that are put in order together.
 const CHUNK: usize = 1024;
 
-/// A triangle at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+/// Rays of a block that are asked together whether they meet a triangle: as many as fit a register.
+const GROUP: usize = 4;
+
+/// A triangle at a time over all rays; where none of four comes near the sphere about it, no more is asked of them.
 ///
 /// Rays are taken in the order of the axes along which they are longest, so that sixteen together need one kind of shear.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -210,9 +213,12 @@ fn rows_along<const Z: usize>(
                 let f = facet.centre - vector(&o, lane);
                 *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
             }
-            if nearest[..rows.len()].iter().any(|&nearness| nearness >= 0.0) {
-                let (t, shape) = (&mut own_t[..rows.len()], &mut own_shape[..rows.len()]);
-                narrow::<Z>(&o, &d, &sheared, facet, number, t, shape);
+            let (near, _) = nearest.as_chunks::<GROUP>();
+            let t = own_t[..rows.len()].chunks_mut(GROUP);
+            for (group, (t, shape)) in t.zip(own_shape[..rows.len()].chunks_mut(GROUP)).enumerate() {
+                if near[group].iter().any(|&nearness| nearness >= 0.0) {
+                    narrow::<Z>(&o, &d, &sheared, group, facet, number, t, shape);
+                }
             }
         }
         for (lane, &row) in rows.iter().enumerate() {
@@ -230,26 +236,33 @@ struct Sheared {
     size: [f64; LANES],
 }
 
-/// Narrows the hits of up to sixteen rays that are longest along `Z`.
+/// Narrows the hits of one group of a block's rays, which are all longest along `Z`.
 #[inline(always)]
 fn narrow<const Z: usize>(
     o: &[[f64; LANES]; 3],
     d: &[[f64; LANES]; 3],
     sheared: &Sheared,
+    group: usize,
     facet: &Facet,
     number: u32,
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
-    for lane in 0..LANES {
-        let shear = Shear { x: sheared.x[lane], y: sheared.y[lane], z: sheared.z[lane] };
-        let verdict = verdict::<Z>(vector(o, lane), shear, facet, sheared.size[lane]);
+    let of_group = |lanes: &[f64; LANES]| lanes.as_chunks::<GROUP>().0[group];
+    let origin = [of_group(&o[0]), of_group(&o[1]), of_group(&o[2])];
+    let (x, y, z) = (of_group(&sheared.x), of_group(&sheared.y), of_group(&sheared.z));
+    let size = of_group(&sheared.size);
+    let (mut found, mut doubtful) = ([f64::INFINITY; GROUP], [false; GROUP]);
+    for lane in 0..GROUP {
+        let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
+        let origin = DVec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
+        let verdict = verdict::<Z>(origin, shear, facet, size[lane]);
         (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
     }
     for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
         if doubtful[lane] {
-            found[lane] = exact_triangle_t(vector(o, lane), vector(d, lane), facet);
+            let row = group * GROUP + lane;
+            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), facet);
         }
         if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
             (*t, *shape) = (found[lane], number);

@@ -222,6 +222,11 @@ impl ColumnKind {
         }
     }
 
+    /// Whether a view may ask for it: on the first leg it holds what a ray met, not yet what a path has gathered.
+    pub fn is_viewed(&self) -> bool {
+        matches!(self.lifetime, Lifetime::Pixel | Lifetime::Ray)
+    }
+
     /// Bytes that one row of the column takes, lanes summed.
     pub fn bytes_a_row(&self) -> usize {
         let mut world = World::new();

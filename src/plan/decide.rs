@@ -111,11 +111,13 @@ pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
 }
 
 /// The columns that a view may ask for among these stages, in order.
+///
+/// A view shows the first leg of light's way, on which what is kept a path holds nothing yet.
 pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
     let mut names = Vec::new();
-    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.lifetime != Lifetime::Film) {
+    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.is_viewed()) {
         if !names.contains(&column.name) {
             names.push(column.name);
         }
@@ -199,10 +201,7 @@ fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
     let mut names = view_names(&stages);
     names.retain(|name| !name.ends_with(" rows"));
-    let found = offer
-        .iter()
-        .flat_map(|stage| &stage.writes)
-        .find(|column| column.name == asked && column.lifetime != Lifetime::Film);
+    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && column.is_viewed());
     found.copied().ok_or_else(|| PlanError::NoSuchView {
         asked: asked.into(),
         why: format!("the columns on offer are {} and lists of rows", names.join(", ")),

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// When each ray and all that follow from it are on their way; row by row those of the rays.
-    pub struct RayTimes("time", "since the shutter opened", "units of time", Path) {
+    pub struct RayTimes("time", "since the shutter opened", "units of time", Ray) {
         /// From 0 to below the time that the shutter is open.
         time: f64,
     }

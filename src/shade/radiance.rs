@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// The light that comes back along each ray.
-    pub struct Radiance("radiance", "light", "linear Rec. 709", Path) {
+    pub struct Radiance("radiance", "light", "linear Rec. 709", Ray) {
         /// Red.
         r: f32,
         /// Green.

@@ -396,19 +396,19 @@ pub const TOGGLES: &[Toggle] = &[
     Toggle::SecondLight,
     Toggle::Plane,
     Toggle::Sphere,
-    Toggle::Ellipsoid,
-    Toggle::Pieces,
     Toggle::Shadow,
     Toggle::Orthographic,
     Toggle::Background,
     Toggle::View,
     Toggle::Statistics,
-    Toggle::Layers,
-    Toggle::Samples,
 ];
 
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 10] = [
+pub const MORE: [Toggle; 14] = [
+    Toggle::Ellipsoid,
+    Toggle::Pieces,
+    Toggle::Layers,
+    Toggle::Samples,
     Toggle::Sun,
     Toggle::Spot,
     Toggle::Phong,
