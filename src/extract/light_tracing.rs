@@ -1,4 +1,4 @@
-use super::check::{at_most_one, kind_and_name};
+use super::check::{at_most_one, kind_and_name, number};
 use super::{
     ImageShape, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, lens_evidence,
     material_evidence, mirror_evidence, motion_evidence,
@@ -8,13 +8,13 @@ use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracin
 use bevy_ecs::prelude::*;
 
 /// The most rays from the lights for a ray of the camera.
-const MOST_PATHS: u32 = 1024;
+const MOST_PATHS: f64 = 1024.0;
 
 /// How many ways start on lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightTracingTable {
     /// Ways from the lights for every sample of every pixel.
-    pub paths: u32,
+    pub paths: f64,
 }
 
 impl Table for LightTracingTable {
@@ -29,11 +29,11 @@ impl Table for LightTracingTable {
             let who = kind_and_name(scene, "light tracing", entity);
             return Err(Refusal::new(who, "light_tracing", "on no camera", "it must be on the camera"));
         }
-        let paths = scene.get::<LightTracing>(camera).map_or(0, |own| own.paths);
+        let paths = scene.get::<LightTracing>(camera).map_or(0.0, |own| own.paths);
         let who = kind_and_name(scene, "camera", camera);
-        if !(1..=MOST_PATHS).contains(&paths) {
-            let accepted = format!("it must be a whole number from 1 to {MOST_PATHS}");
-            return Err(Refusal::new(who, "light_tracing paths", paths.to_string(), accepted));
+        if !(1.0 / MOST_PATHS..=MOST_PATHS).contains(&paths) {
+            let accepted = format!("it must be a number from 1/{MOST_PATHS} to {MOST_PATHS}");
+            return Err(Refusal::new(who, "light_tracing paths", number(paths), accepted));
         }
         let refused = |value: &str, accepted: &str| Err(Refusal::new(who, "light_tracing", value, accepted));
         if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {

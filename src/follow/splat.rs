@@ -51,8 +51,8 @@ pub fn keep_polished_stage() -> Stage {
         .on_first_leg()
         .kind(StageKind::Alternative)
         .reads::<MaterialRows>()
-        .reads_if::<MetalRows>()
         .writes::<MaterialRows>()
+        .writes::<MetalRows>()
         .when(traced_evidence)
 }
 

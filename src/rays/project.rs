@@ -95,7 +95,8 @@ mod tests {
             let back = point + found.to_camera - world_from_camera * origin;
             assert!(back.length() <= 1e-12 * (length + origin.length()), "{index}");
         }
-        assert!(worst < 1e-12, "{worst}");
+        // A point 10³ away on a rectangle 10⁻² high has lost five digits of its place across.
+        assert!(worst < 1e-10, "{worst}");
         eprintln!("joins: 20000 points, worst {worst:.1e} of the image");
     }
 

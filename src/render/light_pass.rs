@@ -26,7 +26,7 @@ pub(super) struct LightPass {
     /// The splats of the batches under way, a list each.
     lists: Vec<Mutex<Splats>>,
     /// Ways for every sample of a pixel.
-    paths: u32,
+    paths: f64,
     filter: SplatFilter,
     sampling: SamplingTable,
 }
@@ -58,7 +58,7 @@ impl LightPass {
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
         let batch = u64::from(LIGHT_PATHS);
-        let all = samples.saturating_mul(u64::from(self.paths)).div_ceil(batch);
+        let all = (samples as f64 * self.paths / f64::from(LIGHT_PATHS)).ceil() as u64;
         while splats.paths / batch < all && !watch.stopped() {
             let first = splats.paths / batch;
             let count = (all - first).min(BATCHES_AT_ONCE);

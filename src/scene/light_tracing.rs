@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightTracing {
-    /// Rays from the lights for every ray of the camera, from 1 to 1024.
-    pub paths: u32,
+    /// Rays from the lights for every ray of the camera, from 1/1024 to 1024; a part of one will often do.
+    pub paths: f64,
 }
 
 impl Default for LightTracing {
     fn default() -> Self {
-        Self { paths: 1 }
+        Self { paths: 1.0 }
     }
 }

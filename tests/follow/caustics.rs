@@ -334,7 +334,7 @@ fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
 fn what_light_tracing_cannot_do_is_said_in_a_sentence() {
     type Change = fn(&mut World, Entity);
     let cases: [(&str, Change); 6] = [
-        ("light_tracing paths", |world, camera| _ = world.entity_mut(camera).insert(LightTracing { paths: 0 })),
+        ("light_tracing paths", |world, camera| _ = world.entity_mut(camera).insert(LightTracing { paths: 0.0 })),
         ("without paths", |world, camera| _ = world.entity_mut(camera).insert(Integrator::WHITTED)),
         ("on a camera with a lens", |world, camera| _ = world.entity_mut(camera).insert(Lens::default())),
         ("on a fisheye camera", |world, camera| {
