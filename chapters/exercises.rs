@@ -80,6 +80,9 @@ pub mod path_tracing;
 #[path = "26_choosing_samples/exercise.rs"]
 pub mod choosing_samples;
 
+#[path = "27_caustics/exercise.rs"]
+pub mod caustics;
+
 /// Chapter 01.
 pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
 
@@ -157,3 +160,6 @@ pub const PATH_TRACING: Attempt = Attempt::AfterRoulette(path_tracing::after_rou
 
 /// Chapter 26.
 pub const CHOOSING_SAMPLES: Attempt = Attempt::PowerHeuristic(choosing_samples::power_heuristic);
+
+/// Chapter 27.
+pub const CAUSTICS: Attempt = Attempt::PixelShare(caustics::pixel_share);

@@ -84,6 +84,9 @@ pub mod path_tracing;
 #[path = "26_choosing_samples/main.rs"]
 pub mod choosing_samples;
 
+#[path = "27_caustics/main.rs"]
+pub mod caustics;
+
 pub mod exercises;
 
 /// All chapters, the cover first.
@@ -116,5 +119,6 @@ pub fn all() -> Vec<Chapter> {
         motion_blur::chapter().exercise(exercises::MOTION_BLUR),
         path_tracing::chapter().exercise(exercises::PATH_TRACING),
         choosing_samples::chapter().exercise(exercises::CHOOSING_SAMPLES),
+        caustics::chapter().exercise(exercises::CAUSTICS),
     ]
 }

@@ -56,6 +56,8 @@ pub enum Attempt {
     AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
     /// Chapter 26: two densities, that of the way's own chance first.
     PowerHeuristic(fn(f64, f64) -> f64),
+    /// Chapter 27: a point in camera space, the tangent of half the vertical angle, the image's height in pixels.
+    PixelShare(fn([f64; 3], f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -88,6 +90,7 @@ impl Attempt {
             Self::CosineDirection(_) => "cosine_direction",
             Self::AfterRoulette(_) => "after_roulette",
             Self::PowerHeuristic(_) => "power_heuristic",
+            Self::PixelShare(_) => "pixel_share",
         }
     }
 }

@@ -60,6 +60,7 @@ test_chapters! {
     chapter_24_motion_blur: motion_blur,
     chapter_25_path_tracing: path_tracing,
     chapter_26_choosing_samples: choosing_samples,
+    chapter_27_caustics: caustics,
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 #[path = "follow/broken.rs"]
 mod broken;
+#[path = "follow/caustics.rs"]
+mod caustics;
 #[path = "../chapters/mod.rs"]
 mod chapters;
 #[path = "follow/numerics.rs"]
@@ -15,6 +17,7 @@ use pinhole::Asked;
 use pinhole::extract::integrator_of;
 use pinhole::measure::closed_form::closed_forms;
 use pinhole::measure::image_error::Numbers;
+use pinhole::plan::Stage;
 use pinhole::render::{Execution, render};
 use pinhole::report::agreement::{Agreement, agreement};
 use pinhole::report::run::numbers;

@@ -9,6 +9,7 @@ mod ambient_occlusion;
 mod answers;
 mod apart;
 mod camera_to_world;
+mod caustics;
 mod choosing_samples;
 mod conventions;
 mod depth_of_field;
@@ -79,5 +80,6 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
         Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
         Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
+        Attempt::PixelShare(yours) => caustics::check(yours, patience),
     }
 }

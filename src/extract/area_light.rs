@@ -42,27 +42,28 @@ impl AreaLightTable {
         self.until.partition_point(|&until| until <= u64::from(fraction))
     }
     // ANCHOR_END: choose_light
+}
 
-    /// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
-    /// matter most where it does.
-    ///
-    /// Each light gets one part, and the others go by its share.
-    /// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
-    fn share_out(&mut self, powers: &[f64]) {
-        let total: f64 = powers.iter().sum();
-        let even = !(total > 0.0 && total.is_finite());
-        let left = PARTS - powers.len() as u64;
-        let even_share = 1.0 / powers.len() as f64;
-        let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
-        let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
-        let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
-        let given: u64 = parts.iter().sum();
-        if let Some(largest) = largest {
-            parts[largest] = parts[largest] + PARTS - given;
-        }
-        self.chance = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
-        self.until = parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect();
+/// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
+/// matter most where it does.
+///
+/// Gives up to which of 2³² parts each light or one before it is chosen, and how likely each is.
+/// Each light gets one part, and the others go by its share.
+/// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
+pub(super) fn share_out(powers: &[f64]) -> (Vec<u64>, Vec<f64>) {
+    let total: f64 = powers.iter().sum();
+    let even = !(total > 0.0 && total.is_finite());
+    let left = PARTS - powers.len() as u64;
+    let even_share = 1.0 / powers.len() as f64;
+    let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
+    let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
+    let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
+    let given: u64 = parts.iter().sum();
+    if let Some(largest) = largest {
+        parts[largest] = parts[largest] + PARTS - given;
     }
+    let chance = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
+    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), chance)
 }
 
 fn add(sum: &mut u64, parts: u64) -> u64 {
@@ -113,7 +114,7 @@ impl Table for AreaLightTable {
             table.radiance.push(radiance);
             table.one_sided.push(one_sided);
         }
-        table.share_out(&powers);
+        (table.until, table.chance) = share_out(&powers);
         Ok(table)
     }
 

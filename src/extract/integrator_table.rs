@@ -13,6 +13,8 @@ pub struct IntegratorTable {
     pub legs: u32,
     /// The leg from which ways end by chance.
     pub roulette: u32,
+    /// Whether points on lights are aimed at.
+    pub aimed: bool,
     /// How many times as large radiance is in the densest glass as outside: its index of refraction squared, at least 1.
     pub narrowing: f64,
     /// Whether two ways to find a light are weighed against each other.
@@ -41,9 +43,11 @@ impl Table for IntegratorTable {
             Integrator::AmbientOcclusion { distance } => {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
-            Integrator::Whitted { legs } | Integrator::Distribution { legs } => table.legs = legs,
+            Integrator::Whitted { legs } => table.legs = legs,
+            Integrator::Distribution { legs } => (table.legs, table.aimed) = (legs, true),
             Integrator::Path { legs, roulette, lights } => {
                 (table.legs, table.roulette, table.weighed) = (legs, roulette, lights == LightSampling::Weighed);
+                table.aimed = lights != LightSampling::ByChance;
             }
         }
         if table.legs == 0 {

@@ -12,6 +12,7 @@ mod background;
 mod blinn_phong;
 mod bounds;
 mod camera;
+mod camera_join;
 mod check;
 mod cuboid;
 mod directional_light;
@@ -34,6 +35,8 @@ mod integrator;
 mod integrator_table;
 mod layers;
 mod lens;
+mod light_path;
+mod light_tracing;
 mod material;
 mod metal;
 mod mirror;
@@ -66,6 +69,7 @@ pub use camera::{
     CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
     eye, half_extent, tan_half,
 };
+pub use camera_join::CameraJoinTable;
 pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
 pub use disk::DiskTable;
@@ -90,6 +94,8 @@ pub use integrator::{
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, check_lens, lens_evidence};
+pub use light_path::{LightPathTable, LightSource, Target};
+pub use light_tracing::{LightTracingTable, started_on_evidence, traced_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
 pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
 pub use mirror::{MirrorTable, mirror_evidence};
@@ -137,6 +143,7 @@ pub fn validate(scene: &World) -> Result<(), Refusal> {
     SamplingTable::extract(scene)?;
     FilterTable::extract(scene)?;
     IntegratorTable::extract(scene)?;
+    LightTracingTable::extract(scene)?;
     ShapeTable::extract(scene)?;
     MaterialTable::extract(scene)?;
     GlassTable::extract(scene)?;

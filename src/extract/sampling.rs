@@ -23,6 +23,14 @@ impl SamplingTable {
     pub fn for_pilot(self) -> Self {
         Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x50_494C_4F54, ..self }
     }
+
+    /// The numbers of ways that start on lights: another seed's.
+    ///
+    /// Strata are counted by a pixel's samples, which such a way has none of; its numbers are then independent.
+    pub fn for_light_paths(self) -> Self {
+        let sampler = if self.sampler == Sampler::Sobol { Sampler::Sobol } else { Sampler::Independent };
+        Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x4C_4947_4854, sampler, ..self }
+    }
 }
 
 impl Table for SamplingTable {

@@ -12,6 +12,7 @@ mod aliasing;
 mod broken_paths;
 mod broken_ways;
 mod cameras;
+mod caustics;
 mod drawn_image;
 mod field_of_view;
 mod filters;
@@ -272,6 +273,12 @@ pub fn figures() -> Vec<Figure> {
             chapter: "26_choosing_samples",
             about: "lamps found by chance, by aiming, and by both, weighed",
             draw: integrators::draw_ways,
+        },
+        Figure {
+            name: "27_sides",
+            chapter: "27_caustics",
+            about: "caustics by rays from the camera alone, and from the lamp too, once with a mistake",
+            draw: caustics::draw_sides,
         },
     ]
     .into_iter()

@@ -36,6 +36,25 @@ impl Picture {
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
+    /// The same with a stage in the place of the one of its name.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn replacing(
+        chapter: &Chapter,
+        size: [u32; 2],
+        stage: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        for own in &mut whole.offer {
+            if let Some(stage) = stage.as_ref().filter(|stage| stage.name == own.name) {
+                *own = stage.clone();
+            }
+        }
+        let rendered = rendered(&whole, size, change)?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
     /// The same with one stage more.
     ///
     /// Errors: what a render of that scene would be refused for.

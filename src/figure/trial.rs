@@ -39,6 +39,7 @@ pub fn chapters() -> Vec<Chapter> {
             "24_motion_blur",
             "25_path_tracing",
             "26_choosing_samples",
+            "27_caustics",
         ])
         .map(chapter)
         .collect()

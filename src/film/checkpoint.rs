@@ -1,10 +1,10 @@
 //! What persists of a render between two runs of the program, as one file.
 //!
 //! Little-endian: the word `pinhole checkpoint`, the format's version, the key of plan and scene, the film's shape, what
-//! it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples, moments, layers; last a
-//! digest of every number before it.
+//! it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples, moments, layers; then what
+//! rays from the lights brought; last a digest of every number before it.
 
-use super::{Film, FilmLayers, FilmMoments, FilmTile, Rejected, write_whole};
+use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, write_whole};
 use crate::scene::LayerKind;
 use crate::{Error, Result};
 use std::fs::File;
@@ -71,7 +71,13 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         out.write_u32(number)?;
     }
     let kinds = film.layers.first().map_or(0, FilmLayers::kind_bits);
-    let keeps = [!film.moments.is_empty(), !film.layers.is_empty(), film.pilot, !film.planned.is_empty()];
+    let keeps = [
+        !film.moments.is_empty(),
+        !film.layers.is_empty(),
+        film.pilot,
+        !film.planned.is_empty(),
+        film.splats.is_some(),
+    ];
     out.write_u32(keeps.iter().rev().fold(0, |bits, &keeps| bits << 1 | u32::from(keeps)))?;
     out.write_u32(kinds)?;
     for (number, tile) in film.tiles.iter().enumerate() {
@@ -114,6 +120,13 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
             }
         }
     }
+    if let Some(splats) = &film.splats {
+        out.write_u64(splats.paths)?;
+        out.write_u64(splats.rejected)?;
+        for sums in &splats.sums {
+            out.write_f64s(sums)?;
+        }
+    }
     Ok(())
 }
 
@@ -122,7 +135,7 @@ fn read_film<S: Read>(numbers: &mut Numbers<S>, length: u64) -> io::Result<Film>
     let (keeps, kind_bits) = (numbers.read_u32()?, numbers.read_u32()?);
     // A damaged size must not make the film larger than the file: a pixel takes at least its sums and its count.
     let pixels = u64::from(width) * u64::from(height);
-    if tile_side == 0 || pixels.saturating_mul(28) > length || keeps > 15 {
+    if tile_side == 0 || pixels.saturating_mul(28) > length || keeps > 31 {
         return Err(io::ErrorKind::InvalidData.into());
     }
     let kinds: Vec<LayerKind> = LayerKind::ALL.into_iter().filter(|&kind| kind_bits >> kind as u32 & 1 == 1).collect();
@@ -156,6 +169,14 @@ fn read_film<S: Read>(numbers: &mut Numbers<S>, length: u64) -> io::Result<Film>
                 numbers.read_f64s(lane)?;
             }
         }
+    }
+    if keeps & 16 != 0 {
+        let mut splats = FilmSplats::new(width, height);
+        (splats.paths, splats.rejected) = (numbers.read_u64()?, numbers.read_u64()?);
+        for sums in &mut splats.sums {
+            numbers.read_f64s(sums)?;
+        }
+        film.splats = Some(splats);
     }
     Ok(film)
 }

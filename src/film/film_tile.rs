@@ -1,4 +1,4 @@
-use super::{FilmLayers, FilmMoments};
+use super::{FilmLayers, FilmMoments, FilmSplats};
 use crate::plan::{Column, Lane, LaneValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
@@ -210,6 +210,8 @@ pub struct Film {
     pub moments: Vec<FilmMoments>,
     /// The layers of each tile; none where nothing asks for them.
     pub layers: Vec<FilmLayers>,
+    /// What rays from the lights brought; none where none are traced.
+    pub splats: Option<FilmSplats>,
     /// How many steps of the render each tile has behind it.
     pub done: Vec<u32>,
     /// Whether its samples are those that only decide how many each pixel gets.
@@ -239,12 +241,19 @@ impl Film {
         let waits =
             self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS);
         if !waits {
-            return self.tiles[tile].mean(row);
+            return self.with_splats(x, y, &self.tiles[tile], row);
         }
         let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
         let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
         let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
-        self.tiles[tile].mean(row)
+        self.with_splats(x, y, &self.tiles[tile], row)
+    }
+
+    /// The mean of a tile's row, and beside it what rays from the lights brought to a pixel.
+    fn with_splats(&self, x: u32, y: u32, tile: &FilmTile, row: usize) -> [f32; 3] {
+        let Some(splats) = &self.splats else { return tile.mean(row) };
+        let (seen, brought) = (tile.shown_f64(row), splats.mean(x, y));
+        [0, 1, 2].map(|part| (seen[part] + brought[part]).max(0.0) as f32)
     }
 
     /// The tile that holds a pixel, and the pixel's row in it.
@@ -293,20 +302,22 @@ impl Film {
 
     /// All samples that could not join: how many, and the first few.
     pub fn rejected(&self) -> (u64, Vec<Rejected>) {
-        let count = self.tiles.iter().map(|tile| tile.rejected).sum();
+        let of_lights = self.splats.as_ref().map_or(0, |splats| splats.rejected);
+        let count = self.tiles.iter().map(|tile| tile.rejected).sum::<u64>() + of_lights;
         let mut first: Vec<Rejected> = self.tiles.iter().flat_map(|tile| tile.first_rejected.clone()).collect();
         first.sort_by_key(Rejected::place);
         first.truncate(REMEMBERED);
         (count, first)
     }
 
-    /// Bytes that its sums, counts, moments and layers take, and what holds them together.
+    /// Bytes that its sums, counts, moments, layers and splats take, and what holds them together.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
         let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();
         let sums: usize = self.tiles.iter().map(|tile| rows(tile) * a_row + size_of::<FilmTile>()).sum();
         let moments = self.moments.iter().map(|own| own.rows() * 3 * size_of::<f64>() + size_of::<FilmMoments>());
         let planned = self.planned.iter().map(|own| own.len() * size_of::<u32>());
-        sums + moments.chain(planned).chain(self.layers.iter().map(FilmLayers::bytes)).sum::<usize>()
+        let splats = self.splats.as_ref().map_or(0, FilmSplats::bytes);
+        splats + sums + moments.chain(planned).chain(self.layers.iter().map(FilmLayers::bytes)).sum::<usize>()
     }
 }

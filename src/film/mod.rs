@@ -13,6 +13,7 @@ mod layered_exr;
 mod layers;
 mod moments;
 mod png;
+mod splats;
 mod whole_file;
 
 pub use crate::extract::linear_from_srgb;
@@ -25,4 +26,5 @@ pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
 pub use png::{png_bytes, png_bytes_by, png_url, write_png};
+pub use splats::{FilmSplats, SplatFilter};
 pub use whole_file::{check_place, write_whole};

@@ -1,10 +1,11 @@
+use super::CausticPaths;
 use crate::extract::{
     AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, aimed_evidence,
-    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence,
+    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence, traced_evidence,
 };
 use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Paths, WorldRays};
+use crate::rays::{Leg, Paths, WorldRays};
 use crate::shade::{Radiance, area_light_density, environment_density, environment_radiance};
 use bevy_ecs::prelude::*;
 
@@ -24,7 +25,7 @@ pub fn power_heuristic(own: f64, other: f64) -> f64 {
 // ANCHOR_END: power_heuristic
 
 // ANCHOR: add_weighed_emission
-/// Adds what the surface that a ray met emits, as far as nobody aimed at it.
+/// Adds what the surface that a ray met emits, as far as nobody aimed at it, and no ray from the light finds the same way.
 ///
 /// Where no chance was in the ray's direction, or the surface cannot be aimed at, all of it counts.
 /// Else the surface that the ray came from has aimed at lights too; then the two ways to find this one are weighed, or the
@@ -33,16 +34,26 @@ pub fn add_weighed_emission(
     emissive: Res<Shared<EmissiveTable>>,
     lights: Res<Shared<AreaLightTable>>,
     integrator: Res<Shared<IntegratorTable>>,
-    mut tiles: Query<(&Paths, &WorldRays, &Hits, &EmissiveRows, Option<&SurfaceSides>, &mut Radiance)>,
+    mut tiles: Query<(
+        (&Leg, &Paths, &WorldRays, Option<&CausticPaths>),
+        (&Hits, &EmissiveRows, Option<&SurfaceSides>),
+        &mut Radiance,
+    )>,
 ) {
-    for (paths, rays, hits, list, sides, mut radiance) in &mut tiles {
+    for ((leg, paths, rays, caustic), (hits, list, sides), mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
             let light = lights.light_of_shape[hits.shape[row] as usize];
-            let share = if paths.density[row] == f64::INFINITY || light == NO_ROW {
+            let by_mirror = paths.density[row] == f64::INFINITY;
+            let from_light = |caustic: &CausticPaths| {
+                by_mirror && leg.0 > 0 && light != NO_ROW && caustic.spread[paths.first[row] as usize] != 0
+            };
+            let share = if caustic.is_some_and(from_light) {
+                0.0
+            } else if by_mirror || light == NO_ROW || !integrator.aimed {
                 1.0
             } else if integrator.weighed {
                 let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
@@ -61,12 +72,14 @@ pub fn add_weighed_emission(
 /// The stage on offer: the alternative to adding all that surfaces emit.
 pub fn weighed_emission_stage() -> Stage {
     Stage::new("Add what surfaces emit, as far as not aimed at", TileSystems::Shade, add_weighed_emission)
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads::<Paths>()
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<EmissiveRows>()
         .reads_where::<SurfaceSides>(one_sided_evidence)
+        .reads_where::<CausticPaths>(traced_evidence)
         .reads::<Radiance>()
         .writes::<Radiance>()
         .table::<EmissiveTable>()
@@ -77,7 +90,9 @@ pub fn weighed_emission_stage() -> Stage {
 
 /// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
 fn weighed_emission_evidence(scene: &World) -> Evidence {
-    emissive_evidence(scene).and(|| followed_evidence(scene)).and(|| aimed_evidence(scene))
+    let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
+    let traced = emits.clone().and(|| traced_evidence(scene));
+    if traced.needed { traced } else { emits.and(|| aimed_evidence(scene)) }
 }
 
 /// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.

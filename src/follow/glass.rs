@@ -1,7 +1,9 @@
 use super::media::media_evidence;
 use super::mirror::mirroring_normal;
 use super::{GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
-use crate::extract::{GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if};
+use crate::extract::{
+    GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
+};
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Draws, Paths, draws_of_one};
@@ -107,8 +109,9 @@ impl Met<'_> {
     }
 }
 
-/// Sends a ray on from every surface of glass, mirrored or bent by chance.
-pub fn scatter_glass(
+/// Sends a ray on from every surface of glass, mirrored or bent by chance; one that comes from a light with all of its
+/// power, which no surface spreads or gathers, where radiance has its 1/η² (Veach 1997, 5.2).
+pub fn scatter_glass<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
@@ -126,7 +129,8 @@ pub fn scatter_glass(
         let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, list };
         scattered.append(&list.row, |number, row| {
             let (direction, normal) = met.met(row);
-            met.ray(row, glass_event(direction, normal, met.eta(number, row), numbers[number]))
+            let way = glass_event(direction, normal, met.eta(number, row), numbers[number]);
+            met.ray(row, if FROM_LIGHT { GlassWay { share: 1.0, ..way } } else { way })
         });
     }
 }
@@ -162,13 +166,15 @@ pub fn split_at_glass(
 /// The stage that sends both rays on.
 pub fn glass_stage() -> Stage {
     reading(Stage::new("Reflect and refract at glass", TileSystems::Scatter, split_at_glass))
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| glass_evidence(scene).and(|| both_ways_evidence(scene)))
 }
 
 /// The stage that sends one on by chance.
 pub fn glass_chance_stage() -> Stage {
-    reading(Stage::new("Reflect or refract at glass", TileSystems::Scatter, scatter_glass))
+    reading(Stage::new("Reflect or refract at glass", TileSystems::Scatter, scatter_glass::<false>))
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_if::<PixelSamples>()
         .table::<SamplingTable>()
@@ -177,6 +183,15 @@ pub fn glass_chance_stage() -> Stage {
             let one = Evidence { needed: !both.needed, ..both };
             glass_evidence(scene).and(|| followed_evidence(scene)).and(|| one)
         })
+}
+
+/// The stage that does so with light from lights.
+pub fn glass_light_stage() -> Stage {
+    reading(Stage::new("Reflect or refract light at glass", TileSystems::Scatter, scatter_glass::<true>))
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .table::<SamplingTable>()
+        .when(|scene| traced_evidence(scene).and(|| glass_evidence(scene)))
 }
 
 fn reading(stage: Stage) -> Stage {

@@ -124,6 +124,7 @@ pub fn times_stage() -> Stage {
 /// The stage that takes footprints away.
 pub fn footprints_stage() -> Stage {
     Stage::new("Take footprints away", TileSystems::Step, take_footprints_away)
+        .on_camera_paths()
         .reads::<WorldRays>()
         .reads::<Footprints>()
         .writes::<Footprints>()

@@ -71,6 +71,7 @@ pub fn sky_rays_stage() -> Stage {
 /// The stage that shows.
 pub fn sky_stage() -> Stage {
     Stage::new("Show how much of the sky is seen", TileSystems::Shade, show_the_sky)
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_if::<Hits>()
         .reads_if::<LightRays>()

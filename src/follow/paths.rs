@@ -22,6 +22,7 @@ pub fn start_paths(mut tiles: Query<(&mut Leg, &WorldRays, &mut Paths, Option<&m
 pub fn start_paths_stage() -> Stage {
     Stage::new("Start ways of light", TileSystems::Start, start_paths)
         .on_first_leg()
+        .on_camera_paths()
         .reads::<WorldRays>()
         .writes::<Paths>()
         .writes::<PathLight>()

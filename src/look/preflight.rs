@@ -4,10 +4,10 @@ use super::slow::{Effort, slow};
 use super::unseen::unseen;
 use crate::extract::{
     ImageShape, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence, followed_evidence, glass_evidence,
-    integrator_of, mirror_evidence,
+    integrator_of, mirror_evidence, traced_evidence,
 };
 use crate::plan::{Evidence, Plan, Stage, Table};
-use crate::scene::{Environment, Integrator};
+use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -123,9 +123,20 @@ fn out_of_reach(scene: &World) -> Vec<String> {
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }
-    vec![format!(
-        "light that comes by way of mirrors or glass ({}) from a light without an area ({}) is missing from matte \
-         surfaces, for no ray meets a point; a small sphere that emits is found by paths",
-        bends.reason, points.reason
-    )]
+    let traced = traced_evidence(scene).needed;
+    let directional = Evidence::of::<DirectionalLight>(scene, "directional light");
+    let mut told = Vec::new();
+    if !traced {
+        told.push(format!(
+            "light that comes by way of mirrors or glass ({}) from a light without an area ({}) is missing from matte \
+             surfaces, for no ray meets a point; LightTracing on the camera, beside paths, finds it from the light",
+            bends.reason, points.reason
+        ));
+    } else if directional.needed {
+        told.push(format!(
+            "no rays start on lights without a place ({}): what comes from there by way of mirrors or glass is missing",
+            directional.reason
+        ));
+    }
+    told
 }

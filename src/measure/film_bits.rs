@@ -17,7 +17,14 @@ pub struct FilmBits {
 impl FilmBits {
     /// The bits of a whole film.
     pub fn of(film: &Film) -> Self {
-        Self::of_tiles(film.width, film.height, film.tiles.iter())
+        let mut bits = Self::of_tiles(film.width, film.height, film.tiles.iter());
+        if let Some(splats) = &film.splats {
+            let [r, g, b] = &splats.sums;
+            let sums = r.iter().zip(g).zip(b).map(|((r, g), b)| [r.to_bits(), g.to_bits(), b.to_bits(), splats.paths]);
+            bits.pixels.extend(sums);
+            bits.rejected += splats.rejected;
+        }
+        bits
     }
 
     /// The bits of a film by its tiles, in any order.

@@ -5,6 +5,7 @@
 
 pub mod adaptive;
 pub mod camera;
+pub mod caustics;
 pub mod cuboid;
 pub mod ellipsoid;
 pub mod emitter;

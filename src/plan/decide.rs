@@ -32,6 +32,8 @@ pub enum PlanError {
 pub enum RowKind {
     /// A pixel, seen from the camera.
     Pixel,
+    /// A way of light that starts on a light.
+    LightPath,
 }
 
 /// One run over all batches.
@@ -117,7 +119,8 @@ pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
     let mut names = Vec::new();
-    for column in offer.iter().flat_map(|stage| &stage.writes).filter(|column| column.is_viewed()) {
+    let seen = offer.iter().filter(|stage| stage.runs_in(RowKind::Pixel));
+    for column in seen.flat_map(|stage| &stage.writes).filter(|column| column.is_viewed()) {
         if !names.contains(&column.name) {
             names.push(column.name);
         }
@@ -134,9 +137,10 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         .filter(|column| wanted.contains(column.name) || column.lifetime == Lifetime::Film)
         .map(|column| column.name)
         .collect();
-    let painted_over = view.is_some_and(|column| column.name != "radiance")
+    let painted_over = view.is_some_and(|column| column.name != "radiance" || !stage.runs_in(RowKind::Pixel))
         && !stage.reads_view
         && (matches!(stage.set, TileSystems::Step | TileSystems::Follow)
+            || !stage.runs_in(RowKind::Pixel)
             || stage.writes.iter().all(|column| column.name == "radiance"));
     let (kept, reason) = if !evidence.needed {
         (false, evidence.reason)
@@ -227,15 +231,11 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
         }
         rows.push(row);
     }
-    Plan {
-        rows,
-        stages,
-        columns,
-        tables,
-        passes: vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }],
-        view,
-        statistics: requested::<Statistics>(scene).is_some(),
+    let mut passes = vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }];
+    if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {
+        passes.push(Pass { name: "light", row: RowKind::LightPath, product: "splats on the film" });
     }
+    Plan { rows, stages, columns, tables, passes, view, statistics: requested::<Statistics>(scene).is_some() }
 }
 
 fn requested<R: Component>(scene: &World) -> Option<&R> {

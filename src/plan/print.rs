@@ -4,8 +4,11 @@ use std::fmt;
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for pass in &self.passes {
-            let RowKind::Pixel = pass.row;
-            writeln!(f, "pass \"{}\": a row is a pixel, it leaves the {}", pass.name, pass.product)?;
+            let row = match pass.row {
+                RowKind::Pixel => "a pixel",
+                RowKind::LightPath => "a way from a light",
+            };
+            writeln!(f, "pass \"{}\": a row is {row}, it leaves the {}", pass.name, pass.product)?;
         }
         for row in &self.rows {
             let word = if row.kept { "kept" } else { "dropped" };

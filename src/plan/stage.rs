@@ -1,4 +1,4 @@
-use super::{Column, ColumnKind, Evidence, Table, TableKind, TileSystems};
+use super::{Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
@@ -38,6 +38,8 @@ pub struct Stage {
     pub writes: Vec<ColumnKind>,
     /// Whether it runs on every leg of light's way, or on the first one only.
     pub on_every_leg: bool,
+    /// The passes it runs in.
+    pub passes: &'static [RowKind],
     /// Whether it appends rows to what it writes, where others have appended theirs before.
     pub appends: bool,
     /// Tables it reads.
@@ -70,6 +72,7 @@ impl Stage {
             reads_where: Vec::new(),
             writes: Vec::new(),
             on_every_leg: set.on_every_leg(),
+            passes: set.passes(),
             appends: false,
             tables: Vec::new(),
             tables_where: Vec::new(),
@@ -84,6 +87,23 @@ impl Stage {
     pub fn on_first_leg(mut self) -> Self {
         self.on_every_leg = false;
         self
+    }
+
+    /// It runs in the pass whose rows are pixels only.
+    pub fn on_camera_paths(mut self) -> Self {
+        self.passes = &[RowKind::Pixel];
+        self
+    }
+
+    /// It runs in the pass whose rows are ways from lights only.
+    pub fn on_light_paths(mut self) -> Self {
+        self.passes = &[RowKind::LightPath];
+        self
+    }
+
+    /// Whether it runs in the pass whose rows are of this kind.
+    pub fn runs_in(&self, row: RowKind) -> bool {
+        self.passes.contains(&row)
     }
 
     /// It cannot run without this column.

@@ -1,3 +1,4 @@
+use super::RowKind;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleLabel;
 
@@ -118,6 +119,13 @@ impl TileSystems {
     /// Whether the stages of this set run on every leg of light's way.
     pub fn on_every_leg(self) -> bool {
         (Self::Start..=Self::Step).contains(&self) && self != Self::Layers && self != Self::Footprint
+    }
+
+    /// The passes that the stages of this set run in: what light does at surfaces is the same whichever way it is followed.
+    pub fn passes(self) -> &'static [RowKind] {
+        let of_camera = matches!(self, Self::Background | Self::Layers | Self::Footprint | Self::Aim | Self::Weigh);
+        let on_both = (Self::Start..=Self::Follow).contains(&self) && !of_camera && self != Self::AddLeg;
+        if on_both { &[RowKind::Pixel, RowKind::LightPath] } else { &[RowKind::Pixel] }
     }
 
     /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows

@@ -14,6 +14,7 @@ mod lens;
 mod ndc;
 mod paths;
 mod place_samples;
+mod project;
 mod raster;
 mod screen;
 mod times;
@@ -39,6 +40,7 @@ pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
     signed_evidence,
 };
+pub use project::{CameraJoin, join_camera, raster_from_camera};
 pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
 pub use times::{RayTimes, draw_times, time_stage};

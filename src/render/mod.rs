@@ -9,6 +9,7 @@ mod clock;
 mod execution;
 mod inspect;
 mod key;
+mod light_pass;
 mod memory;
 mod passes;
 mod render_world;

@@ -5,7 +5,7 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::check_matter_is_followed;
-use crate::plan::{Bounce, Column, ExtractedTable, Plan, Sample, Slot, Stage, TileSystems, plan};
+use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_met;
 use bevy_ecs::prelude::*;
@@ -46,11 +46,23 @@ pub struct RenderWorld {
 impl RenderWorld {
     /// A world with room for `tiles` tiles at once.
     pub fn new(plan: &Plan, tables: &[ExtractedTable], tiles: usize, execution: &Execution, hooks: &[Hook]) -> Self {
+        Self::of_pass(RowKind::Pixel, plan, tables, tiles, execution, hooks)
+    }
+
+    /// A world of the pass whose rows are of this kind.
+    pub fn of_pass(
+        row: RowKind,
+        plan: &Plan,
+        tables: &[ExtractedTable],
+        tiles: usize,
+        execution: &Execution,
+        hooks: &[Hook],
+    ) -> Self {
         let mut world = World::new();
         for table in tables {
             (table.insert)(&mut world);
         }
-        let tiles = (0..tiles).map(|_| spawn_tile(&mut world, plan)).collect();
+        let tiles = (0..tiles).map(|_| spawn_tile(&mut world, plan, row)).collect();
         let mut hooks = hooks.to_vec();
         if plan.statistics {
             world.insert_resource(StageClock::new(plan));
@@ -63,9 +75,11 @@ impl RenderWorld {
             schedule
         };
         if plan.stages.iter().any(|stage| stage.set == TileSystems::Follow) {
-            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| stage.on_every_leg)));
+            world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
+                stage.runs_in(row) && stage.on_every_leg
+            })));
         }
-        let schedule = arranged(schedule_of(Sample, plan, &hooks, |_| true));
+        let schedule = arranged(schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row)));
         Self { world, schedule, tiles }
     }
 
@@ -113,18 +127,23 @@ impl RenderWorld {
     }
 }
 
-fn spawn_tile(world: &mut World, plan: &Plan) -> Entity {
+fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
     let mut tile = world.spawn((Tile::default(), Leg::default()));
-    if plan.columns.iter().any(|column| column.name == PixelSamples::NAME) {
+    let written =
+        |column: &&ColumnKind| plan.stages.iter().any(|stage| stage.runs_in(row) && stage.writes.contains(column));
+    let columns: Vec<&ColumnKind> = plan.columns.iter().filter(written).collect();
+    if row == RowKind::LightPath {
+        tile.insert(SampleNumber::default());
+    } else if columns.iter().any(|column| column.name == PixelSamples::NAME) {
         tile.insert((SampleNumber::default(), ActivePixels::default()));
     }
-    for column in &plan.columns {
+    for column in columns {
         (column.insert)(&mut tile);
     }
     tile.id()
 }
 
-fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: fn(&Stage) -> bool) -> Schedule {
+fn schedule_of(label: impl ScheduleLabel, plan: &Plan, hooks: &[Hook], holds: impl Fn(&Stage) -> bool) -> Schedule {
     let mut schedule = Schedule::new(label);
     schedule.set_executor(SingleThreadedExecutor::new());
     for pair in TileSystems::ALL.windows(2) {

@@ -1,9 +1,11 @@
 use super::clock::{Lap, StageClock};
+use super::light_pass::{LightPass, Means};
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{WHOLE, runs, steps_of};
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageShape, LayerTable, SamplingTable};
-use crate::film::{Film, FilmLayers, FilmMoments, FilmTile};
+use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
+use crate::follow::Splats;
 use crate::plan::{Column, ExtractedTable, Plan, Shared, Stage, Table};
 use crate::rays::PixelSamples;
 use crate::{Error, Result};
@@ -28,6 +30,8 @@ pub struct RenderUnderWay {
     pool: Option<ThreadPool>,
     /// A world a worker, or one for all tiles; each is made where and when it is first used.
     worlds: Vec<Mutex<Option<RenderWorld>>>,
+    /// The ways from lights, where there are any.
+    light: Option<LightPass>,
     time: Duration,
 }
 
@@ -58,7 +62,9 @@ impl RenderUnderWay {
             ),
         };
         let worlds = pool.as_ref().map_or(1, ThreadPool::current_num_threads);
+        let light = LightPass::of(scene, &plan, worlds)?;
         Ok(Self {
+            light,
             plan,
             film,
             sampling: SamplingTable::extract(scene)?,
@@ -118,6 +124,12 @@ impl RenderUnderWay {
                 world.get_or_insert_with(made).run_all(&mut self.film, to);
             }
         }
+        if let Some(light) = &self.light {
+            let samples = self.film.samples_between(0, to);
+            let pool = self.pool.as_ref();
+            let means = Means { plan: &self.plan, tables: &self.tables, execution: &self.execution, pool };
+            light.advance(&mut self.film, samples, &means, watch);
+        }
         self.time += started.elapsed();
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
@@ -143,6 +155,9 @@ impl RenderUnderWay {
             let mut world = world.lock().unwrap_or_else(PoisonError::into_inner);
             *world = None;
         }
+        if let Some(light) = &self.light {
+            light.forget_worlds();
+        }
         self.renumber(numbers);
     }
 
@@ -160,7 +175,9 @@ impl RenderUnderWay {
             let world = world.into_inner().unwrap_or_else(PoisonError::into_inner);
             world.and_then(|mut world| world.world.remove_resource::<StageClock>())
         };
-        let laps = self.worlds.into_iter().filter_map(clock_of).map(|clock| clock.laps).collect();
+        let of_lights = self.light.into_iter().flat_map(LightPass::clocks);
+        let clocks = self.worlds.into_iter().filter_map(clock_of).chain(of_lights);
+        let laps = clocks.map(|clock| clock.laps).collect();
         let table_bytes = self.tables.iter().map(|table| table.bytes).sum();
         Rendered { plan: self.plan, film: self.film, laps: sum_laps(laps), threads, time: self.time, table_bytes }
     }
@@ -172,6 +189,9 @@ pub(super) fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
     if keeps(FilmMoments::NAME) {
         film.moments = rows.clone().map(FilmMoments::new).collect();
+    }
+    if keeps(Splats::NAME) {
+        film.splats = Some(FilmSplats::new(film.width, film.height));
     }
     if keeps(FilmLayers::NAME) {
         let kinds = LayerTable::kinds_of(scene);

@@ -1,6 +1,7 @@
 use super::Radiance;
 use crate::extract::{
-    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, unless_occlusion,
+    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, traced_evidence,
+    unless_occlusion,
 };
 use crate::intersect::{EmissiveRows, SurfaceSides};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
@@ -29,6 +30,7 @@ pub fn add_emission(
 /// The stage on offer.
 pub fn emissive_stage() -> Stage {
     Stage::new("Add what surfaces emit", TileSystems::Shade, add_emission)
+        .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads::<EmissiveRows>()
         .reads_where::<SurfaceSides>(one_sided_evidence)
@@ -38,7 +40,8 @@ pub fn emissive_stage() -> Stage {
         .when(|scene| {
             let found = emissive_evidence(scene);
             let follows = followed_evidence(scene).needed;
-            if found.needed && follows && aimed_evidence(scene).needed {
+            let traced = || traced_evidence(scene).needed;
+            if found.needed && follows && (aimed_evidence(scene).needed || traced()) {
                 let reason = "added as far as it is not aimed at".into();
                 return Evidence { needed: false, reason, count: 0 };
             }

@@ -1,7 +1,7 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
     MaterialTable, aimed_evidence, area_light_evidence, environment_light_evidence, material_evidence,
-    occlusion_evidence, unless_occlusion,
+    occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
     NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
@@ -313,7 +313,8 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind that rays are sent to.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)))
+    let aimed_at = unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
+    either(aimed_at, traced_evidence(scene))
 }
 
 /// Evidence that there is a light without an area.

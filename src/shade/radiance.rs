@@ -35,6 +35,7 @@ pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
 pub fn start_stage() -> Stage {
     Stage::new("Start in the dark", TileSystems::Start, start_radiance)
         .on_first_leg()
+        .on_camera_paths()
         .reads::<RasterPoints>()
         .writes::<Radiance>()
         .when(|_| Evidence::always("light is added to it"))

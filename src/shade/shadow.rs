@@ -2,7 +2,7 @@ use super::LightRays;
 use super::light::{LIGHTS, either, or_aimed};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-    material_evidence, moving_evidence, occlusion_evidence, unless_occlusion,
+    material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
@@ -158,5 +158,5 @@ pub fn shadow_evidence(scene: &World) -> Evidence {
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     });
     let lit = or_aimed(scene, points).and(|| material_evidence(scene));
-    either(unless_occlusion(scene, lit), occlusion_evidence(scene))
+    either(either(unless_occlusion(scene, lit), traced_evidence(scene)), occlusion_evidence(scene))
 }

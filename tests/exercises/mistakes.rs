@@ -244,7 +244,33 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| p * p / (p * p + q * q)), "overflow"),
     ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| 1.0 / (1.0 + (q / p) * (q / p))), "divided by 0"),
     ("26_choosing_samples", Attempt::PowerHeuristic(|_, _| 0.5), "counts half"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 4)), "not cos⁴"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 1)), "not cos:"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 0)), "cos³ θ is missing"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 1, 3)), "its side squared"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 0, 3)), "area A is missing"),
+    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, t / h, 2, 3)), "not tan_half"),
+    (
+        "27_caustics",
+        Attempt::PixelShare(|[x, y, z], t, h| {
+            let side = 2.0 * t / h;
+            (x * x + y * y + z * z).sqrt() / (side * side * -z * z * z)
+        }),
+        "behind the eye",
+    ),
+    (
+        "27_caustics",
+        Attempt::PixelShare(|point, t, h| dot(point, point) * shared(point, 2.0 * t / h, 2, 3)),
+        "1/d² is missing",
+    ),
 ];
+
+/// 1 over powers of a pixel's side and of the cosine off the axis, and over the square of the distance.
+fn shared(point: [f64; 3], side: f64, sides: i32, cosines: i32) -> f64 {
+    let distance = dot(point, point).sqrt();
+    let cosine = -point[2] / distance;
+    if cosine > 0.0 { 1.0 / (side.powi(sides) * distance * distance * cosine.powi(cosines)) } else { 0.0 }
+}
 
 fn distance_and_cosine(from: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> (f64, f64) {
     let way = [0, 1, 2].map(|axis| at[axis] - from[axis]);

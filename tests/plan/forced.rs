@@ -126,6 +126,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
+        ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -1,6 +1,7 @@
 //! Scenes that several tests share, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod caustics;
 pub mod followed;
 pub mod matter;
 pub mod public;

@@ -80,6 +80,9 @@ pub mod path_tracing;
 #[path = "26_choosing_samples.rs"]
 pub mod choosing_samples;
 
+#[path = "27_caustics.rs"]
+pub mod caustics;
+
 /// By the chapter's name.
 pub const ALL: &[(&str, Attempt)] = &[
     ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
@@ -108,4 +111,5 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
     ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
     ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
+    ("27_caustics", Attempt::PixelShare(caustics::pixel_share)),
 ];

@@ -1,8 +1,8 @@
 use crate::scene::{
     Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment,
-    EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LookAt, Matte,
-    Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle,
-    Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
+    EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing,
+    LookAt, Matte, Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
+    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -38,6 +38,7 @@ const WORDS: &[Word] = &[
     Word::of::<Sampling>("sampling"),
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Integrator>("integrator"),
+    Word::of::<LightTracing>("light_tracing"),
     Word::of::<Matte>("matte"),
     Word::of::<Phong>("phong"),
     Word::of::<BlinnPhong>("blinn_phong"),

@@ -6,12 +6,16 @@
 
 mod cuboid;
 mod disk;
+mod leave;
 mod parallelogram;
 mod sphere;
 mod triangle;
 
 pub use cuboid::{CuboidSeen, cuboid_density, cuboid_distance, cuboid_point};
 pub use disk::{disk_density, disk_point};
+pub use leave::{
+    LeavingPoint, WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction, targets_solid_angle,
+};
 pub use parallelogram::{
     RectangleSeen, parallelogram_area_density, parallelogram_area_point, parallelogram_density, parallelogram_point,
 };

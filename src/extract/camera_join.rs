@@ -1,0 +1,54 @@
+use super::{CameraAxes, FilterTable, ImageShape, PinholeLens, ViewRectangle, camera_entity, radius_of};
+use crate::plan::Table;
+use crate::scene::{OrthographicCamera, Refusal};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec2};
+
+/// How points in front of the camera are joined to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraJoinTable {
+    /// Rows: the camera's axes as unit vectors of the world.
+    pub camera_from_world: DMat3,
+    /// Whether all its rays start at the eye; else they start on the view's rectangle and are parallel.
+    pub is_perspective: bool,
+    /// Half the height of the image plane at distance 1, or of the view's rectangle.
+    pub half_height: f64,
+    /// Pixels from left to right and from top to bottom.
+    pub size: DVec2,
+    /// How far outside the image the pixels' filter still reaches, in pixels.
+    pub margin: f64,
+}
+
+impl CameraJoinTable {
+    /// The area of a pixel, in square half heights' units: on the image plane at distance 1, or on the view's rectangle.
+    #[inline(always)]
+    pub fn pixel_area(&self) -> f64 {
+        let side = 2.0 * self.half_height / self.size.y;
+        side * side
+    }
+}
+
+impl Table for CameraJoinTable {
+    const NAME: &'static str = "join to the camera";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let image = ImageShape::extract(scene)?;
+        let is_perspective = scene.get::<OrthographicCamera>(camera_entity(scene)?).is_none();
+        let half_height = if is_perspective {
+            PinholeLens::extract(scene)?.tan_half_vertical
+        } else {
+            ViewRectangle::extract(scene)?.half_height
+        };
+        Ok(Self {
+            camera_from_world: CameraAxes::extract(scene)?.world_from_camera.transpose(),
+            is_perspective,
+            half_height,
+            size: image.size(),
+            margin: radius_of(FilterTable::extract(scene)?.filter),
+        })
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}

@@ -1,0 +1,164 @@
+use super::area_light::share_out;
+use super::{
+    AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialKind, MaterialTable, NO_ROW,
+    PointLightTable, RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
+};
+use crate::plan::Table;
+use crate::scene::Refusal;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// With more mirrors and pieces of glass than this, one sphere stands for all of them.
+const MOST_TARGETS: usize = 16;
+/// By how much a sphere about a shape is taken larger, so that no rounding of a ray leads past it.
+const MARGIN: f64 = 1.0 + 1e-5;
+/// The same, as a share of how far from the eye it lies: what f32 takes from where a ray starts.
+const OF_PLACE: f64 = 1.0 / (1_u64 << 21) as f64;
+
+/// A light that rays start on, in render space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightSource {
+    /// A shape that emits.
+    Area {
+        /// The shape.
+        emitter: Emitter,
+        /// The radiance that leaves every point.
+        radiance: [f64; 3],
+        /// Whether it leaves on the side of the shape's own normal only.
+        one_sided: bool,
+    },
+    /// A point, or a cone of its light.
+    Point {
+        /// From the eye.
+        position: DVec3,
+        /// Radiant intensity, along the axis.
+        intensity: [f64; 3],
+        /// The cone's axis, and 1 − cos of its inner and outer half angle; none for light to all sides.
+        cone: Option<(DVec3, [f64; 2])>,
+    },
+}
+
+/// A sphere about mirrors or glass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// From the eye.
+    pub centre: DVec3,
+    /// In scene units.
+    pub radius: f64,
+}
+
+/// The lights that rays start on, and what they are sent to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LightPathTable {
+    /// The lights: those with an area, then points, then spots, each in spawn order.
+    pub light: Vec<LightSource>,
+    /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
+    pub until: Vec<u64>,
+    /// How likely it is to be chosen: half by its power, half evenly.
+    pub chance: Vec<f64>,
+    /// Spheres that hold all mirrors and glass; none where one of them has no end.
+    pub target: Vec<Target>,
+}
+
+impl LightPathTable {
+    /// The light that a fraction of 32 bits chooses.
+    #[inline(always)]
+    pub fn chosen(&self, fraction: u32) -> usize {
+        self.until.partition_point(|&until| until <= u64::from(fraction))
+    }
+}
+
+impl Table for LightPathTable {
+    const NAME: &'static str = "light paths";
+
+    fn extract(scene: &World) -> Result<Self, Refusal> {
+        let areas = AreaLightTable::extract(scene)?;
+        let (mut light, mut powers) = (Vec::new(), Vec::new());
+        for (number, emitter) in areas.emitter.iter().enumerate() {
+            let (radiance, one_sided) = (areas.radiance[number], areas.one_sided[number]);
+            let sides = if one_sided { 1.0 } else { 2.0 };
+            powers.push(luminance(radiance) * emitter.area() * PI * sides);
+            light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
+        }
+        // A light without shadows shines through everything, so nothing bends its rays.
+        let points = PointLightTable::extract(scene)?;
+        for number in (0..points.position.len()).filter(|&number| points.casts_shadows[number]) {
+            let (position, intensity) = (points.position[number], points.intensity[number]);
+            powers.push(luminance(intensity) * 4.0 * PI);
+            light.push(LightSource::Point { position, intensity, cone: None });
+        }
+        let spots = SpotLightTable::extract(scene)?;
+        for number in (0..spots.position.len()).filter(|&number| spots.casts_shadows[number]) {
+            let (position, intensity) = (spots.position[number], spots.intensity[number]);
+            let edges = [spots.inner[number], spots.outer[number]];
+            powers.push(luminance(intensity) * PI * (edges[0] + edges[1]));
+            light.push(LightSource::Point { position, intensity, cone: Some((spots.axis[number], edges)) });
+        }
+        let (until, chance) = share_out(&powers);
+        Ok(Self { light, until, chance, target: targets(scene)? })
+    }
+
+    fn bytes(&self) -> usize {
+        self.light.len() * (size_of::<LightSource>() + 16) + size_of_val(&self.target[..])
+    }
+}
+
+/// Spheres about all mirrors and glass; none where one has no end.
+fn targets(scene: &World) -> Result<Vec<Target>, Refusal> {
+    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
+    let (spheres, ellipsoids) = (SphereTable::extract(scene)?, EllipsoidTable::extract(scene)?);
+    let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
+    let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
+    let is_polished = |shape: &usize| match shapes.material[*shape] {
+        NO_ROW => false,
+        material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
+    };
+    let mut found = Vec::new();
+    for shape in (0..shapes.kind.len()).filter(is_polished) {
+        let row = shapes.row[shape] as usize;
+        let bounds = match shapes.kind[shape] {
+            ShapeKind::Sphere => {
+                found.push(Target::new(spheres.centre(row), spheres.radius[row]));
+                continue;
+            }
+            ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
+            ShapeKind::Disk => Bounds::of_disk(&disks.flat[row]),
+            ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.flat[row]),
+            ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
+            ShapeKind::Triangle => {
+                let [a, b, c] = triangles.facet[row].corners;
+                Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
+            }
+            ShapeKind::Plane | ShapeKind::Moving => return Ok(Vec::new()),
+        };
+        found.push(Target::about(bounds.least, bounds.most));
+    }
+    if found.len() > MOST_TARGETS {
+        let ends = |target: &Target| {
+            let reach = DVec3::splat(target.radius);
+            (target.centre - reach, target.centre + reach)
+        };
+        let (least, most) = found
+            .iter()
+            .map(ends)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
+        found = vec![Target::about(least, most)];
+    }
+    Ok(found)
+}
+
+impl Target {
+    fn new(centre: DVec3, radius: f64) -> Self {
+        Self { centre, radius: radius * MARGIN + sum_of_parts(centre) * OF_PLACE }
+    }
+
+    /// About a box.
+    fn about(least: DVec3, most: DVec3) -> Self {
+        Self::new(0.5 * (least + most), 0.5 * (most - least).length())
+    }
+}
+
+fn sum_of_parts(v: DVec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}

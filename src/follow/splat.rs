@@ -1,0 +1,95 @@
+use super::{LightPower, MetalRows};
+use crate::extract::{CameraJoinTable, traced_evidence};
+use crate::intersect::MaterialRows;
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::rays::{Leg, Paths, join_camera};
+use crate::shade::{LightRays, Radiance};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+column! {
+    /// The light that a batch of ways from lights brings to the film, in the order of legs and ways.
+    pub struct Splats("splats", "raster", "pixels; linear Rec. 709", Film) {
+        /// To the right.
+        x: f64,
+        /// Downward.
+        y: f64,
+        /// Red.
+        r: f64,
+        /// Green.
+        g: f64,
+        /// Blue.
+        b: f64,
+    }
+}
+
+impl Splats {
+    /// The light.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+    }
+}
+
+/// Leaves what lights send straight to surfaces that spread light to the camera's paths: on the first leg only mirrors and
+/// glass go on.
+pub fn keep_polished(mut tiles: Query<(&Leg, &mut MaterialRows, Option<&mut MetalRows>)>) {
+    for (leg, mut list, metals) in &mut tiles {
+        if leg.0 > 0 {
+            continue;
+        }
+        list.row.clear();
+        if let Some(mut metals) = metals {
+            metals.clear();
+        }
+    }
+}
+
+/// The stage that leaves.
+pub fn keep_polished_stage() -> Stage {
+    Stage::new("Keep to mirrors and glass at first", TileSystems::Classify, keep_polished)
+        .on_light_paths()
+        .on_first_leg()
+        .kind(StageKind::Alternative)
+        .reads::<MaterialRows>()
+        .reads_if::<MetalRows>()
+        .writes::<MaterialRows>()
+        .when(traced_evidence)
+}
+
+// ANCHOR: splat_light
+/// Lists what every surface sent to the camera on this leg: where it lands on the film, and how much.
+pub fn splat_light(
+    join: Res<Shared<CameraJoinTable>>,
+    mut tiles: Query<(&Paths, &LightRays, &Radiance, &LightPower, &mut Splats)>,
+) {
+    for (paths, rays, radiance, power, mut splats) in &mut tiles {
+        let splats = &mut *splats;
+        for ray in 0..rays.rows() {
+            let row = rays.path[ray] as usize;
+            let sent = [radiance.r[row], radiance.g[row], radiance.b[row]];
+            let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
+            let Some(joined) = join_camera(&join, origin).filter(|_| sent != [0.0; 3]) else { continue };
+            let (first, share) = (paths.first[row] as usize, paths.share(row));
+            splats.x.push(joined.raster.x);
+            splats.y.push(joined.raster.y);
+            splats.r.push(power.r[first] * share[0] * f64::from(sent[0]));
+            splats.g.push(power.g[first] * share[1] * f64::from(sent[1]));
+            splats.b.push(power.b[first] * share[2] * f64::from(sent[2]));
+        }
+    }
+}
+// ANCHOR_END: splat_light
+
+/// The stage that lists.
+pub fn splat_stage() -> Stage {
+    Stage::new("Splat light on the film", TileSystems::AddLeg, splat_light)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .reads::<Paths>()
+        .reads::<LightRays>()
+        .reads::<Radiance>()
+        .reads::<LightPower>()
+        .writes::<Splats>()
+        .table::<CameraJoinTable>()
+        .when(traced_evidence)
+}

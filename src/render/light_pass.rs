@@ -1,0 +1,132 @@
+use super::Execution;
+use super::clock::StageClock;
+use super::render_world::RenderWorld;
+use crate::extract::{FilterTable, LightTracingTable, SamplingTable};
+use crate::film::{Film, SplatFilter};
+use crate::follow::{LIGHT_PATHS, Splats};
+use crate::plan::{ExtractedTable, Plan, RowKind, Shared, Table};
+use crate::rays::{SampleNumber, Tile};
+use crate::render::Watch;
+use crate::scene::Refusal;
+use bevy_ecs::prelude::*;
+use rayon::ThreadPool;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Batches whose splats wait together to be added: a few for every worker, so that memory stays bounded.
+const BATCHES_AT_ONCE: u64 = 64;
+
+/// The pass whose rows are ways from the lights.
+///
+/// Its batches are numbered through the whole render, whatever the image's tiles, and their splats are added in that
+/// order.
+pub(super) struct LightPass {
+    /// A world a worker.
+    worlds: Vec<Mutex<Option<RenderWorld>>>,
+    /// The splats of the batches under way, a list each.
+    lists: Vec<Mutex<Splats>>,
+    /// Ways for every sample of a pixel.
+    paths: u32,
+    filter: SplatFilter,
+    sampling: SamplingTable,
+}
+
+/// What a pass needs of the render.
+pub(super) struct Means<'a> {
+    pub plan: &'a Plan,
+    pub tables: &'a [ExtractedTable],
+    pub execution: &'a Execution,
+    pub pool: Option<&'a ThreadPool>,
+}
+
+impl LightPass {
+    /// The pass, where the plan has one.
+    pub fn of(scene: &World, plan: &Plan, workers: usize) -> Result<Option<Self>, Refusal> {
+        if !plan.passes.iter().any(|pass| pass.row == RowKind::LightPath) {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            worlds: (0..workers).map(|_| Mutex::new(None)).collect(),
+            lists: (0..BATCHES_AT_ONCE).map(|_| Mutex::default()).collect(),
+            paths: LightTracingTable::extract(scene)?.paths,
+            filter: SplatFilter::new(FilterTable::extract(scene)?.filter),
+            sampling: SamplingTable::extract(scene)?.for_light_paths(),
+        }))
+    }
+
+    /// Brings the film's splats in step with so many samples of pixels, or as far as the one who watches lets it.
+    pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
+        let Some(splats) = &mut film.splats else { return };
+        let batch = u64::from(LIGHT_PATHS);
+        let all = samples.saturating_mul(u64::from(self.paths)).div_ceil(batch);
+        while splats.paths / batch < all && !watch.stopped() {
+            let first = splats.paths / batch;
+            let count = (all - first).min(BATCHES_AT_ONCE);
+            let next = AtomicU64::new(0);
+            let work = |worker: usize| {
+                let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
+                let world = world.get_or_insert_with(|| self.world(means));
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    if number >= count {
+                        return;
+                    }
+                    let list = &self.lists[number as usize];
+                    run_batch(world, first + number, &mut list.lock().unwrap_or_else(PoisonError::into_inner));
+                }
+            };
+            match means.pool {
+                Some(pool) => _ = pool.broadcast(|context| work(context.index())),
+                None => work(0),
+            }
+            for list in &self.lists[..count as usize] {
+                let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
+                let (x, y, r, g, b) = list.slices();
+                for at in 0..x.len() {
+                    splats.add(&self.filter, [x[at], y[at]], [r[at], g[at], b[at]]);
+                }
+                list.clear();
+            }
+            splats.paths += count * batch;
+        }
+    }
+
+    fn world(&self, means: &Means<'_>) -> RenderWorld {
+        let (plan, tables) = (means.plan, means.tables);
+        let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, means.execution, &[]);
+        made.world.insert_resource(Shared::new(self.sampling));
+        made
+    }
+
+    /// Throws the workers' worlds away.
+    pub fn forget_worlds(&self) {
+        for world in &self.worlds {
+            *world.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        }
+    }
+
+    /// The workers' stopwatches.
+    pub fn clocks(self) -> impl Iterator<Item = StageClock> {
+        self.worlds.into_iter().filter_map(|world| {
+            let world = world.into_inner().unwrap_or_else(PoisonError::into_inner);
+            world.and_then(|mut world| world.world.remove_resource::<StageClock>())
+        })
+    }
+}
+
+/// Runs a batch of ways; `list`, which is empty, gets their splats.
+fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) {
+    let tile = world.tiles[0];
+    let mut entity = world.world.entity_mut(tile);
+    if let Some(mut place) = entity.get_mut::<Tile>() {
+        // A way's random numbers come from its row and its batch alone.
+        *place = Tile { x: 0, y: (batch >> 32) as u32, width: LIGHT_PATHS, height: 1 };
+    }
+    if let Some(mut number) = entity.get_mut::<SampleNumber>() {
+        *number = SampleNumber(batch as u32);
+    }
+    world.run();
+    if let Some(mut own) = world.world.get_mut::<Splats>(tile) {
+        std::mem::swap(&mut *own, list);
+    }
+}

@@ -1,0 +1,221 @@
+//! Points on lights where their light starts, and ways that it takes.
+
+use super::cone_versine;
+use crate::extract::{Emitter, Parallelogram, Target};
+use glam::{DMat3, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// The chance that a ray starts inside a closed shape that shines on both sides: there is seldom anything in there.
+const INWARD: f64 = 1.0 / 16.0;
+
+/// Where on a light a ray starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LeavingPoint {
+    /// In render space.
+    pub position: DVec3,
+    /// The unit normal of the side that it starts on.
+    pub normal: DVec3,
+    /// How much light goes with each unit of radiance and cosine: the area over the chance of the side.
+    pub area: f64,
+    /// The largest number that its position was made from.
+    pub size: f64,
+}
+
+/// A point of an emitter, evenly over its area, and by `side` on one of its sides.
+#[inline(always)]
+pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64) -> LeavingPoint {
+    let (position, normal, size) = match emitter {
+        Emitter::Sphere { centre, radius } => {
+            let normal = sphere_direction(u);
+            (*centre + *radius * normal, normal, sum_of_parts(*centre) + radius)
+        }
+        Emitter::Rectangle(flat) => (flat_point(flat, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), flat.normal, reach(flat)),
+        Emitter::Disk(flat) => {
+            let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
+            (flat_point(flat, [radius * cosine, radius * sine]), flat.normal, reach(flat))
+        }
+        Emitter::Triangle { corners: [a, b, c], normal } => {
+            let root = u[0].sqrt();
+            let at = *a * (1.0 - root) + *b * (root * (1.0 - u[1])) + *c * (root * u[1]);
+            (at, *normal, [a, b, c].into_iter().map(|corner| sum_of_parts(*corner)).fold(0.0, f64::max))
+        }
+        Emitter::Cuboid(cuboid) => {
+            let area =
+                |axis: usize| cuboid.half_edges[(axis + 1) % 3].cross(cuboid.half_edges[(axis + 2) % 3]).length();
+            let areas = [area(0), area(1), area(2)];
+            let all: f64 = areas.iter().sum();
+            // Twice three faces share the first number; what is left of it is even again.
+            let mut left = u[0] * 2.0;
+            let sign = if left < 1.0 { 1.0 } else { -1.0 };
+            left = left.fract() * all;
+            let mut axis = 0;
+            while axis < 2 && left >= areas[axis] {
+                left -= areas[axis];
+                axis += 1;
+            }
+            let along = [2.0 * (left / areas[axis]).min(1.0) - 1.0, 2.0 * u[1] - 1.0];
+            let edges = [cuboid.half_edges[(axis + 1) % 3], cuboid.half_edges[(axis + 2) % 3]];
+            let at = cuboid.centre + sign * cuboid.half_edges[axis] + along[0] * edges[0] + along[1] * edges[1];
+            let size = sum_of_parts(cuboid.centre) + cuboid.half_edges.map(sum_of_parts).iter().sum::<f64>();
+            (at, sign * cuboid.normals[axis], size)
+        }
+    };
+    let is_closed = matches!(emitter, Emitter::Sphere { .. } | Emitter::Cuboid(_));
+    let away = match (one_sided, is_closed) {
+        (true, _) => 0.0,
+        (_, true) => INWARD,
+        _ => 0.5,
+    };
+    let (normal, chance) = if side < away { (-normal, away) } else { (normal, 1.0 - away) };
+    LeavingPoint { position, normal, area: emitter.area() / chance, size }
+}
+
+fn flat_point(flat: &Parallelogram, [x, y]: [f64; 2]) -> DVec3 {
+    flat.centre + x * flat.half_edges[0] + y * flat.half_edges[1]
+}
+
+fn reach(flat: &Parallelogram) -> f64 {
+    sum_of_parts(flat.centre) + sum_of_parts(flat.half_edges[0]) + sum_of_parts(flat.half_edges[1])
+}
+
+fn sum_of_parts(v: DVec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// A direction, evenly over all.
+#[inline(always)]
+pub fn sphere_direction(u: [f64; 2]) -> DVec3 {
+    cone_direction(DVec3::Z, 2.0, u)
+}
+
+/// A direction, evenly over the cone about an axis whose edge has this 1 − cos.
+#[inline(always)]
+pub fn cone_direction(axis: DVec3, whole: f64, u: [f64; 2]) -> DVec3 {
+    let versine = u[0] * whole;
+    let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
+    let (right, up) = axis.any_orthonormal_pair();
+    let (up_share, right_share) = libm::sincos(TAU * u[1]);
+    DMat3::from_cols(right, up, axis) * DVec3::new(sine * right_share, sine * up_share, 1.0 - versine)
+}
+
+/// The axis of the cone that a sphere fills as seen from a point, and its 1 − cos; all directions from within.
+#[inline(always)]
+fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
+    let (to, rr) = (target.centre - from, target.radius * target.radius);
+    let dd = to.length_squared();
+    if dd <= rr { (DVec3::Z, 2.0) } else { (to / dd.sqrt(), cone_versine(rr / dd)) }
+}
+
+/// How many steradian all targets fill from a point, each by itself.
+#[inline(always)]
+pub fn targets_solid_angle(targets: &[Target], from: DVec3) -> f64 {
+    targets.iter().map(|target| TAU * cone_to(target, from).1).sum()
+}
+
+// ANCHOR: direction_to_targets
+/// A direction to one of the targets, and 1 over its density, in sr.
+///
+/// A target is chosen as often as it is large from here, and a direction evenly over its cone.
+/// So where one cone alone leads, the density is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
+#[inline(always)]
+pub fn direction_to_targets(targets: &[Target], from: DVec3, choice: f64, u: [f64; 2]) -> (DVec3, f64) {
+    let all = targets_solid_angle(targets, from);
+    let (mut left, mut chosen) = (choice * all, 0);
+    while chosen + 1 < targets.len() && left >= TAU * cone_to(&targets[chosen], from).1 {
+        left -= TAU * cone_to(&targets[chosen], from).1;
+        chosen += 1;
+    }
+    let (axis, whole) = cone_to(&targets[chosen], from);
+    let direction = cone_direction(axis, whole, u);
+    let others = targets.iter().enumerate().filter(|(number, target)| {
+        let (axis, whole) = cone_to(target, from);
+        *number != chosen && 0.5 * (direction - axis).length_squared() <= whole
+    });
+    (direction, all / (1 + others.count()) as f64)
+}
+// ANCHOR_END: direction_to_targets
+
+/// With targets that fill more than this, aiming at them gains nothing.
+pub const WIDE: f64 = PI;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::EmittingCuboid;
+    use crate::measure::ray_aim::Draws;
+
+    /// Directions to targets, each weighed by 1 over its density, fill the union of the cones as even directions do.
+    #[test]
+    fn directions_to_targets_are_as_dense_as_told() {
+        const TRIED: u64 = 40_000;
+        for index in 0..12 {
+            let mut draws = Draws::new(2711, index);
+            let targets: Vec<Target> = (0..3)
+                .map(|_| Target { centre: draws.unit_vector().normalize() * 3.0, radius: draws.between(0.2, 2.0) })
+                .collect();
+            let within = |direction: DVec3| {
+                targets.iter().any(|target| {
+                    let (axis, whole) = cone_to(target, DVec3::ZERO);
+                    0.5 * (direction - axis).length_squared() <= whole
+                })
+            };
+            // A smooth function of the direction, and 1: both integrals agree with even directions'.
+            let function = |direction: DVec3| DVec3::new(1.0, 1.0 + direction.x, libm::exp(2.0 * direction.y));
+            let (mut even, mut aimed, mut squares) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+            for _ in 0..TRIED {
+                let direction = sphere_direction([draws.unit(), draws.unit()]);
+                let told = function(direction) * if within(direction) { 4.0 * PI } else { 0.0 };
+                (even, squares) = (even + told, squares + told * told);
+                let (choice, u) = (draws.unit(), [draws.unit(), draws.unit()]);
+                let (direction, weight) = direction_to_targets(&targets, DVec3::ZERO, choice, u);
+                let told = function(direction) * weight;
+                (aimed, squares) = (aimed + told, squares + told * told);
+            }
+            let n = TRIED as f64;
+            let error = (squares / (n * n)).map(f64::sqrt);
+            let off = (even - aimed) / n / error;
+            assert!(off.abs().max_element() < 4.0, "{index}: {off}");
+        }
+        eprintln!("directions to targets: 12 sets of 3, {TRIED} each");
+    }
+
+    /// Points are spread evenly: what they see of a far plane's cosine is the shape's area as seen from there.
+    #[test]
+    fn points_of_lights_are_spread_over_their_area() {
+        const TRIED: u64 = 40_000;
+        let flat = Parallelogram::new(DVec3::new(1.0, 2.0, 3.0), [DVec3::X * 2.0, DVec3::Z], DVec3::Y);
+        let cuboid = EmittingCuboid::new(DVec3::ONE, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 0.5]);
+        let triangle = [DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 2.0];
+        let emitters = [
+            (Emitter::Sphere { centre: DVec3::ONE, radius: 2.0 }, DVec3::ONE),
+            (Emitter::Rectangle(flat), flat.centre),
+            (Emitter::Disk(flat), flat.centre),
+            (Emitter::Triangle { corners: triangle, normal: DVec3::Z }, DVec3::new(1.0, 2.0 / 3.0, 0.0)),
+            (Emitter::Cuboid(cuboid), DVec3::ONE),
+        ];
+        for (number, (emitter, middle)) in emitters.into_iter().enumerate() {
+            for one_sided in [true, false] {
+                let mut draws = Draws::new(2712, number as u64);
+                let (mut mean, mut up, mut area) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+                for _ in 0..TRIED {
+                    let (u, side) = ([draws.unit(), draws.unit()], draws.unit());
+                    let point = leaving_point(&emitter, one_sided, u, side);
+                    assert!((point.normal.length() - 1.0).abs() < 1e-12);
+                    let outward = emitter.faces(point.position + 1e-6 * point.normal);
+                    assert!(outward || !one_sided, "{number}");
+                    mean += point.position - middle;
+                    up += point.normal.abs() * point.area;
+                    area += point.area;
+                }
+                let sides = if one_sided { 1.0 } else { 2.0 };
+                let n = TRIED as f64;
+                assert!((mean / n).abs().max_element() < 0.04, "{number}: {}", mean / n);
+                assert!((area / n / emitter.area() / sides - 1.0).abs() < 0.06, "{number}: {}", area / n);
+                if let (Emitter::Cuboid(_), true) = (&emitter, one_sided) {
+                    // Faces across x, y and z: 4, 1 and 8 units, each twice.
+                    assert!((up / n - DVec3::new(8.0, 4.0, 16.0)).abs().max_element() < 0.5, "{}", up / n);
+                }
+            }
+        }
+    }
+}
