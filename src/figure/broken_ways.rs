@@ -83,20 +83,20 @@ fn replaced(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, line
 /// Rough metal by the wrong density.
 pub fn draw_metal(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let lines = ["the wrong density", "drawn by tiny mirrors, counted as matte"];
-    spoiled(chapter, figure, 16, metal_counted_as_matte(), lines)
+    spoiled(chapter, figure, 8, metal_counted_as_matte(), lines)
 }
 
 /// Glass that bends the wrong way, and glass that keeps beams narrow.
 pub fn draw_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let upside_down = |camera: &mut EntityWorldMut<'_>| {
-        sampled(4)(camera);
+        sampled(2)(camera);
         camera.world_scope(|world| {
             world.query::<&mut Glass>().iter_mut(world).for_each(|mut glass| glass.ior = 1.0 / glass.ior);
         });
     };
-    let narrow = Picture::beside(chapter, SIZE, Some(glass_that_keeps_beams_narrow()), sampled(4));
+    let narrow = Picture::beside(chapter, SIZE, Some(glass_that_keeps_beams_narrow()), sampled(2));
     let exhibits = [
-        exhibit(Picture::of(chapter, SIZE, None, sampled(4)), ["right", "as it should be"])?,
+        exhibit(Picture::of(chapter, SIZE, None, sampled(2)), ["right", "as it should be"])?,
         exhibit(Picture::of(chapter, SIZE, None, upside_down), ["*η* upside down", "as if air were the denser"])?,
         exhibit(narrow, ["*η*² forgotten on the way out", "beams stay narrow, and dark"])?,
     ];
@@ -106,7 +106,7 @@ pub fn draw_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// A sky without the cosine.
 pub fn draw_sky(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let lines = ["the missing cosine", "light that grazes counts in full"];
-    replaced(chapter, figure, 32, sky_in_all_directions_alike(), lines)
+    replaced(chapter, figure, 16, sky_in_all_directions_alike(), lines)
 }
 
 /// Two ways to find a light, both counted.

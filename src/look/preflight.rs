@@ -50,7 +50,9 @@ pub fn preflight(scene: &World, offer: &[Stage], plan: &Plan, asked: Preflight) 
 fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
     let share = |count: usize| count as f64 / pilot.rays.max(1) as f64;
     let mut told = Vec::new();
-    if share(pilot.black) >= NEARLY_ALL {
+    // Light that is traced from lights is not among what the pilot brings.
+    let traced = traced_evidence(scene).needed && point_evidence(scene).or(emissive_evidence(scene)).needed;
+    if share(pilot.black) >= NEARLY_ALL && !traced {
         told.push(format!("the picture is likely to be black: {}", why_black(scene, pilot, shapes)));
     } else if pilot.met == 0 && !shapes.name.is_empty() {
         told.push(format!("none of {} rays tried all over the picture meets a shape", pilot.rays));

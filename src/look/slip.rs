@@ -26,9 +26,10 @@ pub const SLIPS: &[Slip] = &[
         },
     },
     Slip {
-        what: "no light",
+        what: "no light, by paths",
         scene: |world| {
-            eye(world, 6.0);
+            let camera = eye(world, 6.0);
+            world.entity_mut(camera).insert(Integrator::PATH);
             floor_and_ball(world);
         },
     },

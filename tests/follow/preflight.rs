@@ -18,7 +18,7 @@ fn said(scene: &World) -> Result<Vec<String>, Error> {
 fn slips_are_told_before_the_picture_is_rendered() {
     let expected: &[(&str, &[&[&str]])] = &[
         ("nothing wrong", &[]),
-        ("no light", &[&["likely to be black", "there is no light"]]),
+        ("no light, by paths", &[&["likely to be black", "there is no light"]]),
         ("a lamp behind the wall", &[&["likely to be black", "faces away from every light", "\"lamp\""]]),
         ("a lamp inside the ball", &[&["likely to be black", "rays to lights is blocked", "sphere \"ball\""]]),
         (
