@@ -67,5 +67,6 @@ fn narrowing_in_glass(scene: &World) -> Result<f64, Refusal> {
     if !glass_evidence(scene).needed {
         return Ok(1.0);
     }
-    Ok(GlassTable::extract(scene)?.ior.into_iter().fold(1.0, f64::max).powi(2))
+    let densest = GlassTable::extract(scene)?.ior.into_iter().fold(1.0, f64::max);
+    Ok(densest * densest)
 }

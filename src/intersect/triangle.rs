@@ -206,7 +206,7 @@ fn rows_along<const Z: usize>(
             size[lane] = vector(&o, lane).abs().element_sum();
             (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
-        let sheared = Sheared { x, y, z, size };
+        let sheared = [x, y, z, size];
         for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
@@ -227,14 +227,8 @@ fn rows_along<const Z: usize>(
     }
 }
 
-/// The shears of a block of rays.
-struct Sheared {
-    x: [f64; LANES],
-    y: [f64; LANES],
-    z: [f64; LANES],
-    /// |O|₁.
-    size: [f64; LANES],
-}
+/// The shears of a block of rays: x, y and z; and |O|₁.
+type Sheared = [[f64; LANES]; 4];
 
 /// Narrows the hits of one group of a block's rays, which are all longest along `Z`.
 #[inline(always)]
@@ -249,13 +243,11 @@ fn narrow<const Z: usize>(
     shape: &mut [u32],
 ) {
     let of_group = |lanes: &[f64; LANES]| lanes.as_chunks::<GROUP>().0[group];
-    let origin = [of_group(&o[0]), of_group(&o[1]), of_group(&o[2])];
-    let (x, y, z) = (of_group(&sheared.x), of_group(&sheared.y), of_group(&sheared.z));
-    let size = of_group(&sheared.size);
+    let ([ox, oy, oz], [x, y, z, size]) = (o.each_ref().map(of_group), sheared.each_ref().map(of_group));
     let (mut found, mut doubtful) = ([f64::INFINITY; GROUP], [false; GROUP]);
     for lane in 0..GROUP {
         let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
-        let origin = DVec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
+        let origin = DVec3::new(ox[lane], oy[lane], oz[lane]);
         let verdict = verdict::<Z>(origin, shear, facet, size[lane]);
         (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
     }

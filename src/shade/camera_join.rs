@@ -6,7 +6,6 @@ use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{WorldRays, join_camera};
 use bevy_ecs::prelude::*;
 
-// ANCHOR: join_cosine
 /// What a surface that is shaded by another normal than its own sends to the camera of each unit of power, but for its
 /// matter: cos θ to the camera by its own normal, times by how much the other normal changes the cosine of what falls.
 ///
@@ -16,7 +15,6 @@ use bevy_ecs::prelude::*;
 pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64 {
     if to_camera > 0.0 && falling > 0.0 { to_camera * (falling_by_shading / falling).max(0.0) } else { 0.0 }
 }
-// ANCHOR_END: join_cosine
 
 // ANCHOR: aim_at_the_camera
 /// Appends a ray to the camera from every surface that light from a lamp falls on, and what the pixel there makes of it.

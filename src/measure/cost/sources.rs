@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 8] = ["plan", "extract", "sample", "rays", "intersect", "shade", "film", "render"];
+const FOLDERS: [&str; 9] = ["plan", "extract", "sample", "rays", "intersect", "shade", "follow", "film", "render"];
 
 /// A fingerprint (FNV-1a, 64 bits) of the sources that decide what a chapter's stages cost: those of the stages and of
 /// the loop that runs them, and the chapter's own. The ends of lines do not count.
