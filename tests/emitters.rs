@@ -16,7 +16,7 @@ mod sides;
 use glam::DVec3;
 use pinhole::extract::{Emitter, EmittingCuboid, Parallelogram};
 use pinhole::measure::ray_aim::Draws;
-use pinhole::shade::emitter::{density_towards, point_on};
+use pinhole::shade::emitter::{LightPoint, density_towards, point_on};
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
 /// direction at a time, and by how much at most the density told there differs from the one asked for afterwards.
@@ -29,6 +29,18 @@ struct Received {
 
 impl Received {
     fn of(emitter: &Emitter, from: DVec3, normal: DVec3, tried: u32, seed: u64) -> Self {
+        let again = |to: DVec3| density_towards(emitter, from, from + to);
+        Self::by(&|u| point_on(emitter, from, u), &again, normal, tried, seed)
+    }
+
+    /// The same by points chosen so, and the density of the way to one.
+    fn by(
+        choose: &dyn Fn([f64; 2]) -> LightPoint,
+        density: &dyn Fn(DVec3) -> f64,
+        normal: DVec3,
+        tried: u32,
+        seed: u64,
+    ) -> Self {
         let (mut sum, mut squares, mut mismatch) = (0.0, 0.0, 0.0_f64);
         // Counted from the first, so that no digits of a small spread are lost.
         let mut first = None;
@@ -36,16 +48,15 @@ impl Received {
             let mut draws = Draws::new(seed, u64::from(number));
             // 24 bits, as the kit's own numbers have.
             let u = [draws.unit(), draws.unit()].map(|u| (u * 16_777_216.0).floor() / 16_777_216.0);
-            let point = point_on(emitter, from, u);
+            let point = choose(u);
             let cosine = normal.dot(point.to / point.to.length()).max(0.0);
-            assert!(point.density > 0.0 && cosine.is_finite(), "{emitter:?} from {from} at {u:?}: {point:?}");
+            assert!(point.density > 0.0 && cosine.is_finite(), "{number} at {u:?}: {point:?}");
             let told = cosine / point.density;
             let more = told - *first.get_or_insert(told);
             sum += more;
             squares += more * more;
             if point.density.is_finite() {
-                let again = density_towards(emitter, from, from + point.to);
-                mismatch = mismatch.max((again / point.density - 1.0).abs());
+                mismatch = mismatch.max((density(point.to) / point.density - 1.0).abs());
             }
         }
         let more = sum / f64::from(tried);

@@ -32,7 +32,7 @@ fn scene(world: &mut World) {
     ));
     let grey = Matte { colour: Rgb::grey(0.3) };
     world.spawn((Name::new("floor"), Plane::default(), grey));
-    let wall = Plane { normal: [0.0, 0.0, 1.0].into(), ..Plane::default() };
+    let wall = Plane { normal: [0.0, 0.0, 1.0].into() };
     world.spawn((Name::new("wall"), wall, Placement::at(0.0, 0.0, -2.6), grey));
 
     for (name, x, radius, [r, g, b]) in [

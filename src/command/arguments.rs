@@ -38,6 +38,8 @@ pub enum Command {
     Render(RenderChapter),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
+    /// Print what would be said before rendering a chapter's scene or a scene file; without one, of scenes gone wrong
+    Preflight(TryPreflight),
     /// Print what a chapter's camera sees across each axis of the image, in degrees
     Angles(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
@@ -128,6 +130,14 @@ pub struct CompareImages {
     /// Print the numbers as JSON, and nothing else
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Args)]
+pub struct TryPreflight {
+    /// A chapter or a scene file; without it, small scenes with something wrong
+    pub chapter: Option<String>,
+    #[command(flatten)]
+    pub options: SceneOptions,
 }
 
 #[derive(Args)]

@@ -1,17 +1,18 @@
 use super::arguments::TryClosedForms;
 use super::interrupt::interrupted;
-use crate::measure::closed_form::closed_forms;
+use crate::measure::closed_form::{ClosedForm, closed_forms};
 use crate::{Error, Result};
 use std::io::Write;
 
 /// A line a closed form: what was measured, its standard error, the truth, how many standard errors lie between.
 ///
+/// Where nothing is left to chance, what rounding may do stands in for the standard error.
 /// Errors: one that lies more than four standard errors from the truth.
 pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result {
     writeln!(
         out,
-        "{:<44} {:<38} {:>9} {:>20} {:>8}",
-        "measured by whole renders", "formula", "truth", "measured", "off"
+        "{:<46}{:>10}{:>11}{:>13}{:>10}   formula",
+        "measured by whole renders", "truth", "measured", "error", "off by"
     )?;
     let mut missed = None;
     let mut found = false;
@@ -21,14 +22,14 @@ pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result
         }
         let truth = (form.truth)();
         let measured = form.measure(form.few.saturating_mul(asked.times), asked.seed)?;
-        let (mean, error, off) = (measured.mean, measured.standard_error / truth, measured.deviation(truth));
-        writeln!(
-            out,
-            "{:<44} {:<38} {truth:>9.5} {mean:>9.5} ± {:>6.3} % {off:>+5.1} SE",
-            form.name,
-            form.formula,
-            100.0 * error
-        )?;
+        let (mean, off) = (measured.mean, measured.deviation(truth));
+        let (error, unit) = if measured.is_exact(truth) {
+            ("rounding".into(), "r ")
+        } else {
+            (format!("± {:.3} %", 100.0 * measured.standard_error / truth), "SE")
+        };
+        let ClosedForm { name, formula, .. } = form;
+        writeln!(out, "{name:<46}{truth:>10.5}{mean:>11.5}{error:>13}{off:>+7.1} {unit}   {formula}")?;
         found = true;
         if off.abs() > 4.0 {
             missed = missed.or(Some(form.name));

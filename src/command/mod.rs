@@ -21,6 +21,7 @@ mod long_render;
 mod options;
 mod plan;
 mod planted;
+mod preflight;
 mod refused;
 mod render;
 mod report;
@@ -61,6 +62,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
             render::render_subject(&Subject::find(chapters, &asked.chapter)?, &asked.options, out)
         }
         Some(Command::Plan(asked)) => plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, out),
+        Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, out),
         Some(Command::Angles(asked)) => {
             angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
         }

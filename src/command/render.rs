@@ -7,7 +7,7 @@ use super::subject::Subject;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, LayerTable, PinholeLens, SMALLEST_PIXEL, adaptive_of, camera_entity, validate};
 use crate::film::{Film, check_place};
-use crate::look::{RenderStats, preflight};
+use crate::look::{Preflight, RenderStats, preflight};
 use crate::plan::Table;
 use crate::render::{Execution, RenderUnderWay};
 use crate::scene::{PerspectiveCamera, Sampling};
@@ -33,7 +33,8 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     check_requests(&scene, options, &pictures)?;
     let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
     if !options.quiet && !options.stats {
-        for warning in preflight(&scene, &subject.stages(), &render.plan)? {
+        let asked = Preflight { threads: execution.threads, ends_in_time: options.time.is_some() };
+        for warning in preflight(&scene, &subject.stages(), &render.plan, asked)? {
             writeln!(out, "before rendering: {warning}")?;
         }
     }

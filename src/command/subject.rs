@@ -113,7 +113,7 @@ impl<'c> Subject<'c> {
 }
 
 /// What a scene file is offered: all that the chapters teach.
-fn every_stage() -> Chapter {
+pub fn every_stage() -> Chapter {
     Chapter::new("scene", "a scene file", |_| ())
         .offer(rays::stages())
         .offer(intersect::stages())

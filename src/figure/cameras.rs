@@ -6,17 +6,14 @@ use super::picture::Picture;
 use super::svg::Drawing;
 use crate::Result;
 use crate::chapter::Chapter;
-use crate::extract::{LensTable, ShutterTable};
 use crate::naive::lens::radius_at_random;
-use crate::naive::motion::time_of_frame;
-use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{LensPoints, PixelSamples, RasterPoints, RayTimes, disk_point};
-use crate::sample::{Purpose, uniform};
+use crate::naive::mistake::{moments_in_turn, opening_filled_by};
+use crate::plan::Stage;
+use crate::rays::disk_point;
 use crate::scene::{
     Aperture, Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, Lens, PerspectiveCamera, Sampling, Shutter,
 };
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 
 const SIZE: [u32; 2] = [276, 184];
 /// Samples a pixel, fewer than in the chapter's own picture, for there are several.
@@ -56,8 +53,8 @@ pub fn draw_openings(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Ok(Exhibit { picture, lines: vec![line.into()] })
     };
     let exhibits = [
-        exhibit(round, Some(opening(disk_point)), "equal areas"),
-        exhibit(round, Some(opening(radius_at_random)), "a random radius"),
+        exhibit(round, Some(opening_filled_by(disk_point)), "equal areas"),
+        exhibit(round, Some(opening_filled_by(radius_at_random)), "a random radius"),
         exhibit(Lens { blades: 3, turn: Degrees(90.0), ..round }, None, "three edges"),
     ];
     let exhibits = exhibits.into_iter().collect::<Result<Vec<_>>>()?;
@@ -68,27 +65,6 @@ pub fn draw_openings(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 fn own_lens(chapter: &Chapter) -> Lens {
     let mut scene = chapter.world(&Default::default());
     scene.query::<&Lens>().iter(&scene).next().copied().unwrap_or_default()
-}
-
-/// The stage that draws points on the lens, by another way of filling it.
-fn opening(point: fn(DVec2) -> DVec2) -> Stage {
-    let fill = move |lens: Res<Shared<LensTable>>, mut tiles: Query<(&RasterPoints, &mut LensPoints)>| {
-        for (raster, mut points) in &mut tiles {
-            let (x, y) = raster.slices();
-            let (lens_x, lens_y) = points.slices_mut(x.len());
-            for row in 0..x.len() {
-                // Where in its pixel a sample is decides; enough for a picture.
-                let key = [x[row].to_bits() as u32, y[row].to_bits() as u32];
-                let u = DVec2::new(uniform(1, key, 0, Purpose::Lens), uniform(2, key, 0, Purpose::Lens));
-                (lens_x[row], lens_y[row]) = (point(u) * lens.radius).into();
-            }
-        }
-    };
-    Stage::new("Draw points on the lens otherwise", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
-        .reads::<RasterPoints>()
-        .writes::<LensPoints>()
-        .table::<LensTable>()
 }
 
 /// One scene through three cameras that share the first stages.
@@ -131,25 +107,10 @@ pub fn draw_frames(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         Ok(Exhibit { picture: Picture::of(chapter, SIZE, stage, fewer)?, lines: vec![line.into()] })
     };
     let exhibits = [
-        exhibit(Some(frames(4)), "the mean of 4 moments"),
-        exhibit(Some(frames(8)), "the mean of 8 moments"),
+        exhibit(Some(moments_in_turn(4)), "the mean of 4 moments"),
+        exhibit(Some(moments_in_turn(8)), "the mean of 8 moments"),
         exhibit(None, "a time for each ray"),
     ];
     let exhibits = exhibits.into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
-}
-
-/// The stage that draws times, by so many moments in turn.
-fn frames(frames: u32) -> Stage {
-    let fill = move |shutter: Res<Shared<ShutterTable>>, mut tiles: Query<(&PixelSamples, &mut RayTimes)>| {
-        for (samples, mut times) in &mut tiles {
-            times.time.clear();
-            times.time.extend(samples.sample.iter().map(|&sample| time_of_frame(sample, frames, shutter.length)));
-        }
-    };
-    Stage::new("Take moments in turn", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
-        .reads::<PixelSamples>()
-        .writes::<RayTimes>()
-        .table::<ShutterTable>()
 }

@@ -10,6 +10,7 @@
 mod acne;
 mod aliasing;
 mod broken_paths;
+mod broken_ways;
 mod cameras;
 mod caustics;
 mod drawn_image;
@@ -268,12 +269,6 @@ pub fn figures() -> Vec<Figure> {
             draw: integrators::draw_legs,
         },
         Figure {
-            name: "25_broken",
-            chapter: "25_path_tracing",
-            about: "one scene by paths with a factor too few or too many, and encoded twice",
-            draw: broken_paths::draw,
-        },
-        Figure {
             name: "26_ways",
             chapter: "26_choosing_samples",
             about: "lamps found by chance, by aiming, and by both, weighed",
@@ -286,6 +281,9 @@ pub fn figures() -> Vec<Figure> {
             draw: caustics::draw_sides,
         },
     ]
+    .into_iter()
+    .chain(broken_ways::figures())
+    .collect()
 }
 
 /// Draws the figure of this name.

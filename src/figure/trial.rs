@@ -2,10 +2,10 @@
 
 use crate::chapter::Chapter;
 use crate::scene::{
-    BlinnPhong, Checker, Cuboid, DQuat, Degrees, Emissive, Glass, LookAt, Matte, Name, OrthographicCamera,
+    BlinnPhong, Checker, Cuboid, DQuat, Degrees, Emissive, Glass, Integrator, LookAt, Matte, Name, OrthographicCamera,
     PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Rgb, Sphere,
 };
-use crate::{intersect, rays, shade};
+use crate::{follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
 
 /// A chapter of this name with a scene that suits its figure.
@@ -17,9 +17,11 @@ pub fn chapter(name: &'static str) -> Chapter {
         "15_reflection" => glossy,
         "21_soft_shadows" => soft,
         "20_glass" => clear,
+        "22_ambient_occlusion" => occluded,
         _ => central,
     };
-    Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages()).offer(shade::stages())
+    let chapter = Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages());
+    chapter.offer(shade::stages()).offer(follow::stages())
 }
 
 /// All chapters that figures show.
@@ -29,6 +31,7 @@ pub fn chapters() -> Vec<Chapter> {
         .chain(["09_camera_to_world", "10_light_and_shadow", "13_shapes", "15_reflection", "16_textures"])
         .chain([
             "17_sampling",
+            "19_mirrors",
             "20_glass",
             "21_soft_shadows",
             "22_ambient_occlusion",
@@ -48,6 +51,14 @@ fn central(world: &mut World) {
     things(world);
     let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
     world.spawn((Name::new("lamp"), light, Placement::at(3.0, 5.0, 3.5)));
+}
+
+fn occluded(world: &mut World) {
+    central(world);
+    let camera = world.query_filtered::<Entity, With<PerspectiveCamera>>().iter(world).next();
+    if let Some(camera) = camera {
+        world.entity_mut(camera).insert(Integrator::AmbientOcclusion { distance: f64::INFINITY });
+    }
 }
 
 fn boxed(world: &mut World) {

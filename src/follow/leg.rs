@@ -137,6 +137,8 @@ pub fn follow_stage() -> Stage {
         .on_first_leg()
         .reads::<WorldRays>()
         .reads_where::<Media>(media_evidence)
+        .reads_where::<RayTimes>(motion_evidence)
+        .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()
         .writes::<PathLight>()
         .when(followed_evidence)

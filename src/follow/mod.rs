@@ -29,6 +29,7 @@ mod roulette;
 mod scattered;
 mod shading_adjoint;
 mod splat;
+mod unfollowed;
 mod weigh;
 
 pub use beer::{absorbed, transmittance};
@@ -66,6 +67,7 @@ pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
 pub use shading_adjoint::{shading_adjoint, shading_adjoint_stage, weigh_by_shading_normals};
 pub use splat::{Splats, keep_polished, keep_polished_stage, splat_light, splat_stage};
+pub use unfollowed::check_matter_is_followed;
 pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
 
 use crate::plan::Stage;

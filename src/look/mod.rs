@@ -5,12 +5,21 @@
 
 pub mod convention;
 
+mod inside;
+mod pilot;
 mod preflight;
+mod slip;
+mod slow;
 mod stats;
 mod trace;
+mod unseen;
 mod view;
 
-pub use preflight::preflight;
+pub use pilot::{Pilot, pilot};
+pub use preflight::{Preflight, preflight};
+pub use slip::{SLIPS, Slip};
+pub use slow::{Effort, slow};
 pub use stats::{RenderStats, StageStats};
 pub use trace::{Recorded, Trace, trace, trace_sample};
+pub use unseen::unseen;
 pub use view::{ViewTable, paths, view_stage};

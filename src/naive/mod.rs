@@ -18,6 +18,7 @@ pub mod flat;
 pub mod lens;
 pub mod light;
 pub mod matter;
+pub mod mistake;
 pub mod motion;
 pub mod ndc;
 pub mod path;

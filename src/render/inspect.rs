@@ -8,6 +8,7 @@ use crate::film::{Film, FilmTile};
 use crate::plan::{Plan, Stage, Table};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
+use std::time::{Duration, Instant};
 
 /// A frame whose every column is still there to be read.
 pub struct Inspection {
@@ -19,6 +20,8 @@ pub struct Inspection {
     pub tiles: Vec<Entity>,
     /// The image's shape.
     pub image: ImageShape,
+    /// How long the stages ran.
+    pub time: Duration,
 }
 
 /// Runs the kept stages over the whole frame in one world and keeps that world.
@@ -45,12 +48,24 @@ pub fn inspect_tile(
     let side = Execution::default().tile_side;
     let [x, y] = pixel.map(|along| along / side * side);
     let tile = Tile { x, y, width: side.min(image.width - x), height: side.min(image.height - y) };
+    inspect_tiles(scene, offer, vec![tile], sample, hooks)
+}
+
+/// Runs the kept stages over some pieces of the frame, for one sample of each of their pixels; hooks follow each stage.
+pub fn inspect_tiles(
+    scene: &World,
+    offer: &[Stage],
+    tiles: Vec<Tile>,
+    sample: u32,
+    hooks: &[Hook],
+) -> Result<Inspection> {
+    let image = ImageShape::extract(scene)?;
     let film = Film {
         width: image.width,
         height: image.height,
-        tile_side: side,
-        tiles: vec![FilmTile::new(tile)],
-        done: vec![0],
+        tile_side: Execution::default().tile_side,
+        done: vec![0; tiles.len()],
+        tiles: tiles.into_iter().map(FilmTile::new).collect(),
         ..Film::default()
     };
     inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
@@ -73,6 +88,7 @@ fn inspect_film(
     for tile in frame.tiles.clone() {
         frame.activate(tile, &run, None);
     }
+    let started = Instant::now();
     frame.run();
-    Ok(Inspection { plan, world: frame.world, tiles: frame.tiles, image })
+    Ok(Inspection { plan, time: started.elapsed(), world: frame.world, tiles: frame.tiles, image })
 }

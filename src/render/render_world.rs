@@ -4,6 +4,7 @@ use super::steps::Run;
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
+use crate::follow::check_matter_is_followed;
 use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_met;
@@ -27,6 +28,7 @@ pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTab
     validate(scene)?;
     let plan = plan(scene, offer)?;
     check_shapes_are_met(scene, offer, &plan)?;
+    check_matter_is_followed(scene, offer)?;
     let tables = plan.tables.iter().map(|table| (table.extract)(scene)).collect::<std::result::Result<Vec<_>, _>>()?;
     Ok((plan, tables))
 }

@@ -1,6 +1,9 @@
 //! What lights send to a surface, against formulae.
 
 use super::*;
+use pinhole::shade::emitter::{
+    parallelogram_area_density, parallelogram_area_point, triangle_area_density, triangle_area_point,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Rays a case.
@@ -83,6 +86,42 @@ fn rectangles_and_triangles_shine_as_lambert_says() {
         "polygons: {cases} cases × {RAYS} rays, worst {worst:.2} standard errors; deviation over mean ≤ {widest:.3}"
     );
     assert!(widest <= 1.0);
+}
+
+/// By points spread evenly over the area, as lights far away are aimed at; near ones too are right, with more spread.
+#[test]
+fn areas_shine_as_lambert_says() {
+    let (mut cases, mut worst) = (0, 0.0_f64);
+    let (up, x, z) = (DVec3::Y, DVec3::X, DVec3::Z);
+    for height in [30.0, 5.0, 1.0, 0.5] {
+        for aside in [0.0, 0.5, 1.1, 3.0] {
+            let (centre, from) = (up * height, x * aside + z * 0.1);
+            let Emitter::Rectangle(flat) = rectangle(centre, [x, x * 0.3 + z * 0.5], -up) else { unreachable!() };
+            let corners = [centre - x, centre + x, centre + z * 0.7];
+            let by_area = Received::by(
+                &|u| parallelogram_area_point(&flat, from, u),
+                &|to| parallelogram_area_density(&flat, to),
+                up,
+                4 * RAYS,
+                cases,
+            );
+            let truth = polygon_irradiance(&corners_of(&Emitter::Rectangle(flat)), from, up);
+            check(&format!("rectangle {height} above, {aside} aside"), &by_area, truth);
+            worst = worst.max(by_area.off(truth).abs());
+            let by_area = Received::by(
+                &|u| triangle_area_point(&corners, from, u),
+                &|to| triangle_area_density(&corners, to),
+                up,
+                4 * RAYS,
+                cases,
+            );
+            let truth = polygon_irradiance(&corners, from, up);
+            check(&format!("triangle {height} above, {aside} aside"), &by_area, truth);
+            worst = worst.max(by_area.off(truth).abs());
+            cases += 2;
+        }
+    }
+    eprintln!("by area: {cases} cases × {} rays, worst {worst:.2} standard errors", 4 * RAYS);
 }
 
 /// Parallel to the surface, `aside` from the axis: half of 1 − (a² + h² − r²) / √((a² + h² + r²)² − 4a²r²), times π.

@@ -182,7 +182,7 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
     ("21_soft_shadows", Attempt::SolidAngleDensity(signed_density), "negative density"),
     ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| signed_density(f, t, n, a).max(0.0)), "has none"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| edge_on(f, t, n, a)), "1 / 0"),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(edge_on), "1 / 0"),
     (
         "22_ambient_occlusion",
         Attempt::CosineDirection(|u, v| raised(u, TAU * v, (1.0 - u * u).sqrt())),

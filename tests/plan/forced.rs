@@ -102,8 +102,9 @@ fn forcing_a_needed_stage_off_shows() {
     let offer = offer();
     let size = [24, 16];
     let witnesses: Vec<(&str, World)> = vec![
-        // First the one whose ways end by themselves where no chance ends them.
+        // First those whose ways end by themselves where no chance ends them.
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
+        ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("pieces", pieces(Setup { size, ..Setup::default() })),
@@ -123,7 +124,6 @@ fn forcing_a_needed_stage_off_shows() {
         ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
-        ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),

@@ -1,6 +1,6 @@
 //! Mirrors, glass and metal under a sky of radiance 1.
 
-use super::ClosedForm;
+use super::{ClosedForm, GREEN};
 use crate::follow::fresnel;
 use crate::scene::{
     Background, Cuboid, Glass, Integrator, LightSampling, LookAt, Metal, Mirror, OrthographicCamera, PerspectiveCamera,
@@ -22,6 +22,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "c₁ c₂",
         truth: || 0.72,
         few: 1 << 10,
+        lane: GREEN,
         scene: |world| {
             // The first turns the view upward, the second sends it to the side, and upward still.
             view(world, 20.0 * DVec3::Z, 0.1);
@@ -35,6 +36,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1",
         truth: || 1.0,
         few: 1 << 12,
+        lane: GREEN,
         scene: |world| {
             world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 2.5), WAYS));
             world.spawn(Background { colour: Rgb::grey(1.0) });
@@ -49,6 +51,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             reflected + (1.0 - reflected) / 2.25
         },
         few: 1 << 16,
+        lane: GREEN,
         scene: |world| {
             view(world, 20.0 * DVec3::new(libm::sin(FRAC_PI_3), 0.0, libm::cos(FRAC_PI_3)), 1.0);
             world.spawn((Plane { normal: DVec3::Z }, Glass::default()));
@@ -62,6 +65,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             r + (1.0 - r) * (1.0 - r) * t * (1.0 + r * t) / (1.0 - r * r * t * t)
         },
         few: 1 << 16,
+        lane: GREEN,
         scene: |world| {
             view(world, 20.0 * DVec3::Z, 1.0);
             let absorption = Rgb::grey(0.5 * LN_2);
@@ -73,6 +77,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "e^(−Σ σ length)",
         truth: || libm::exp(-1.0),
         few: 1 << 10,
+        lane: GREEN,
         scene: |world| {
             // From near by: a ray starts off its surface by the bound, which grows with the distance from the eye, and
             // so much of its way is not counted.
@@ -87,6 +92,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "R + (1 − R)² r / (1 − R r)",
         truth: layers,
         few: 1 << 19,
+        lane: GREEN,
         scene: |world| {
             view(world, 20.0 * DVec3::Z, 1.0);
             // Seen through, nothing would be lost; a dark drink shows how much of the light comes from it.
@@ -100,6 +106,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 − ln 2",
         truth: || 1.0 - LN_2,
         few: 1 << 17,
+        lane: GREEN,
         scene: |world| {
             view(world, 20.0 * DVec3::Z, 1.0);
             world.spawn((Plane { normal: DVec3::Z }, Metal { colour: Rgb::grey(1.0), roughness: 1.0 }));

@@ -14,7 +14,7 @@ const WAYS: u64 = 4096;
 /// Directions of each sky.
 const DIRECTIONS: u64 = 1 << 16;
 /// How many standard errors a mean may lie from the truth.
-const ERRORS: f64 = 4.5;
+const ERRORS: f64 = 4.0;
 /// The legs after which a naive way is cut off.
 const CAP: u32 = 64;
 

@@ -1,0 +1,52 @@
+use crate::Result;
+use crate::extract::{CuboidTable, EllipsoidTable, ShapeTable, SphereTable, TriangleTable, shape_entities};
+use crate::plan::Table;
+use crate::scene::{Glass, Rgb, UsesMaterial};
+use crate::shade::emitter::triangle_solid_angle;
+use bevy_ecs::prelude::*;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Triangles that fill so much of all that is seen, as seen from the camera, close around it.
+const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
+
+/// Says that a shape holds the camera, and which: a sphere, a cuboid, an ellipsoid, or triangles that close.
+///
+/// What the camera stands in absorbs nothing on the first leg, for no ray has entered it.
+pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<String>> {
+    let spheres = SphereTable::extract(scene)?;
+    let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
+    let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
+    let cuboids = CuboidTable::extract(scene)?;
+    let within = |row: &usize| cuboids.slabs[*row].holds_the_eye();
+    let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
+    let ellipsoids = EllipsoidTable::extract(scene)?;
+    let within = |row: &usize| {
+        let egg = &ellipsoids.ellipsoid[*row];
+        (egg.unit_from_world * egg.centre).length() < 1.0
+    };
+    let ellipsoid = (0..ellipsoids.ellipsoid.len()).find(within).map(|row| ellipsoids.shape[row]);
+    let mesh = triangles_around(&TriangleTable::extract(scene)?, shapes);
+    let Some(shape) = sphere.or(cuboid).or(ellipsoid).or(mesh) else { return Ok(None) };
+    let name = shapes.name.get(shape as usize).cloned().unwrap_or_default();
+    let entity = shape_entities(scene).get(shape as usize).copied();
+    let absorbs = entity.is_some_and(|entity| {
+        let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
+        scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
+    });
+    let lost = if absorbs { "; what it absorbs on the first leg is not counted" } else { "" };
+    Ok(Some(format!("the camera is inside the {name}, and sees it from within{lost}")))
+}
+
+/// The first triangle of those of one material that close around the camera: their solid angles, counted negative where
+/// a triangle shows its front, sum to all round inside, and to nothing outside.
+fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u32> {
+    let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+    for (row, &shape) in triangles.shape.iter().enumerate() {
+        let corners = &triangles.facet[row].corners;
+        let angle = triangle_solid_angle(corners).copysign(triangles.normal[row].dot(corners[0]));
+        let of = filled.entry(shapes.material[shape as usize]).or_insert((0.0, shape));
+        of.0 += if angle.is_finite() { angle } else { 0.0 };
+    }
+    filled.into_values().find(|(angle, _)| angle.abs() >= ALL_ROUND).map(|(_, shape)| shape)
+}

@@ -1,0 +1,195 @@
+//! What is said before a picture is rendered: of everything that goes wrong, and nothing where nothing does.
+
+use super::*;
+use glam::DVec3;
+use pinhole::Error;
+use pinhole::look::{Preflight, SLIPS, preflight};
+use pinhole::render::prepare;
+use pinhole::scene::*;
+use pinhole::{Chapter, follow, intersect, rays, shade};
+
+/// What is said of a scene for which every stage is on offer, or the refusal.
+fn said(scene: &World) -> Result<Vec<String>, Error> {
+    let plan = prepare(scene, &offer())?.0;
+    preflight(scene, &offer(), &plan, Preflight { threads: Some(1), ends_in_time: true })
+}
+
+#[test]
+fn slips_are_told_before_the_picture_is_rendered() {
+    let expected: &[(&str, &[&[&str]])] = &[
+        ("nothing wrong", &[]),
+        ("no light, by paths", &[&["likely to be black", "there is no light"]]),
+        ("a lamp behind the wall", &[&["likely to be black", "faces away from every light", "\"lamp\""]]),
+        ("a lamp inside the ball", &[&["likely to be black", "rays to lights is blocked", "sphere \"ball\""]]),
+        (
+            "the camera inside the ball",
+            &[&["likely to be black"], &["inside the sphere \"ball\", and sees it from within"]],
+        ),
+        ("the camera inside a block of tinted glass", &[&["inside the cuboid \"block\"", "absorbs on the first leg"]]),
+        ("the camera looks the other way", &[&["likely to be black", "rays meets a shape", "no background"]]),
+        ("the same before a blue sky", &[&["none of", "rays tried", "meets a shape"]]),
+        ("a lamp a hundred times too bright", &[&["% of the rays tried", "more than white", "EXR"]]),
+        ("a small lamp left to chance", &[&["likely to be black", "0 of 6144 rays", "by chance", "Weighed"]]),
+        ("a mirror, by ray casting", &[&["shows mirrors and glass dark", "\"mirror\"", "Integrator::Whitted"]]),
+        (
+            "a lamp with an area, by Whitted's rays",
+            &[
+                &["likely to be black", "light nothing here", "\"panel\""],
+                &["rays light nothing by", "\"panel\"", "Integrator::Path"],
+            ],
+        ),
+        ("focus at 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
+    ];
+    assert_eq!(
+        SLIPS.iter().map(|slip| slip.what).collect::<Vec<_>>(),
+        expected.iter().map(|e| e.0).collect::<Vec<_>>()
+    );
+    let mut failures = Vec::new();
+    for (slip, (_, sentences)) in SLIPS.iter().zip(expected) {
+        let mut world = World::new();
+        (slip.scene)(&mut world);
+        let told = said(&world).unwrap_or_else(|error| vec![format!("refused: {error}")]);
+        eprintln!("{}: {told:#?}", slip.what);
+        let holds = |(sentence, words): (&String, &&[&str])| words.iter().all(|word| sentence.contains(word));
+        if told.len() != sentences.len() || !told.iter().zip(*sentences).all(holds) {
+            failures.push((slip.what, told));
+        }
+        for sentence in failures.last().map_or(&[][..], |(_, told)| told) {
+            assert!(!sentence.contains('\n') && !sentence.ends_with('.'), "{sentence}");
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// The camera at a point, and a shape about it, of radius or half side 1.
+fn inside(spawn: &dyn Fn(&mut World) -> Entity, eye: DVec3) -> Vec<String> {
+    let mut world = World::new();
+    world.spawn((
+        Name::new("camera"),
+        PerspectiveCamera::default(),
+        Placement { position: eye, ..Placement::default() },
+    ));
+    world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(0.2, 0.3, 0.1)));
+    let shape = spawn(&mut world);
+    world.entity_mut(shape).insert((Name::new("shape"), Matte::default()));
+    said(&world).expect("said").into_iter().filter(|sentence| sentence.contains("inside the")).collect()
+}
+
+#[test]
+fn a_camera_inside_a_shape_is_told() {
+    let stretched = |x: f64| Placement { scale: DVec3::new(x, 1.0, 1.0), ..Placement::default() };
+    let shapes: [(&str, &dyn Fn(&mut World) -> Entity); 3] = [
+        ("sphere", &|world| world.spawn(Sphere { radius: 1.0 }).id()),
+        ("cuboid", &|world| world.spawn(Cuboid { size: DVec3::splat(2.0) }).id()),
+        ("ellipsoid", &|world| world.spawn((Sphere { radius: 1.0 }, stretched(3.0))).id()),
+    ];
+    let mut tried = 0;
+    for (kind, spawn) in shapes {
+        for (eye, within) in [
+            (DVec3::new(0.0, 0.0, 0.9), true),
+            (DVec3::new(0.0, 0.0, 1.1), false),
+            (DVec3::new(1.1, 0.0, 0.0), kind == "ellipsoid"),
+            (DVec3::new(0.9, 0.9, 0.9), kind == "cuboid"),
+        ] {
+            let told = inside(spawn, eye);
+            assert_eq!(!told.is_empty(), within, "{kind} from {eye}: {told:?}");
+            tried += 1;
+        }
+    }
+    // Triangles that close; and with one of them taken away.
+    for (eye, open, within) in [(0.0, false, true), (0.9, false, true), (1.1, false, false), (0.0, true, false)] {
+        let mut world = World::new();
+        world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 0.0, eye)));
+        world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(0.2, 0.3, 0.1)));
+        numerics::ball_of_triangles(&mut world, 2);
+        if open {
+            let face = world.query_filtered::<Entity, With<Triangle>>().iter(&world).next().expect("a face");
+            world.despawn(face);
+        }
+        let told = said(&world).expect("said");
+        assert_eq!(told.iter().any(|sentence| sentence.contains("inside the triangle")), within, "{eye}: {told:?}");
+        tried += 1;
+    }
+    eprintln!("cameras: {tried} places about 4 kinds of shapes");
+}
+
+/// A one-sided lamp that shines upward over the floor lights nothing that is seen.
+#[test]
+fn a_lamp_that_shines_the_other_way_is_told() {
+    let scene = |turned: bool| {
+        let mut world = World::new();
+        let look = LookAt { eye: DVec3::new(0.0, 3.0, 4.0), target: DVec3::ZERO, ..LookAt::default() };
+        world.spawn((Name::new("camera"), PerspectiveCamera { fov: Degrees(30.0), ..Default::default() }, look));
+        world.spawn((Plane::default(), Matte::default()));
+        let orientation = if turned { DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0) } else { DQuat::IDENTITY };
+        let place = Placement { orientation, ..Placement::at(0.0, 6.0, 0.0) };
+        let lamp = Emissive { radiance: Rgb::grey(5.0), sides: Sides::Front };
+        world.spawn((Name::new("panel"), Rectangle { width: 2.0, depth: 2.0 }, place, lamp));
+        said(&world).expect("said")
+    };
+    let told = scene(false);
+    assert!(told.len() == 1 && told[0].contains("the lights shine elsewhere") && told[0].contains("panel"), "{told:?}");
+    assert!(scene(true).is_empty(), "{:?}", scene(true));
+}
+
+/// Every chapter's own scene, with its own stages: nothing is said that is not so.
+#[test]
+fn nothing_is_said_of_the_chapters_scenes() {
+    let mut said = Vec::new();
+    let chapters = chapters::all();
+    for chapter in &chapters {
+        let asked = Asked { resolution: Some(Resolution { width: 96, height: 54 }), ..Asked::default() };
+        let scene = chapter.world(&asked);
+        let plan = prepare(&scene, &chapter.stages()).expect("prepared").0;
+        let asked = Preflight { threads: Some(1), ends_in_time: true };
+        let mut told = preflight(&scene, &chapter.stages(), &plan, asked).expect("said");
+        // That is so there: the first two of light that is followed show it.
+        if ["19_mirrors", "20_glass"].contains(&chapter.name) {
+            told.retain(|sentence| !sentence.contains("mirrors or glass"));
+        }
+        said.extend(told.into_iter().map(|sentence| format!("{}: {sentence}", chapter.name)));
+    }
+    eprintln!("{} chapters: {said:#?}", chapters.len());
+    assert!(said.is_empty(), "{said:#?}");
+}
+
+/// A chapter that has not come to following light refuses what would be black in its picture.
+#[test]
+fn matter_that_no_stage_follows_is_refused() {
+    let scene = |spawn: &dyn Fn(&mut World) -> Entity| {
+        let mut world = World::new();
+        world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 0.0, 5.0)));
+        world.spawn((Name::new("lamp"), PointLight::default(), Placement::at(3.0, 3.0, 3.0)));
+        let shape = spawn(&mut world);
+        world.entity_mut(shape).insert((Name::new("ball"), Sphere { radius: 1.0 }));
+        world
+    };
+    let matter: [(&str, &dyn Fn(&mut World) -> Entity); 4] = [
+        ("mirror", &|world| world.spawn(Mirror::default()).id()),
+        ("glass", &|world| world.spawn(Glass::default()).id()),
+        ("metal", &|world| world.spawn(Metal::default()).id()),
+        ("mirror", &|world| {
+            let silver = world.spawn(Mirror::default()).id();
+            world.spawn(UsesMaterial(silver)).id()
+        }),
+    ];
+    let chapter = |followed: bool| {
+        let chapter = Chapter::new("test", "a test", |_| ()).offer(rays::stages()).offer(intersect::stages());
+        let chapter = chapter.offer(shade::stages());
+        if followed { chapter.offer(follow::stages()) } else { chapter }
+    };
+    for (word, spawn) in matter {
+        let mut world = scene(spawn);
+        assert!(prepare(&world, &chapter(true).stages()).is_ok(), "{word}");
+        let refused = prepare(&world, &chapter(false).stages()).err().map(|error| error.to_string());
+        let sentence = format!(
+            "sphere \"ball\": {word} is given, but no stage on offer sends light on from it; offer follow::stages(), \
+             which do"
+        );
+        assert_eq!(refused, Some(sentence));
+        // Who asks for ray casting gets it.
+        let camera = named(&mut world, "camera");
+        world.entity_mut(camera).insert(Integrator::RayCasting);
+        assert!(prepare(&world, &chapter(false).stages()).is_ok(), "{word}, by ray casting");
+    }
+}
