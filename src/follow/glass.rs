@@ -190,6 +190,7 @@ pub fn glass_light_stage() -> Stage {
     reading(Stage::new("Reflect or refract light at glass", TileSystems::Scatter, scatter_glass::<true>))
         .on_light_paths()
         .kind(StageKind::Alternative)
+        .reads_if::<PixelSamples>()
         .table::<SamplingTable>()
         .when(|scene| traced_evidence(scene).and(|| glass_evidence(scene)))
 }
