@@ -22,7 +22,7 @@ const LEGS: u32 = 4;
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let change = |camera: &mut EntityWorldMut<'_>| {
         let integrator = Integrator::Path { legs: LEGS, lights: LightSampling::Aimed, roulette: 0 };
-        camera.insert((integrator, Sampling { samples: 16, seed: 25, ..Sampling::default() }));
+        camera.insert((integrator, Sampling { samples: 8, seed: 25, ..Sampling::default() }));
     };
     let alike = |u| DVec3::from(uniform_direction(u));
     let by = |way: MatteWay, lines: [&str; 2]| {

@@ -41,7 +41,7 @@ pub fn draw_distance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// Ray casting beside paths of more and more legs.
 pub fn draw_legs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let paths = |legs| Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 5 };
-    let of = |integrator, lines| exhibit(chapter, LARGE, 32, integrator, lines);
+    let of = |integrator, lines| exhibit(chapter, LARGE, 12, integrator, lines);
     let exhibits = [
         of(Integrator::RayCasting, ["ray casting", "the lamp is seen, and lights nothing"])?,
         of(paths(2), ["paths of 2 legs", "lamp to surface to eye"])?,
