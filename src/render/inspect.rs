@@ -5,9 +5,10 @@ use super::under_way::{film_for, shares};
 use crate::Result;
 use crate::extract::ImageShape;
 use crate::film::{Film, FilmTile};
-use crate::plan::{Plan, Stage, Table};
+use crate::plan::{Plan, Stage, Table, TileSystems};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A frame whose every column is still there to be read.
@@ -34,6 +35,16 @@ pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[H
     let image = ImageShape::extract(scene)?;
     let film = Film::new(image.width, image.height, tile_side);
     inspect_film(scene, offer, image, film, Run::FIRST, hooks)
+}
+
+/// The same stages, of which those that step on and follow do nothing: what the first leg of light's way wrote stays to be
+/// looked at.
+pub fn first_leg_only(offer: &[Stage]) -> Vec<Stage> {
+    let mut offer = offer.to_vec();
+    for stage in offer.iter_mut().filter(|stage| matches!(stage.set, TileSystems::Step | TileSystems::Follow)) {
+        stage.system = Arc::new(|| (|| {}).into_configs());
+    }
+    offer
 }
 
 /// Runs the kept stages over the one tile that holds a pixel, for one of its samples; hooks follow each stage.

@@ -20,7 +20,7 @@ mod under_way;
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
-pub use inspect::{Inspection, inspect, inspect_stages, inspect_tile, inspect_tiles};
+pub use inspect::{Inspection, first_leg_only, inspect, inspect_stages, inspect_tile, inspect_tiles};
 pub use key::film_key;
 pub use memory::peak_memory;
 pub use passes::{Limits, Outcome, render_in_passes};

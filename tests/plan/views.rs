@@ -1,8 +1,7 @@
 //! What a view paints, and what it answers to a word it does not know.
 
 use super::*;
-use pinhole::follow::Scattered;
-use pinhole::plan::TileSystems;
+use pinhole::render::first_leg_only;
 use scenes::followed::{INTEGRATORS, followed};
 
 #[test]
@@ -39,12 +38,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         [full, stretched, pieces, shining, textured, soft, sampled, scenes::blurred, scenes::moving, paths];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
-        // Later legs write over what the first one wrote, and a view is of the first.
-        let mut first_leg = offer();
-        first_leg.retain(|stage| !matches!(stage.set, TileSystems::Step | TileSystems::Follow));
-        let reader = Stage::new("Read what is scattered", TileSystems::Film, || {});
-        first_leg.push(reader.reads_if::<Scattered>().writes::<FilmTile>());
-        let whole = inspect(&scene_of(setup), &first_leg, 32).expect("inspects");
+        let whole = inspect(&scene_of(setup), &first_leg_only(&offer()), 32).expect("inspects");
         for column in &whole.plan.columns {
             if !column.is_viewed() || column.name == "radiance" {
                 continue;

@@ -16,7 +16,7 @@ use crate::measure::oracle_sphere::{Sphere, sphere_hit};
 use crate::measure::oracle_triangle::triangle_hit;
 use crate::plan::Stage;
 use crate::rays::{self, CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays};
-use crate::render::{Inspection, inspect};
+use crate::render::{Inspection, first_leg_only, inspect};
 use crate::shade;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -30,7 +30,7 @@ const SIDE: u32 = 32;
 ///
 /// Errors: what a render would be refused for.
 pub fn stage_errors(scene: &World, offer: &[Stage]) -> Result<Vec<(&'static str, String)>> {
-    let frame = inspect(scene, offer, SIDE)?;
+    let frame = inspect(scene, &first_leg_only(offer), SIDE)?;
     let exact = Exact::of(scene, &frame)?;
     let mut worst = Worst::default();
     for (tile, row, pixel) in probes(&frame) {
