@@ -95,6 +95,16 @@ fn beside(scene: &World, offer: &[Stage]) -> (Vec<FilmLayers>, Vec<FilmMoments>)
     (film.layers, film.moments)
 }
 
+/// Paths among things in motion, over a pattern that pixels cover several cells of.
+fn paths_in_motion(setup: Setup) -> World {
+    let mut scene = followed(INTEGRATORS[6], setup);
+    let [camera, ball, floor] = ["camera", "matte ball", "floor"].map(|name| named(&mut scene, name));
+    scene.entity_mut(camera).insert(Shutter::default());
+    scene.entity_mut(ball).insert(Motion { velocity: DVec3::new(0.5, 0.25, 0.0) });
+    scene.entity_mut(floor).insert(Checker { size: 0.1, ..Checker::default() });
+    scene
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_legs = Integrator::Path { legs: 2, lights: LightSampling::Weighed, roulette: 0 };
@@ -103,6 +113,7 @@ fn forcing_a_needed_stage_off_shows() {
     let witnesses: Vec<(&str, World)> = vec![
         // First those whose ways end by themselves where no chance ends them.
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
+        ("paths in motion", paths_in_motion(Setup { size, ..Setup::default() })),
         ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
@@ -130,7 +141,12 @@ fn forcing_a_needed_stage_off_shows() {
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();
     let mut films: BTreeMap<&str, FilmBits> = BTreeMap::new();
-    for stage in &offer {
+    // Without a step to the next leg no way would end, so that is not rendered: it is kept wherever legs follow.
+    const STEP: &str = "Step to the next leg";
+    for (name, plan, _) in &witnesses {
+        assert_eq!(row(plan, STEP).kept, row(plan, "Follow the legs that are left").kept, "{name}");
+    }
+    for stage in offer.iter().filter(|stage| stage.name != STEP) {
         let power = witnesses.iter().find_map(|(name, plan, scene)| {
             if !row(plan, stage.name).kept {
                 return None;
