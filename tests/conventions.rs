@@ -173,7 +173,7 @@ fn apart(program: Program, camera: &PlacedCamera, pixel: [u32; 2]) -> [f64; 2] {
 fn the_lines_to_type_make_the_same_rays() {
     let mut tried = 0;
     let mut worst = [0.0_f64; 2];
-    for name in ["cover", "05_pinhole", "11_conventions"] {
+    for name in ["10_light_and_shadow", "05_pinhole", "11_conventions"] {
         for [width, height] in [[480, 270], [270, 480], [100, 100], [64, 1], [1, 1]] {
             let camera = PlacedCamera::of(&scene(name, width, height)).expect("a perspective camera");
             let (right, bottom) = (width - 1, height - 1);

@@ -21,7 +21,7 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, render};
 use pinhole::report::agreement::{Agreement, agreement};
 use pinhole::report::run::numbers;
-use pinhole::scene::{Integrator, LightSampling, Resolution, Sampler, Sampling};
+use pinhole::scene::{Background, Gradient, Integrator, LightSampling, Resolution, Sampler, Sampling};
 use scenes::public::public;
 use scenes::{named, offer};
 
@@ -43,42 +43,60 @@ fn closed_forms_hold() {
     eprintln!("closed forms: {forms} with {tried} samples, {exact} of them without chance and held to rounding");
 }
 
-/// Renders of a scene with seeds of its own.
-fn renders(make: &dyn Fn() -> World, lights: LightSampling, samples: u32, seeds: std::ops::Range<u64>) -> Vec<Numbers> {
+/// Renders of a scene by an integrator, with seeds of their own.
+fn renders_by(
+    make: &dyn Fn() -> World,
+    integrator: Integrator,
+    samples: u32,
+    seeds: std::ops::Range<u64>,
+) -> Vec<Numbers> {
     let image = |seed| {
         let mut world = make();
         let camera = named(&mut world, "camera");
         let sampling = Sampling { samples, seed, sampler: Sampler::Independent, ..Sampling::default() };
-        let integrator = match integrator_of(&world).integrator {
-            Integrator::Path { legs, roulette, .. } => Integrator::Path { legs, lights, roulette },
-            other => panic!("{other:?} finds lights in one way only"),
-        };
         world.entity_mut(camera).insert((sampling, integrator));
         numbers(&render(&world, &offer(), &Execution::default(), &()).expect("renders").film)
     };
     seeds.map(image).collect()
 }
 
-/// Whether light by chance, aimed at, and both weighed bring the same to every block of pixels of a scene.
-fn ways_agree(name: &str, make: &dyn Fn() -> World, samples: u32) {
-    use LightSampling::{Aimed, ByChance, Weighed};
+/// Renders of a scene by paths that find light so.
+fn renders(make: &dyn Fn() -> World, lights: LightSampling, samples: u32, seeds: std::ops::Range<u64>) -> Vec<Numbers> {
+    let integrator = match integrator_of(&make()).integrator {
+        Integrator::Path { legs, roulette, .. } => Integrator::Path { legs, lights, roulette },
+        other => panic!("{other:?} finds lights in one way only"),
+    };
+    renders_by(make, integrator, samples, seeds)
+}
+
+/// Whether two sets of renders agree in every block of so many pixels a side.
+fn assert_agree(what: &str, one: &[Numbers], other: &[Numbers], side: u32) {
+    let found = agreement(one, other, side).expect("one size");
+    let Agreement { tests, apart, least, limit, resolution } = found;
+    eprintln!(
+        "{what}: {apart} of {tests} blocks apart, least likely {least:.1e} (limit {limit:.1e}), resolution {:.1} %",
+        100.0 * resolution
+    );
+    assert!(found.agrees(), "{what}");
+}
+
+/// All ways to find light, and those that do not wait for chance to meet a small lamp.
+const ALL: &[LightSampling] = &[LightSampling::ByChance, LightSampling::Aimed, LightSampling::Weighed];
+const NOT_BY_CHANCE: &[LightSampling] = &[LightSampling::Aimed, LightSampling::Weighed];
+
+/// Whether these ways to find light bring the same to every block of pixels of a scene, pair by pair.
+fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightSampling], samples: u32, side: u32) {
     const SETS: u64 = 12;
-    let chance = renders(make, ByChance, 4 * samples, 0..SETS);
-    let aimed = renders(make, Aimed, samples, SETS..2 * SETS);
-    let weighed = renders(make, Weighed, samples, 2 * SETS..3 * SETS);
-    let pairs = [
-        ("chance, aimed", &chance, &aimed),
-        ("chance, weighed", &chance, &weighed),
-        ("aimed, weighed", &aimed, &weighed),
-    ];
-    for (pair, one, other) in pairs {
-        let found = agreement(one, other, 8).expect("one size");
-        let Agreement { tests, apart, least, limit, resolution } = found;
-        eprintln!(
-            "{name}, {pair}: {apart} of {tests} blocks apart, least likely {least:.1e} (limit {limit:.1e}), resolution {:.1} %",
-            100.0 * resolution
-        );
-        assert!(found.agrees(), "{name}: {pair}");
+    let rendered = |(number, &lights): (usize, &LightSampling)| {
+        let more = if lights == LightSampling::ByChance { 4 } else { 1 };
+        let first = SETS * number as u64;
+        (lights, renders(make, lights, more * samples, first..first + SETS))
+    };
+    let sets: Vec<_> = ways.iter().enumerate().map(rendered).collect();
+    for (number, (lights, one)) in sets.iter().enumerate() {
+        for (others, other) in &sets[number + 1..] {
+            assert_agree(&format!("{name}, {lights:?} and {others:?}"), one, other, side);
+        }
     }
 }
 
@@ -92,15 +110,62 @@ fn ways_to_find_light_agree_on_the_public_scenes() {
             world.entity_mut(camera).insert(Resolution { width: width / 8, height: height / 8 });
             world
         };
-        ways_agree(name, &make, samples);
+        ways_agree(name, &make, ALL, samples, 8);
     }
 }
 
 #[test]
 fn ways_to_find_light_agree_on_the_chapters_scenes() {
     for (name, samples) in [("25_path_tracing", 16), ("26_choosing_samples", 24)] {
-        let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
-        let asked = Asked { resolution: Some(Resolution { width: 48, height: 32 }), ..Asked::default() };
-        ways_agree(name, &|| chapter.world(&asked), samples);
+        ways_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
+    }
+    // The others by paths too, whatever integrator they name; caustics come from the lamps where the scene has them so.
+    const PATH: Integrator = Integrator::Path { legs: 6, lights: LightSampling::Weighed, roulette: 3 };
+    for (name, ways) in [
+        ("cover", NOT_BY_CHANCE),
+        ("19_mirrors", ALL),
+        ("20_glass", ALL),
+        ("21_soft_shadows", NOT_BY_CHANCE),
+        ("22_ambient_occlusion", ALL),
+        ("23_depth_of_field", ALL),
+        ("24_motion_blur", ALL),
+        ("27_caustics", NOT_BY_CHANCE),
+    ] {
+        let make = || {
+            let mut world = chapter_at(name, 24, 16);
+            let camera = named(&mut world, "camera");
+            world.entity_mut(camera).insert(PATH);
+            world
+        };
+        ways_agree(name, &make, ways, 8, 4);
+    }
+}
+
+fn chapter_at(name: &str, width: u32, height: u32) -> World {
+    let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
+    chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() })
+}
+
+/// Direct light by the integrators that seek nothing else is what paths of two legs bring, where no sky lights things.
+#[test]
+fn integrators_of_direct_light_agree_with_short_paths() {
+    const SETS: u64 = 12;
+    for name in ["21_soft_shadows", "23_depth_of_field", "24_motion_blur"] {
+        let make = || {
+            let mut world = chapter_at(name, 24, 16);
+            let mut skies = world.query_filtered::<Entity, Or<(With<Background>, With<Gradient>)>>();
+            let skies: Vec<Entity> = skies.iter(&world).collect();
+            skies.into_iter().for_each(|sky| _ = world.despawn(sky));
+            world
+        };
+        let own = integrator_of(&make()).integrator;
+        assert!(matches!(own, Integrator::RayCasting | Integrator::Distribution { .. }), "{name}: {own:?}");
+        let own = renders_by(&make, own, 12, 0..SETS);
+        for (number, &lights) in NOT_BY_CHANCE.iter().enumerate() {
+            let first = SETS * (number as u64 + 1);
+            let short = Integrator::Path { legs: 2, lights, roulette: 0 };
+            let short = renders_by(&make, short, 12, first..first + SETS);
+            assert_agree(&format!("{name}, by itself and by short paths, {lights:?}"), &own, &short, 4);
+        }
     }
 }

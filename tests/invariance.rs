@@ -11,7 +11,10 @@ use pinhole::measure::film_bits::digest;
 use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
-use pinhole::scene::{Filter, Integrator, Motion, Placement, PointLight, Sampling, Shutter, Statistics};
+use pinhole::scene::{
+    Aperture, Filter, Integrator, Lens, Motion, Placement, PointLight, Sampling, Shutter, Statistics,
+};
+use scenes::caustics::{caustics, traced};
 use scenes::followed::{INTEGRATORS, followed};
 use scenes::matter::{brushed, polished};
 use scenes::{
@@ -313,6 +316,29 @@ fn scale_by_powers_of_two() {
     eprintln!(
         "scale: 2^k for every k from −{LARGEST} to {LARGEST}, 2 cameras, 9 scenes; for {some:?}, 5 more; all equal"
     );
+}
+
+/// Rays from lamps know no unit either, by a lens or without.
+#[test]
+fn light_from_lamps_scales_by_powers_of_two() {
+    for (lamps, lens) in [(true, false), (false, false), (true, true)] {
+        let scene = || {
+            let mut world = traced(|| caustics(lamps))();
+            let camera = named(&mut world, "camera");
+            if lens {
+                let aperture = Aperture::Radius { radius: 0.25 };
+                world.entity_mut(camera).insert(Lens { aperture, focus_distance: 3.5, ..Lens::default() });
+            }
+            world
+        };
+        let expected = film(&scene());
+        for k in [-20, -3, 1, 20] {
+            let mut scaled = scene();
+            scale(&mut scaled, k);
+            film(&scaled).assert_is(&expected, &format!("lamps {lamps}, lens {lens}, scaled by 2^{k}"));
+        }
+    }
+    eprintln!("scale of light from lamps: 3 scenes, 4 powers of two, all equal");
 }
 
 #[test]

@@ -21,7 +21,9 @@ use glam::DVec3;
 use pinhole::Error;
 use pinhole::extract::ImageShape;
 use pinhole::film::FilmTile;
-use pinhole::plan::{ColumnKind, Evidence, LaneValues, Plan, PlanError, Stage, StageKind, TableKind, plan, view_names};
+use pinhole::plan::{
+    ColumnKind, Evidence, LaneValues, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan, view_names,
+};
 use pinhole::rays::Tile;
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;

@@ -32,8 +32,8 @@ fn scene(world: &mut World) {
     let colour = Rgb::new(0.95, 0.75, 0.45);
     let ball = |x| (Sphere { radius: 0.9 }, Placement::at(x, 0.9, 0.0));
     world.spawn((Name::new("smooth ball"), ball(-2.0), Mirror { colour }));
-    world.spawn((Name::new("brushed ball"), ball(0.0), Metal { colour, roughness: 0.1 }));
-    world.spawn((Name::new("rough ball"), ball(2.0), Metal { colour, roughness: 0.4 }));
+    world.spawn((Name::new("brushed ball"), ball(0.0), Metal { colour, roughness: 0.1, ..Metal::default() }));
+    world.spawn((Name::new("rough ball"), ball(2.0), Metal { colour, roughness: 0.4, ..Metal::default() }));
     let tiles = Checker { first: Rgb::new(0.5, 0.48, 0.44), second: Rgb::new(0.12, 0.16, 0.2), ..Checker::default() };
     world.spawn((Name::new("floor"), Plane::default(), Matte::default(), tiles));
 

@@ -55,7 +55,7 @@ fn scene(world: &mut World) {
     ] {
         let place =
             Placement { orientation: DQuat::from_rotation_x(Degrees(lean).radians()), ..Placement::at(0.0, y, z) };
-        let metal = Metal { colour: Rgb::grey(0.85), roughness };
+        let metal = Metal { colour: Rgb::grey(0.85), roughness, ..Metal::default() };
         world.spawn((Name::new(name), Rectangle { width: 4.2, depth: 0.75 }, place, metal));
     }
 }

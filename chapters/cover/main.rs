@@ -1,9 +1,10 @@
-//! The cover: spheres on a plane, in light and shadow.
-//! Each small sphere stands a golden angle further round than the last, as seeds do in a sunflower.
+//! The cover: what following light makes possible, in one picture.
+//! A globe of glass gathers a lamp's light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
+//! Each seed stands a golden angle further round than the last, as in a sunflower.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, follow, intersect, rays, shade};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -12,10 +13,11 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("cover", "the cover: spheres on a plane, in light and shadow", scene)
+    Chapter::new("cover", "the cover: glass, mirrors and metal, in and out of focus, under a lamp with a size", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
         .offer(shade::stages())
+        .offer(follow::stages())
 }
 // ANCHOR_END: chapter
 
@@ -24,35 +26,39 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 // ANCHOR: scene
 fn scene(world: &mut World) {
+    let look = LookAt { eye: [0.0, 3.8, 11.0].into(), target: [0.1, 0.65, 0.3].into(), ..LookAt::default() };
     world.spawn((
         Name::new("camera"),
-        PerspectiveCamera { fov: Degrees(28.0), axis: FovAxis::Vertical },
-        LookAt { eye: [0.0, 4.6, 13.0].into(), target: [0.0, 0.75, -0.4].into(), ..LookAt::default() },
+        PerspectiveCamera { fov: Degrees(30.0), axis: FovAxis::Vertical },
+        look,
+        Lens { aperture: Aperture::Radius { radius: 0.16 }, focus_distance: 9.8, ..Lens::default() },
         Resolution { width: 960, height: 540 },
+        Sampling { samples: 48, ..Sampling::default() },
+        LightTracing { paths: 0.5 },
     ));
-    world.spawn((Name::new("pearl"), Sphere { radius: 1.5 }, Placement::at(0.0, 1.5, 0.0), Matte { colour: PEARL }));
-    for seed in 0..72 {
-        let (turn, ring) = (f64::from(seed) * GOLDEN_ANGLE, 2.0 + 0.062 * f64::from(seed));
-        let radius = 0.2 + 0.0035 * f64::from(seed);
-        world.spawn((
-            Name::new(format!("seed {seed}")),
-            Sphere { radius },
-            Placement::at(ring * libm::cos(turn), radius, ring * libm::sin(turn)),
-            Matte { colour: seed_colour(f64::from(seed) / 71.0) },
-        ));
+    world.spawn((Name::new("globe"), Sphere { radius: 1.5 }, Placement::at(0.0, 1.5, 0.0), Glass::default()));
+    for seed in 0..55 {
+        let (turn, ring) = (f64::from(seed) * GOLDEN_ANGLE, 2.0 + 0.0815 * f64::from(seed));
+        let radius = 0.2 + 0.0046 * f64::from(seed);
+        let place = Placement::at(ring * libm::cos(turn), radius, ring * libm::sin(turn));
+        let colour = seed_colour(f64::from(seed) / 54.0);
+        let mut sphere = world.spawn((Name::new(format!("seed {seed}")), Sphere { radius }, place));
+        match seed {
+            _ if seed % 5 == 3 => sphere.insert(Mirror { colour: Rgb::new(0.9, 0.9, 0.92) }),
+            _ if seed % 6 == 2 => sphere.insert(Metal { colour: blend(colour, CREAM, 0.5), ..ROUGH }),
+            _ => sphere.insert(Matte { colour }),
+        };
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.52, 0.5, 0.47) }));
-    for (name, at, intensity) in [
-        ("lamp", Placement::at(-6.5, 8.5, 5.5), Rgb::new(400.0, 345.0, 280.0)),
-        ("sky light", Placement::at(9.0, 7.0, -3.0), Rgb::new(60.0, 90.0, 145.0)),
-    ] {
-        world.spawn((Name::new(name), PointLight { intensity, ..PointLight::default() }, at));
-    }
-    world.spawn((Name::new("dusk"), Background { colour: Rgb::new(0.016, 0.021, 0.034) }));
+    let shine = Emissive { radiance: Rgb::new(320.0, 272.0, 218.0), ..Emissive::default() };
+    world.spawn((Name::new("lamp"), Sphere { radius: 0.6 }, Placement::at(-6.5, 7.0, -3.0), shine));
+    let dusk = Gradient { bottom: Rgb::new(0.02, 0.022, 0.03), top: Rgb::new(0.14, 0.2, 0.36) };
+    world.spawn((Name::new("dusk"), dusk));
 }
 // ANCHOR_END: scene
 
-const PEARL: Rgb = Rgb::new(0.8, 0.78, 0.74);
+const ROUGH: Metal = Metal { colour: CREAM, roughness: 0.3, multiple_scattering: true };
+const CREAM: Rgb = Rgb::new(1.0, 0.9, 0.7);
 const EMBER: Rgb = Rgb::new(0.82, 0.2, 0.07);
 const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
 const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);

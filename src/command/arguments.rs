@@ -155,7 +155,7 @@ pub struct TryClosedForms {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// sphere, plane, shadow, camera, transform, sampling or film (default: all)
+    /// One of the groups, such as sphere, film or matter (default: all); another word lists them
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text

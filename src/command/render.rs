@@ -122,14 +122,15 @@ fn ending(file: &Path) -> &str {
 
 fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
     let (count, first) = film.rejected();
-    if let Some(sample) = first.first() {
-        let ([x, y], [r, g, b]) = (sample.pixel, sample.radiance);
-        writeln!(
-            out,
-            "warning: {count} samples were negative or not finite and did not join the film; \
-             the first is sample {} of pixel {x},{y} with radiance ({r}, {g}, {b})",
-            sample.sample
-        )?;
+    let which = first.first().map_or_else(
+        || "all of them light from lamps".into(),
+        |sample| {
+            let ([x, y], [r, g, b]) = (sample.pixel, sample.radiance);
+            format!("the first is sample {} of pixel {x},{y} with radiance ({r}, {g}, {b})", sample.sample)
+        },
+    );
+    if count > 0 {
+        writeln!(out, "warning: {count} samples were negative or not finite and did not join the film; {which}")?;
     }
     Ok(())
 }

@@ -29,11 +29,12 @@ fn question() -> Question<Input, f64> {
                 camera_from_world: DMat3::IDENTITY,
                 is_perspective: true,
                 half_height: tan_half,
+                focus_distance: f64::INFINITY,
                 size: DVec2::splat(height),
                 // Every pixel that there could be.
                 margin: f64::INFINITY,
             };
-            join_camera(&join, DVec3::from(point)).map_or(0.0, |joined| joined.importance)
+            join_camera(&join, DVec2::ZERO, DVec3::from(point)).map_or(0.0, |joined| joined.importance)
         },
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,

@@ -1,4 +1,6 @@
-use super::{CameraAxes, FilterTable, ImageShape, PinholeLens, ViewRectangle, camera_entity, radius_of};
+use super::{
+    CameraAxes, FilterTable, ImageShape, LensTable, PinholeLens, ViewRectangle, camera_entity, lens_evidence, radius_of,
+};
 use crate::plan::Table;
 use crate::scene::{OrthographicCamera, Refusal};
 use bevy_ecs::prelude::*;
@@ -9,10 +11,12 @@ use glam::{DMat3, DVec2};
 pub struct CameraJoinTable {
     /// Rows: the camera's axes as unit vectors of the world.
     pub camera_from_world: DMat3,
-    /// Whether all its rays start at the eye; else they start on the view's rectangle and are parallel.
+    /// Whether all its rays start at the eye or on its lens; else they start on the view's rectangle and are parallel.
     pub is_perspective: bool,
     /// Half the height of the image plane at distance 1, or of the view's rectangle.
     pub half_height: f64,
+    /// From the eye to the plane in focus, along the camera's axis, in scene units; infinite without a lens.
+    pub focus_distance: f64,
     /// Pixels from left to right and from top to bottom.
     pub size: DVec2,
     /// How far outside the image the pixels' filter still reaches, in pixels.
@@ -39,10 +43,12 @@ impl Table for CameraJoinTable {
         } else {
             ViewRectangle::extract(scene)?.half_height
         };
+        let lens = lens_evidence(scene).needed.then(|| LensTable::extract(scene)).transpose()?;
         Ok(Self {
             camera_from_world: CameraAxes::extract(scene)?.world_from_camera.transpose(),
             is_perspective,
             half_height,
+            focus_distance: lens.map_or(f64::INFINITY, |lens| lens.focus_distance),
             size: image.size(),
             margin: radius_of(FilterTable::extract(scene)?.filter),
         })

@@ -10,11 +10,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 /// With more mirrors and pieces of glass than this, one sphere stands for all of them.
-const MOST_TARGETS: usize = 16;
+pub const MOST_TARGETS: usize = 16;
 /// By how much a sphere about a shape is taken larger, so that no rounding of a ray leads past it.
 const MARGIN: f64 = 1.0 + 1e-5;
-/// The same, as a share of how far from the eye it lies: what f32 takes from where a ray starts.
-const OF_PLACE: f64 = 1.0 / (1_u64 << 21) as f64;
 
 /// A light that rays start on, in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,15 +148,11 @@ fn targets(scene: &World) -> Result<Vec<Target>, Refusal> {
 
 impl Target {
     fn new(centre: DVec3, radius: f64) -> Self {
-        Self { centre, radius: radius * MARGIN + sum_of_parts(centre) * OF_PLACE }
+        Self { centre, radius: radius * MARGIN }
     }
 
     /// About a box.
     fn about(least: DVec3, most: DVec3) -> Self {
         Self::new(0.5 * (least + most), 0.5 * (most - least).length())
     }
-}
-
-fn sum_of_parts(v: DVec3) -> f64 {
-    v.x.abs() + v.y.abs() + v.z.abs()
 }

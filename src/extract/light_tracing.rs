@@ -1,7 +1,7 @@
 use super::check::{at_most_one, kind_and_name, number};
 use super::{
-    ImageShape, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, lens_evidence,
-    material_evidence, mirror_evidence, motion_evidence,
+    ImageShape, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, material_evidence,
+    mirror_evidence, motion_evidence,
 };
 use crate::plan::{Carried, Evidence, Table};
 use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, Refusal, SpotLight};
@@ -41,13 +41,9 @@ impl Table for LightTracingTable {
         }
         let [fisheye, around] =
             [scene.get::<FisheyeCamera>(camera).is_some(), scene.get::<EquirectangularCamera>(camera).is_some()];
-        if fisheye || around || lens_evidence(scene).needed {
-            let camera = match (fisheye, around) {
-                (true, _) => "on a fisheye camera",
-                (_, true) => "on an equirectangular camera",
-                _ => "on a camera with a lens",
-            };
-            return refused(camera, "light is joined to a perspective camera without a lens, or an orthographic one");
+        if fisheye || around {
+            let camera = if fisheye { "on a fisheye camera" } else { "on an equirectangular camera" };
+            return refused(camera, "light is joined to a perspective or an orthographic camera");
         }
         if motion_evidence(scene).needed {
             return refused("while something moves", "light is joined to what stands still: take off the Motion");
@@ -68,7 +64,7 @@ impl Table for LightTracingTable {
 /// Evidence that caustics are traced from the lights: that the camera asks for it, and that there are a light to start
 /// on, mirrors or glass, and surfaces that spread light.
 pub fn traced_evidence(scene: &World) -> Evidence {
-    let asked = Evidence::of::<LightTracing>(scene, "camera that traces light");
+    let asked = Evidence::of::<LightTracing>(scene, "light-tracing camera");
     if !asked.needed {
         return asked;
     }
@@ -81,10 +77,14 @@ pub fn traced_evidence(scene: &World) -> Evidence {
 
 /// Evidence of a light that rays can start on.
 pub fn started_on_evidence(scene: &World) -> Evidence {
+    area_light_evidence(scene).or(shadowed_point_evidence(scene))
+}
+
+/// Evidence of a point or spot light that casts shadows.
+pub fn shadowed_point_evidence(scene: &World) -> Evidence {
     const POINTS: [Carried; 2] = [Carried::of::<PointLight>(), Carried::of::<SpotLight>()];
-    let points = Evidence::among_any(scene, "point or spot light", &POINTS, |light| {
+    Evidence::among_any(scene, "point or spot light", &POINTS, |light| {
         light.get::<PointLight>().is_none_or(|light| light.casts_shadows)
             && light.get::<SpotLight>().is_none_or(|light| light.casts_shadows)
-    });
-    area_light_evidence(scene).or(points)
+    })
 }

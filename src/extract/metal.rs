@@ -62,6 +62,20 @@ pub(super) fn metal_kind(scene: &World, entity: Entity) -> MaterialKind {
     if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
 }
 
+/// Of each row of [`MetalTable`], whether light that meets several of its tiny mirrors comes out too.
+pub fn metals_of_several_mirrors(scene: &World) -> Vec<bool> {
+    let rough = material_entities(scene).into_iter();
+    let rough = rough.filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
+    rough.map(|entity| scene.get::<Metal>(entity).is_some_and(|metal| metal.multiple_scattering)).collect()
+}
+
+/// Evidence of light that meets several tiny mirrors.
+pub fn multiple_scattering_evidence(scene: &World) -> Evidence {
+    reached_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
+        metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
+    })
+}
+
 /// Evidence that a shape is made of rough metal.
 pub fn metal_evidence(scene: &World) -> Evidence {
     // What is no number counts, so that it is refused and not overlooked.

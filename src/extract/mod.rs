@@ -94,10 +94,10 @@ pub use integrator::{
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, check_lens, lens_evidence};
-pub use light_path::{LightPathTable, LightSource, Target};
-pub use light_tracing::{LightTracingTable, started_on_evidence, traced_evidence};
+pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
+pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
-pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence};
+pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence, metals_of_several_mirrors, multiple_scattering_evidence};
 pub use mirror::{MirrorTable, mirror_evidence};
 pub use motion::{
     ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,

@@ -14,7 +14,7 @@ use std::path::Path;
 /// What a checkpoint begins with.
 const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";
 /// A file of another version is refused.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Writes the state of a film whole, under the key of what it is a film of.
 ///
@@ -94,11 +94,6 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         for lane in &tile.negative {
             out.write_f64s(lane)?;
         }
-        out.write_u32(u32::from(!tile.negative_count.is_empty()))?;
-        for lane in &tile.negative {
-            out.write_f64s(lane)?;
-        }
-        out.write_u32s(&tile.negative_count)?;
         out.write_u64(tile.rejected)?;
         out.write_u32(tile.first_rejected.len() as u32)?;
         for rejected in &tile.first_rejected {
@@ -194,14 +189,6 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
             lane.resize(rows, 0.0);
             numbers.read_f64s(lane)?;
         }
-    }
-    if numbers.read_u32()? != 0 {
-        for lane in &mut tile.negative {
-            lane.resize(tile.count.len(), 0.0);
-            numbers.read_f64s(lane)?;
-        }
-        tile.negative_count.resize(tile.count.len(), 0);
-        numbers.read_u32s(&mut tile.negative_count)?;
     }
     tile.rejected = numbers.read_u64()?;
     let remembered = numbers.read_u32()?;

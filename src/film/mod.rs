@@ -1,7 +1,8 @@
 //! Light → pixels → files.
 //!
-//! Reads: [`Radiance`](crate::shade::Radiance).
-//! Writes: [`FilmTile`], sums in f64 and counts; then, once, an image of 8-bit sRGB (PNG) or of linear floats (EXR).
+//! Reads: [`Radiance`](crate::shade::Radiance), what layers show, light from lights that lands on pixels.
+//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; then, once, an image of 8-bit sRGB (PNG) or of linear floats
+//! (EXR).
 //! Nothing is written to disk anywhere else in the kit's renderer, and no file is ever left half written.
 
 mod accumulate;

@@ -68,9 +68,13 @@ pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
 }
 
 // ANCHOR: follow_legs
-/// Runs the schedule of a leg again and again until no tile has a ray left.
+/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left.
 pub fn follow_legs(world: &mut World, tiles: &mut QueryState<&WorldRays, With<Leg>>) {
-    while tiles.iter(world).any(|rays| rays.rows() > 0) {
+    let legs = world.resource::<Shared<IntegratorTable>>().legs;
+    for _ in 1..legs {
+        if tiles.iter(world).all(|rays| rays.rows() == 0) {
+            break;
+        }
         world.run_schedule(Bounce);
     }
 }
@@ -141,6 +145,7 @@ pub fn follow_stage() -> Stage {
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()
         .writes::<PathLight>()
+        .table::<IntegratorTable>()
         .when(followed_evidence)
 }
 

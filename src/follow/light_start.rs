@@ -5,9 +5,7 @@ use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Leg, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};
 use crate::scene::Sampler;
-use crate::shade::emitter::{
-    WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction, targets_solid_angle,
-};
+use crate::shade::emitter::{WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
 use crate::shade::{Radiance, spot_share, versine};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -71,10 +69,7 @@ pub struct StartDraws {
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let light = table.chosen(draws.light);
     let chosen = 1.0 / table.chance[light];
-    let aimed = |from: DVec3, wide: f64| {
-        let all = if table.target.is_empty() { f64::INFINITY } else { targets_solid_angle(&table.target, from) };
-        (all < wide).then(|| direction_to_targets(&table.target, from, draws.target, draws.direction))
-    };
+    let aimed = |from: DVec3, wide: f64| direction_to_targets(&table.target, from, wide, draws.target, draws.direction);
     match table.light[light] {
         LightSource::Area { emitter, radiance, one_sided } => {
             let point = leaving_point(&emitter, one_sided, draws.point, draws.side);

@@ -1,43 +1,61 @@
 use super::frame::{cosine_direction, frame_of};
 use super::{Scattered, ScatteredRay};
-use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if};
+use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_two};
+use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, WorldRays, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
+
+/// What part of the light from `to_light` falls on a surface by the normal to shade by, of what falls on it by its own;
+/// 0 from behind.
+///
+/// A ray from a light brings what falls on the true surface; one from the camera counts it by the other normal (Veach
+/// 1997, 5.3.2).
+#[inline(always)]
+fn falls_by_shading(own: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
+    let falls = own.dot(to_light);
+    if falls > 0.0 { (shading.dot(to_light) / falls).max(0.0) } else { 0.0 }
+}
 
 // ANCHOR: scatter_matte
 /// Sends a ray on from every matte surface, as densely as the cosine to its normal.
 ///
 /// The surface sends on colour / π of what comes from there, times that cosine; divided by the density, cosine / π, the
 /// colour is left.
-pub fn scatter_matte(
+/// A ray that comes from a light leaves the true surface, whatever normal the light fell by.
+pub fn scatter_matte<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut points: Local<Vec<[f64; 2]>>,
     mut tiles: Query<(
-        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &Paths),
+        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
         (&Surfaces, Option<&ShadingNormals>, Option<&SurfaceColours>, &MaterialRows),
         &mut Scattered,
     )>,
 ) {
-    for ((tile, &leg, number, samples, paths), (surfaces, shading, colours, list), mut scattered) in &mut tiles {
+    for ((tile, &leg, number, samples, rays, paths), (surfaces, shading, colours, list), mut scattered) in &mut tiles {
         let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
         scattered.append(&list.row, |number, row| {
             let surface = surfaces.get(row);
             let true_normal = surface.normal.as_dvec3();
-            let normal = shading.map_or(true_normal, |normals| normals.get(row));
+            let by_shading = shading.map_or(true_normal, |normals| normals.get(row));
+            let normal = if FROM_LIGHT { true_normal } else { by_shading };
             let local = cosine_direction(points[number]);
             let direction = frame_of(normal) * local;
             let material = surface.material as usize;
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
             let leaves = direction.dot(true_normal) > 0.0 && local.z > 0.0;
-            let share = if leaves { paths.share(row) } else { [0.0; 3] };
+            let mut share = if leaves { paths.share(row) } else { [0.0; 3] };
+            if FROM_LIGHT && shading.is_some() {
+                let falls = falls_by_shading(true_normal, by_shading, -rays.direction_of(row));
+                share = share.map(|part| part * falls);
+            }
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
@@ -49,10 +67,24 @@ pub fn scatter_matte(
 }
 // ANCHOR_END: scatter_matte
 
-/// The stage on offer.
+/// The stage on offer for rays from the camera.
 pub fn matte_stage() -> Stage {
-    Stage::new("Scatter off matte surfaces", TileSystems::Scatter, scatter_matte)
+    reading(Stage::new("Scatter off matte surfaces", TileSystems::Scatter, scatter_matte::<false>))
+        .on_camera_paths()
+        .when(scattered_evidence)
+}
+
+/// The stage on offer for rays from lights.
+pub fn matte_light_stage() -> Stage {
+    reading(Stage::new("Scatter light off matte surfaces", TileSystems::Scatter, scatter_matte::<true>))
+        .on_light_paths()
+        .when(|scene| traced_evidence(scene).and(|| scattered_evidence(scene)))
+}
+
+fn reading(stage: Stage) -> Stage {
+    stage
         .kind(StageKind::Estimator)
+        .reads::<WorldRays>()
         .reads::<Paths>()
         .reads_if::<PixelSamples>()
         .reads::<Surfaces>()
@@ -62,7 +94,6 @@ pub fn matte_stage() -> Stage {
         .appends::<Scattered>()
         .table::<SamplingTable>()
         .table::<MaterialTable>()
-        .when(scattered_evidence)
 }
 
 /// Evidence that matte surfaces light each other.

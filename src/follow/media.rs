@@ -40,11 +40,18 @@ impl Media {
     }
 }
 
-/// Starts every ray from the camera outside all glass.
-pub fn start_media(mut tiles: Query<(&WorldRays, &mut Media)>) {
-    for (rays, mut media) in &mut tiles {
+/// Starts every ray outside all glass, but for those that meet glass from within: these started in it.
+///
+/// What else lies in the glass that a ray started in hides its wall, and then it is not known.
+pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut Media)>) {
+    for (rays, sides, list, mut media) in &mut tiles {
         let (first, second, third, fourth) = media.slices_mut(rays.rows());
-        [first, second, third, fourth].into_iter().for_each(|lane| lane.fill(NO_ROW));
+        [&mut *first, second, third, fourth].into_iter().for_each(|lane| lane.fill(NO_ROW));
+        for (&row, &of) in list.row.iter().zip(&list.of) {
+            if sides.outside[row as usize] == 0 {
+                first[row as usize] = of;
+            }
+        }
     }
 }
 
@@ -92,9 +99,11 @@ pub fn carry_media(
 
 /// The stage that starts.
 pub fn start_media_stage() -> Stage {
-    Stage::new("Start outside all glass", TileSystems::Start, start_media)
+    Stage::new("Find the glass that rays start in", TileSystems::Media, start_media)
         .on_first_leg()
         .reads::<WorldRays>()
+        .reads::<SurfaceSides>()
+        .reads::<GlassRows>()
         .writes::<Media>()
         .when(media_evidence)
 }

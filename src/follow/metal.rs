@@ -1,44 +1,106 @@
-use super::{MetalRows, Scattered, ScatteredRay, frame_of, ggx_brdf, ggx_sample};
-use crate::extract::{MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, needed_if};
+use super::{
+    MetalRows, MultipleScatteringTable, Scattered, ScatteredRay, cosine_direction, frame_of, ggx_brdf, ggx_sample,
+    visible_density,
+};
+use crate::extract::{
+    MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, multiple_scattering_evidence, needed_if,
+};
 use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Paths, draws_of_two};
+use crate::rays::{Draws, Paths, draws_of_one, draws_of_two};
 use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::{LightRays, Radiance, ShadowHits, lit_evidence};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// How rough metals answer light, in a surface's frame: off one tiny mirror, and where a scene asks for it off several.
+#[derive(Clone, Copy)]
+pub struct RoughMetals<'a> {
+    /// Colours and roughness.
+    pub metals: &'a MetalTable,
+    /// What comes off several; none where it stays lost.
+    pub several: Option<&'a MultipleScatteringTable>,
+}
+
+impl RoughMetals<'_> {
+    /// What a metal sends to `to_eye` of each unit of irradiance from `to_light`, in 1/sr: red, green, blue.
+    #[inline(always)]
+    pub fn brdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let once = ggx_brdf(to_light, to_eye, self.metals.alpha[metal]);
+        let once = self.metals.colour[metal].map(|colour| once * colour);
+        let Some(several) = self.several else { return once };
+        let again = several.brdf(metal, to_light, to_eye);
+        [0, 1, 2].map(|part| once[part] + again[part])
+    }
+
+    /// How densely chance sends rays to `to_light`, in 1/sr.
+    #[inline(always)]
+    pub fn density(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let visible = visible_density(to_light, to_eye, self.metals.alpha[metal]);
+        self.several.map_or(visible, |several| several.density(metal, to_light, to_eye, visible))
+    }
+
+    /// A direction to the light, the density of having it, and BRDF · cosine / density; none where it leads below the
+    /// surface.
+    ///
+    /// `choice`, a number from 0 to below 1, decides between one mirror and several.
+    #[inline(always)]
+    pub(super) fn sample(
+        &self,
+        metal: usize,
+        to_eye: DVec3,
+        numbers: [f64; 2],
+        choice: f64,
+    ) -> Option<(DVec3, f64, [f64; 3])> {
+        let glint = || ggx_sample(to_eye, self.metals.alpha[metal], numbers);
+        let Some(several) = self.several else {
+            let (glint, colour) = (glint()?, self.metals.colour[metal]);
+            return Some((glint.to_light, glint.density, colour.map(|colour| colour * glint.weight)));
+        };
+        let is_lost = several.is_lost(metal, to_eye, choice);
+        let to_light = if is_lost { cosine_direction(numbers) } else { glint()?.to_light };
+        let density = self.density(metal, to_light, to_eye);
+        let weights = self.brdf(metal, to_light, to_eye).map(|brdf| brdf * to_light.z / density);
+        (density > 0.0).then_some((to_light, density, weights))
+    }
+}
 
 /// Sends a ray on from rough metal, by a tiny mirror at random among those seen.
 pub fn scatter_metal(
     sampling: Res<Shared<SamplingTable>>,
-    metals: Res<Shared<MetalTable>>,
-    mut points: Local<Vec<[f64; 2]>>,
+    (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
+    (mut points, mut choices): (Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
     mut tiles: Query<(
         (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
         (&Surfaces, Option<&ShadingNormals>, &MetalRows),
         &mut Scattered,
     )>,
 ) {
+    let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
     for ((tile, &leg, number, samples, rays, paths), (surfaces, shading, list), mut scattered) in &mut tiles {
         let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
+        if rough.several.is_some() {
+            draws_of_one(&draws, Purpose::MatterChoice, &list.row, &mut choices);
+        }
         scattered.append(&list.row, |number, row| {
             let (surface, metal) = (surfaces.get(row), list.of[number] as usize);
             let own = surface.normal.as_dvec3();
             let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
             let to_eye = world_from_local.transpose() * -rays.direction_of(row);
-            let Some(glint) = ggx_sample(to_eye, metals.alpha[metal], points[number]) else {
+            let choice = choices.get(number).copied().unwrap_or_default();
+            let Some((to_light, density, weights)) = rough.sample(metal, to_eye, points[number], choice) else {
                 return ScatteredRay::default();
             };
-            let direction = world_from_local * glint.to_light;
-            let weight = if direction.dot(own) > 0.0 { glint.weight } else { 0.0 };
-            let (share, colour) = (paths.share(row), metals.colour[metal]);
+            let direction = world_from_local * to_light;
+            let share = if direction.dot(own) > 0.0 { paths.share(row) } else { [0.0; 3] };
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
-                share: [0, 1, 2].map(|part| share[part] * colour[part] * weight),
-                density: glint.density,
+                share: [0, 1, 2].map(|part| share[part] * weights[part]),
+                density,
             }
         });
     }
@@ -47,12 +109,13 @@ pub fn scatter_metal(
 /// Adds what rough metal sends towards the eye of each light ray's irradiance, unless something stands in between.
 pub fn add_metal(
     materials: Res<Shared<MaterialTable>>,
-    metals: Res<Shared<MetalTable>>,
+    (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     mut tiles: Query<(
         (&WorldRays, &Surfaces, Option<&ShadingNormals>),
         (&LightRays, Option<&ShadowHits>, &mut Radiance),
     )>,
 ) {
+    let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
     for ((eye, surfaces, shading), (light, hits, mut radiance)) in &mut tiles {
         for ray in 0..light.rows() {
             let row = light.path[ray] as usize;
@@ -61,15 +124,13 @@ pub fn add_metal(
             if materials.kind[material] != MaterialKind::Metal || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
                 continue;
             }
-            let metal = materials.row[material] as usize;
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
             let local_from_world = frame_of(normal).transpose();
             let [to_light, to_eye] =
                 [light.direction_of(ray), -eye.direction_of(row)].map(|way| local_from_world * way);
-            let brdf = ggx_brdf(to_light, to_eye, metals.alpha[metal]);
-            let (irradiance, colour) = (light.irradiance(ray), metals.colour[metal]);
-            let [r, g, b] =
-                [0, 1, 2].map(|part| (brdf * colour[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+            let (brdf, irradiance) =
+                (rough.brdf(materials.row[material] as usize, to_light, to_eye), light.irradiance(ray));
+            let [r, g, b] = [0, 1, 2].map(|part| (brdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
             radiance.r[row] += r;
             radiance.g[row] += g;
             radiance.b[row] += b;
@@ -90,6 +151,7 @@ pub fn metal_stage() -> Stage {
         .appends::<Scattered>()
         .table::<SamplingTable>()
         .table::<MetalTable>()
+        .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| scattered_evidence(scene)))
 }
 
@@ -105,6 +167,7 @@ pub fn metal_light_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<MetalTable>()
+        .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| lit_evidence(scene)))
 }
 

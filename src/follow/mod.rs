@@ -23,6 +23,7 @@ mod media;
 mod medium_stack;
 mod metal;
 mod mirror;
+mod multiple_scattering;
 mod occlusion;
 mod paths;
 mod roulette;
@@ -53,15 +54,16 @@ pub use leg::{
 pub use light_start::{
     LIGHT_PATHS, LightPower, LightStart, StartDraws, light_start, light_start_stage, start_on_lights,
 };
-pub use matte::{matte_stage, scatter_matte};
+pub use matte::{matte_light_stage, matte_stage, scatter_matte};
 pub use media::{
     Media, absorb_in_glass, absorb_stage, carry_media, carry_media_stage, media_evidence, start_media,
     start_media_stage,
 };
 pub use medium_stack::{Crossing, MediumStack};
-pub use metal::{add_metal, metal_light_stage, metal_stage, scatter_metal};
+pub use metal::{RoughMetals, add_metal, metal_light_stage, metal_stage, scatter_metal};
 pub use mirror::{mirror_stage, scatter_mirror};
-pub use occlusion::{aim_at_the_sky, show_the_sky, sky_rays_stage, sky_stage};
+pub use multiple_scattering::{MultipleScatteringTable, found_again, lost_at};
+pub use occlusion::{SkyColumns, SkyLists, aim_at_the_sky, aim_by, show_the_sky, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
@@ -71,15 +73,16 @@ pub use unfollowed::check_matter_is_followed;
 pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
 
 use crate::plan::Stage;
-use crate::shade::camera_join_stage;
+use crate::shade::{camera_join_stage, join_point_stage};
 
 /// All that follows light beyond the first surface.
 pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage(), roulette_stage()];
+    let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage()];
     stages.extend(matter_stages());
     stages.extend([sky_rays_stage(), sky_stage()]);
     stages.extend(light_stages());
     stages.extend([
+        roulette_stage(),
         last_leg_stage(),
         weigh_matte_stage(),
         weigh_metal_stage(),
@@ -92,8 +95,13 @@ pub fn stages() -> Vec<Stage> {
 
 /// Caustics from the lights.
 pub fn light_stages() -> Vec<Stage> {
-    let start = [light_start_stage(), keep_polished_stage(), glass_light_stage(), shading_adjoint_stage()];
-    start.into_iter().chain([camera_join_stage(), splat_stage(), caustic_paths_stage()]).collect()
+    let start = [light_start_stage(), keep_polished_stage()];
+    let matter = [matte_light_stage(), glass_light_stage(), shading_adjoint_stage()];
+    start
+        .into_iter()
+        .chain(matter)
+        .chain([join_point_stage(), camera_join_stage(), splat_stage(), caustic_paths_stage()])
+        .collect()
 }
 
 /// What mirrors, glass and metal do with light.

@@ -6,6 +6,7 @@ use crate::rays::{Draws, Leg, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use std::f64::consts::PI;
 
 // ANCHOR: aim_at_the_sky
@@ -16,22 +17,45 @@ use std::f64::consts::PI;
 pub fn aim_at_the_sky(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
-    mut list: Local<Vec<u32>>,
-    mut points: Local<Vec<[f64; 2]>>,
-    mut tiles: Query<((&Tile, Option<&SampleNumber>, Option<&PixelSamples>), (&Hits, &Surfaces, &mut LightRays))>,
+    lists: Local<SkyLists>,
+    tiles: Query<SkyColumns>,
 ) {
+    aim_by(cosine_direction, (&sampling, &integrator), lists, tiles);
+}
+
+/// The rows that send rays, and their numbers; memory for one tile, kept for the next.
+#[derive(Default)]
+pub struct SkyLists {
+    row: Vec<u32>,
+    points: Vec<[f64; 2]>,
+}
+
+/// What is read and written to aim at the sky.
+pub type SkyColumns = (
+    (&'static Tile, Option<&'static SampleNumber>, Option<&'static PixelSamples>),
+    (&'static Hits, &'static Surfaces, &'static mut LightRays),
+);
+
+/// Sends a ray of irradiance π from every surface, about its normal in the direction that two numbers make.
+pub fn aim_by(
+    direction_of: impl Fn([f64; 2]) -> DVec3,
+    (sampling, integrator): (&SamplingTable, &IntegratorTable),
+    mut lists: Local<SkyLists>,
+    mut tiles: Query<SkyColumns>,
+) {
+    let SkyLists { row: list, points } = &mut *lists;
     for ((tile, number, samples), (hits, surfaces, mut rays)) in &mut tiles {
         list.clear();
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, leg: Leg(0) };
-        draws_of_two(&draws, Purpose::Direction, &list, &mut points);
+        let draws = Draws { sampling, tile, number, samples, paths: None, leg: Leg(0) };
+        draws_of_two(&draws, Purpose::Direction, list, points);
         let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.len());
-        path.copy_from_slice(&list);
+        path.copy_from_slice(list);
         reach.fill(integrator.distance);
         [r, g, b].into_iter().for_each(|lane| lane.fill(PI as f32));
         for (at, &row) in list.iter().enumerate() {
             let surface = surfaces.get(row as usize);
-            let direction = (frame_of(surface.normal.as_dvec3()) * cosine_direction(points[at])).as_vec3();
+            let direction = (frame_of(surface.normal.as_dvec3()) * direction_of(points[at])).as_vec3();
             (ox[at], oy[at], oz[at]) = offset_origin(surface.position, surface.normal, surface.bound).into();
             (dx[at], dy[at], dz[at]) = direction.into();
         }

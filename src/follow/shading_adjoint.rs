@@ -1,6 +1,6 @@
 use super::Scattered;
 use super::mirror::mirroring_normal;
-use crate::extract::{MaterialTable, traced_evidence};
+use crate::extract::{MaterialKind, MaterialTable, traced_evidence};
 use crate::intersect::{ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
@@ -20,7 +20,9 @@ pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: D
 }
 // ANCHOR_END: shading_adjoint
 
-/// Weighs the rays from lights that surfaces send on by normals other than their own.
+/// Weighs the rays from lights that mirrors, glass and metal send on by normals other than their own.
+///
+/// Matte surfaces weigh theirs themselves.
 pub fn weigh_by_shading_normals(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&WorldRays, &Surfaces, &ShadingNormals, &mut Scattered)>,
@@ -31,10 +33,10 @@ pub fn weigh_by_shading_normals(
             let row = scattered.path[ray] as usize;
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let own = surface.normal.as_dvec3();
-            let by = if materials.kind[surface.material as usize].spreads() {
-                shading.get(row)
-            } else {
-                mirroring_normal(Some(shading), row, own, direction)
+            let by = match materials.kind[surface.material as usize] {
+                MaterialKind::Mirror | MaterialKind::Glass => mirroring_normal(Some(shading), row, own, direction),
+                MaterialKind::Metal => shading.get(row),
+                MaterialKind::Matte | MaterialKind::Phong | MaterialKind::BlinnPhong => continue,
             };
             let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
             let more = shading_adjoint(own, by, -direction, DVec3::from(onward));

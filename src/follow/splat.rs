@@ -1,11 +1,11 @@
 use super::{LightPower, MetalRows};
-use crate::extract::{CameraJoinTable, traced_evidence};
+use crate::extract::{CameraJoinTable, lens_evidence, traced_evidence};
 use crate::intersect::MaterialRows;
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
-use crate::rays::{Leg, Paths, join_camera};
-use crate::shade::{LightRays, Radiance};
+use crate::rays::{Paths, join_camera};
+use crate::shade::{JoinPoints, LightRays, Radiance};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 column! {
     /// The light that a batch of ways from lights brings to the film, in the order of legs and ways.
@@ -32,11 +32,8 @@ impl Splats {
 
 /// Leaves what lights send straight to surfaces that spread light to the camera's paths: on the first leg only mirrors and
 /// glass go on.
-pub fn keep_polished(mut tiles: Query<(&Leg, &mut MaterialRows, Option<&mut MetalRows>)>) {
-    for (leg, mut list, metals) in &mut tiles {
-        if leg.0 > 0 {
-            continue;
-        }
+pub fn keep_polished(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>)>) {
+    for (mut list, metals) in &mut tiles {
         list.row.clear();
         if let Some(mut metals) = metals {
             metals.clear();
@@ -60,15 +57,19 @@ pub fn keep_polished_stage() -> Stage {
 /// Lists what every surface sent to the camera on this leg: where it lands on the film, and how much.
 pub fn splat_light(
     join: Res<Shared<CameraJoinTable>>,
-    mut tiles: Query<(&Paths, &LightRays, &Radiance, &LightPower, &mut Splats)>,
+    mut tiles: Query<(&Paths, &LightRays, Option<&JoinPoints>, &Radiance, &LightPower, &mut Splats)>,
 ) {
-    for (paths, rays, radiance, power, mut splats) in &mut tiles {
+    for (paths, rays, points, radiance, power, mut splats) in &mut tiles {
         let splats = &mut *splats;
         for ray in 0..rays.rows() {
             let row = rays.path[ray] as usize;
             let sent = [radiance.r[row], radiance.g[row], radiance.b[row]];
+            if sent == [0.0; 3] {
+                continue;
+            }
             let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
-            let Some(joined) = join_camera(&join, origin).filter(|_| sent != [0.0; 3]) else { continue };
+            let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
+            let Some(joined) = join_camera(&join, lens, origin) else { continue };
             let (first, share) = (paths.first[row] as usize, paths.share(row));
             splats.x.push(joined.raster.x);
             splats.y.push(joined.raster.y);
@@ -87,6 +88,7 @@ pub fn splat_stage() -> Stage {
         .kind(StageKind::Alternative)
         .reads::<Paths>()
         .reads::<LightRays>()
+        .reads_where::<JoinPoints>(lens_evidence)
         .reads::<Radiance>()
         .reads::<LightPower>()
         .writes::<Splats>()

@@ -1,7 +1,7 @@
-use super::{frame_of, power_heuristic, visible_density};
+use super::{MultipleScatteringTable, RoughMetals, frame_of, power_heuristic};
 use crate::extract::{
     MaterialKind, MaterialTable, MetalTable, area_light_evidence, environment_light_evidence, material_evidence,
-    metal_evidence, weighed_evidence,
+    metal_evidence, multiple_scattering_evidence, weighed_evidence,
 };
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
@@ -53,9 +53,10 @@ pub fn weigh_matte_stage() -> Stage {
 /// Takes from every light ray the part that rough metal finds by chance, by its tiny mirrors.
 pub fn weigh_metal(
     materials: Res<Shared<MaterialTable>>,
-    metals: Res<Shared<MetalTable>>,
+    (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     mut tiles: Query<(&WorldRays, &Surfaces, Option<&ShadingNormals>, &LightDensities, &mut LightRays)>,
 ) {
+    let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
     for (eye, surfaces, shading, densities, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let (row, aimed) = (rays.path[ray] as usize, densities.density[ray]);
@@ -67,7 +68,7 @@ pub fn weigh_metal(
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
             let local_from_world = frame_of(normal).transpose();
             let [to_light, to_eye] = [rays.direction_of(ray), -eye.direction_of(row)].map(|way| local_from_world * way);
-            let by_chance = visible_density(to_light, to_eye, metals.alpha[materials.row[material] as usize]);
+            let by_chance = rough.density(materials.row[material] as usize, to_light, to_eye);
             rays.weigh(ray, power_heuristic(aimed, by_chance));
         }
     }
@@ -85,5 +86,6 @@ pub fn weigh_metal_stage() -> Stage {
         .writes::<LightRays>()
         .table::<MaterialTable>()
         .table::<MetalTable>()
+        .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| aimed_light_evidence(scene).and(|| weighed_evidence(scene)).and(|| metal_evidence(scene)))
 }

@@ -12,7 +12,7 @@ const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 
 /// Says that a shape holds the camera, and which: a sphere, a cuboid, an ellipsoid, or triangles that close.
 ///
-/// What the camera stands in absorbs nothing on the first leg, for no ray has entered it.
+/// What the camera stands in absorbs on the way to its own wall, not on the way to what else is in it.
 pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<String>> {
     let spheres = SphereTable::extract(scene)?;
     let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
@@ -34,7 +34,7 @@ pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<
         let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
         scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
     });
-    let lost = if absorbs { "; what it absorbs on the first leg is not counted" } else { "" };
+    let lost = if absorbs { "; what it absorbs on the way to what else is in it is not counted" } else { "" };
     Ok(Some(format!("the camera is inside the {name}, and sees it from within{lost}")))
 }
 

@@ -3,8 +3,8 @@ use super::pilot::{Pilot, pilot};
 use super::slow::{Effort, slow};
 use super::unseen::unseen;
 use crate::extract::{
-    ImageShape, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence, followed_evidence, glass_evidence,
-    integrator_of, mirror_evidence, traced_evidence,
+    ImageShape, LightTracingTable, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence, followed_evidence,
+    glass_evidence, integrator_of, mirror_evidence, shadowed_point_evidence, traced_evidence,
 };
 use crate::plan::{Evidence, Plan, Stage, Table};
 use crate::scene::{DirectionalLight, Environment, Integrator};
@@ -110,11 +110,12 @@ fn environment_evidence(scene: &World) -> Evidence {
     Evidence::of::<Environment>(scene, "environment")
 }
 
-/// How many samples there are to take; without an end by time.
+/// How many samples there are to take, a way from a light being one; without an end by time.
 fn effort(scene: &World, asked: Preflight) -> Result<Effort> {
     let image = ImageShape::extract(scene)?;
     let pixels = f64::from(image.width) * f64::from(image.height);
-    let samples = f64::from(SamplingTable::extract(scene)?.samples);
+    let paths = if traced_evidence(scene).needed { LightTracingTable::extract(scene)?.paths } else { 0.0 };
+    let samples = f64::from(SamplingTable::extract(scene)?.samples) * (1.0 + paths);
     let threads = asked.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     Ok(Effort { samples: (!asked.ends_in_time).then_some(samples * pixels), threads })
 }
@@ -126,14 +127,16 @@ fn out_of_reach(scene: &World) -> Vec<String> {
         return Vec::new();
     }
     let directional = Evidence::of::<DirectionalLight>(scene, "directional light");
+    let placed = shadowed_point_evidence(scene);
     let mut told = Vec::new();
-    if !traced_evidence(scene).needed {
+    if placed.needed && !traced_evidence(scene).needed {
         told.push(format!(
             "light that comes by way of mirrors or glass ({}) from a light without an area ({}) is missing from matte \
              surfaces, for no ray meets a point; LightTracing on the camera, beside paths, finds it from the light",
-            bends.reason, points.reason
+            bends.reason, placed.reason
         ));
-    } else if directional.needed {
+    }
+    if directional.needed {
         told.push(format!(
             "no rays start on lights without a place ({}): what comes from there by way of mirrors or glass is missing",
             directional.reason

@@ -20,7 +20,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "nothing wrong",
         scene: |world| {
-            eye(world, 6.0);
+            eye(world, 6.0, ());
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 100.0);
         },
@@ -28,15 +28,14 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "no light, by paths",
         scene: |world| {
-            let camera = eye(world, 6.0);
-            world.entity_mut(camera).insert(Integrator::PATH);
+            eye(world, 6.0, Integrator::PATH);
             floor_and_ball(world);
         },
     },
     Slip {
         what: "a lamp behind the wall",
         scene: |world| {
-            eye(world, 6.0);
+            eye(world, 6.0, ());
             world.spawn((Name::new("wall"), Plane { normal: DVec3::Z }, Matte::default()));
             lamp(world, [0.0, 1.0, -3.0], 100.0);
         },
@@ -44,7 +43,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "a lamp inside the ball",
         scene: |world| {
-            eye(world, 6.0);
+            eye(world, 6.0, ());
             floor_and_ball(world);
             lamp(world, [0.0, 1.0, 0.0], 100.0);
         },
@@ -52,7 +51,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "the camera inside the ball",
         scene: |world| {
-            eye(world, 0.5);
+            eye(world, 0.5, ());
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 100.0);
         },
@@ -60,7 +59,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "the camera inside a block of tinted glass",
         scene: |world| {
-            eye(world, 6.0);
+            eye(world, 6.0, ());
             floor_and_ball(world);
             let bulb = Emissive { radiance: Rgb::grey(100.0), ..Emissive::default() };
             world.spawn((Name::new("bulb"), Sphere { radius: 0.5 }, Placement::at(3.0, 5.0, 4.0), bulb));
@@ -72,7 +71,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "the camera looks the other way",
         scene: |world| {
-            eye(world, -6.0);
+            eye(world, -6.0, ());
             let ball = (Name::new("ball"), Sphere { radius: 1.0 }, Matte::default());
             world.spawn((ball, Placement::at(0.0, 1.0, -12.0)));
             lamp(world, [3.0, 5.0, 4.0], 100.0);
@@ -81,7 +80,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "the same before a blue sky",
         scene: |world| {
-            eye(world, -6.0);
+            eye(world, -6.0, ());
             let ball = (Name::new("ball"), Sphere { radius: 1.0 }, Matte::default());
             world.spawn((ball, Placement::at(0.0, 1.0, -12.0)));
             world.spawn(Background { colour: Rgb::new(0.3, 0.5, 0.8) });
@@ -90,7 +89,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "a lamp a hundred times too bright",
         scene: |world| {
-            eye(world, 6.0);
+            eye(world, 6.0, ());
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 10_000.0);
         },
@@ -99,8 +98,7 @@ pub const SLIPS: &[Slip] = &[
         what: "a small lamp left to chance",
         scene: |world| {
             let lights = LightSampling::ByChance;
-            let camera = eye(world, 6.0);
-            world.entity_mut(camera).insert(Integrator::Path { legs: 16, lights, roulette: 5 });
+            eye(world, 6.0, Integrator::Path { legs: 16, lights, roulette: 5 });
             floor_and_ball(world);
             let light = Emissive { radiance: Rgb::grey(1e4), ..Emissive::default() };
             world.spawn((Name::new("lamp"), Sphere { radius: 0.05 }, Placement::at(3.0, 5.0, 4.0), light));
@@ -109,8 +107,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "a mirror, by ray casting",
         scene: |world| {
-            let camera = eye(world, 6.0);
-            world.entity_mut(camera).insert(Integrator::RayCasting);
+            eye(world, 6.0, Integrator::RayCasting);
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 100.0);
             world.spawn((Name::new("mirror"), Sphere { radius: 1.0 }, Placement::at(2.0, 1.0, 0.0), Mirror::default()));
@@ -119,8 +116,7 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "a lamp with an area, by Whitted's rays",
         scene: |world| {
-            let camera = eye(world, 6.0);
-            world.entity_mut(camera).insert(Integrator::WHITTED);
+            eye(world, 6.0, Integrator::WHITTED);
             floor_and_ball(world);
             let panel = (Rectangle { width: 2.0, depth: 2.0 }, Emissive::default());
             world.spawn((Name::new("panel"), panel, Placement::at(0.0, 4.0, 0.0)));
@@ -130,20 +126,19 @@ pub const SLIPS: &[Slip] = &[
     Slip {
         what: "focus at 0",
         scene: |world| {
-            let camera = eye(world, 6.0);
-            world.entity_mut(camera).insert(Lens { focus_distance: 0.0, ..Lens::default() });
+            eye(world, 6.0, Lens { focus_distance: 0.0, ..Lens::default() });
             floor_and_ball(world);
             lamp(world, [3.0, 5.0, 4.0], 100.0);
         },
     },
 ];
 
-/// A camera on the z axis that looks at the ball, or away from it where it has passed it.
-fn eye(world: &mut World, z: f64) -> Entity {
+/// A camera on the z axis, with more on it, that looks at the ball, or away from it where it has passed it.
+fn eye(world: &mut World, z: f64, more: impl Bundle) {
     let eye = DVec3::new(0.0, 1.0, z);
     let look = LookAt { eye, target: eye - z.signum() * DVec3::Z, ..LookAt::default() };
     let size = Resolution { width: 96, height: 64 };
-    world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, size)).id()
+    world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, size, more));
 }
 
 fn floor_and_ball(world: &mut World) {

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 use std::fmt;
 use std::sync::Arc;
 
-/// What one stage wrote for one pixel. Its address is (stage, pixel, sample, bounce).
+/// What one stage wrote for one pixel. Its address is (stage, pixel, sample, leg).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recorded {
     /// The stage that has just run.
@@ -15,7 +15,7 @@ pub struct Recorded {
     /// The sample's number within the pixel.
     pub sample: u32,
     /// The leg of the light's way; 0 is the one to the eye.
-    pub bounce: u32,
+    pub leg: u32,
     /// The column that it wrote.
     pub column: ColumnKind,
     /// One line of `lane value` pairs a row of the column; none where nothing is known of this pixel.
@@ -82,16 +82,16 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
             for tile in tiles.iter(world) {
                 let tile = world.entity(tile);
                 let Some(path) = tile.get::<Tile>().and_then(|place| place.row_of(pixel.x, pixel.y)) else { continue };
-                let bounce = tile.get::<Leg>().map_or(0, |leg| leg.0);
+                let leg = tile.get::<Leg>().map_or(0, |leg| leg.0);
                 let is_on_its_way = |paths: &Paths| paths.first.contains(&(path as u32));
-                if bounce > 0 && !tile.get::<Paths>().is_some_and(is_on_its_way) {
+                if leg > 0 && !tile.get::<Paths>().is_some_and(is_on_its_way) {
                     continue;
                 }
                 for &column in &columns {
                     let lanes = (column.lanes)(&tile);
                     let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();
                     let rows = rows_on_leg(&tile, column, path as u32).into_iter().map(show).collect();
-                    recorded.push(Recorded { stage: name, sample, bounce, column, rows });
+                    recorded.push(Recorded { stage: name, sample, leg, column, rows });
                 }
             }
             world.get_resource_or_init::<Recording>().0.extend(recorded);
@@ -116,18 +116,18 @@ fn rows_on_leg(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let last_of = |column: ColumnKind, leg: u32| {
-            self.stages.iter().rposition(|recorded| recorded.column == column && recorded.bounce == leg)
+            self.stages.iter().rposition(|recorded| recorded.column == column && recorded.leg == leg)
         };
         let mut told = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
-            if last_of(recorded.column, recorded.bounce) != Some(position) || listing {
+            if last_of(recorded.column, recorded.leg) != Some(position) || listing {
                 continue;
             }
-            if told != Some(recorded.bounce) {
-                let (pixel, sample, bounce) = (self.pixel, self.sample, recorded.bounce);
-                writeln!(f, "pixel {},{}   sample {sample}, bounce {bounce}", pixel.x, pixel.y)?;
-                told = Some(bounce);
+            if told != Some(recorded.leg) {
+                let (pixel, sample, leg) = (self.pixel, self.sample, recorded.leg);
+                writeln!(f, "pixel {},{}   sample {sample}, leg {leg}", pixel.x, pixel.y)?;
+                told = Some(leg);
             }
             let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
             let head = format!("{name:<9} {space:<20} {unit:<24}");

@@ -8,8 +8,8 @@ use crate::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
     ShutterTable, glass_evidence, material_evidence, metal_evidence, occlusion_evidence, weighed_evidence,
 };
-use crate::follow::{GlassRows, Scattered, ScatteredRay, cosine_density, frame_of};
-use crate::intersect::{Hits, MaterialRows, NO_SHAPE, SurfaceSides, Surfaces, offset_origin};
+use crate::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_density, frame_of};
+use crate::intersect::{Hits, MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{
     Draws, Leg, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
@@ -19,7 +19,7 @@ use crate::shade::emitter::{distance_to, parallelogram_area_density};
 use crate::shade::{LightRays, area_light_stage};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 
 /// How a matte surface sends light on: a direction about +z by two numbers, and the share that it counts by albedo and
 /// cosine.
@@ -130,27 +130,11 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
 
 /// The missing cosine: rays to the sky go in all directions alike, and each counts the same; in the place of all that aim.
 pub fn sky_in_all_directions_alike() -> Stage {
-    type Known<'a> = (&'a Tile, Option<&'a SampleNumber>, Option<&'a PixelSamples>);
     let aim = |sampling: Res<Shared<SamplingTable>>,
                integrator: Res<Shared<IntegratorTable>>,
-               mut points: Local<Vec<[f64; 2]>>,
-               mut tiles: Query<(Known<'static>, &Hits, &Surfaces, &mut LightRays)>| {
-        for ((tile, number, samples), hits, surfaces, mut rays) in &mut tiles {
-            let list: Vec<u32> = (0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE).collect();
-            let draws = Draws { sampling: &sampling, tile, number, samples, paths: None, leg: Leg(0) };
-            draws_of_two(&draws, Purpose::Direction, &list, &mut points);
-            let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.len());
-            path.copy_from_slice(&list);
-            reach.fill(integrator.distance);
-            [r, g, b].into_iter().for_each(|lane| lane.fill(PI as f32));
-            for (at, &row) in list.iter().enumerate() {
-                let surface = surfaces.get(row as usize);
-                let local = DVec3::from(uniform_direction(points[at]));
-                let direction = (frame_of(surface.normal.as_dvec3()) * local).as_vec3();
-                (ox[at], oy[at], oz[at]) = offset_origin(surface.position, surface.normal, surface.bound).into();
-                (dx[at], dy[at], dz[at]) = direction.into();
-            }
-        }
+               lists: Local<SkyLists>,
+               tiles: Query<SkyColumns>| {
+        aim_by(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
     Stage::new("Aim in all directions alike", TileSystems::Aim, aim)
         .kind(StageKind::Alternative)

@@ -4,11 +4,11 @@ use bevy_ecs::world::{EntityRef, EntityWorldMut};
 /// How long a row of a column stays true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lifetime {
-    /// One sample of one pixel: written before the first bounce and kept to the film.
+    /// One sample of one pixel: written before the second leg and kept to the film.
     Pixel,
-    /// One path of light: changed at each bounce, never dropped before the path ends.
+    /// One path of light: changed on each leg, never dropped before the path ends.
     Path,
-    /// One ray: overwritten at each bounce.
+    /// One ray: overwritten on each leg.
     Ray,
     /// All samples of one pixel: added to until the picture is done.
     ///

@@ -17,6 +17,19 @@ pub enum PlanError {
         /// What became of the stages that could write it.
         why: String,
     },
+    /// A kept stage reads a column where it exists, and it exists only after the stage has run.
+    #[error(
+        "the stage \"{stage}\" reads the column `{column}`, but \"{writer}\" writes it only afterwards: it belongs \
+         in an earlier set"
+    )]
+    WrittenAfterwards {
+        /// The reader.
+        stage: &'static str,
+        /// What it reads.
+        column: &'static str,
+        /// The first that writes it.
+        writer: &'static str,
+    },
     /// A view asks for a column that does not exist here.
     #[error("the view asks for the column `{asked}`, but {why}")]
     NoSuchView {
@@ -174,6 +187,15 @@ fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> R
             if !written.contains(column.name) {
                 let why = fate(decided, column.name);
                 return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
+            }
+        }
+        let beside = stage.reads_if.iter().chain(stage.reads_where.iter().map(|(column, _)| column));
+        // The film's columns hold the samples before this one.
+        for column in beside.filter(|column| column.lifetime != Lifetime::Film) {
+            let of = |(_, row): &&(&Stage, PlanRow)| row.kept && row.columns.contains(&column.name);
+            let writer = decided.iter().find(of).map(|(writer, _)| writer.name);
+            if let (false, Some(writer)) = (written.contains(column.name), writer) {
+                return Err(PlanError::WrittenAfterwards { stage: stage.name, column: column.name, writer });
             }
         }
         written.extend(&row.columns);

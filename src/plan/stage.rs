@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub enum StageKind {
     /// Forced on, it leaves the image bit-identical.
     Exact,
-    /// Forced on, it leaves the image's expectation the same; tested by a Z-test.
+    /// It sends light on by chance, or ends it so; closed forms hold the mean that it gives.
     Estimator,
     /// One of several that write the same column; forcing it on beside the other has no meaning.
     Alternative,
@@ -22,7 +22,7 @@ pub struct Slot(pub usize);
 /// A stage on offer: what it is called, what it reads and writes, when a scene needs it, the system that runs.
 #[derive(Clone)]
 pub struct Stage {
-    /// In words, such as "Turn camera rays into the world".
+    /// In words, such as "Turn rays into the world".
     pub name: &'static str,
     /// Where it stands in the order.
     pub set: TileSystems,

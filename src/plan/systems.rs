@@ -45,6 +45,8 @@ pub enum TileSystems {
     Background,
     /// What else is asked of a pixel is taken down, before the light goes on its way.
     Layers,
+    /// Where on the camera's lens light is joined to it.
+    Join,
     /// Rays from surfaces towards lights.
     Aim,
     /// Every light counts as seen, before anything is met on the way to it.
@@ -55,6 +57,8 @@ pub enum TileSystems {
     Weigh,
     /// Light that arrives is added up.
     Shade,
+    /// What each ray has come through is known.
+    Media,
     /// What light lost on its way here is taken off.
     Absorb,
     /// Rays go on from surfaces, each kind of matter's after the other's.
@@ -98,11 +102,13 @@ impl TileSystems {
         Self::Texture,
         Self::Background,
         Self::Layers,
+        Self::Join,
         Self::Aim,
         Self::Unblock,
         Self::Occlude,
         Self::Weigh,
         Self::Shade,
+        Self::Media,
         Self::Absorb,
         Self::Scatter,
         Self::Roulette,

@@ -59,6 +59,12 @@ pub fn polygon_point(u: DVec2, corners: &[DVec2]) -> DVec2 {
 }
 // ANCHOR_END: polygon_point
 
+/// A point of the unit square on the lens, equal areas to equal areas, in scene units.
+#[inline(always)]
+pub fn lens_point(u: DVec2, lens: &LensTable) -> DVec2 {
+    lens.radius * if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) }
+}
+
 // ANCHOR: camera_ray_lens
 /// The direction from a point of the lens to where the pinhole's ray through the same screen point meets the plane in
 /// focus.
@@ -87,9 +93,7 @@ pub fn draw_lens_points(
         let (xs, ys) = points.slices_mut(raster.rows());
         draw_two(rows, Purpose::Lens, xs, ys);
         for (x, y) in xs.iter_mut().zip(ys) {
-            let u = DVec2::new(*x, *y);
-            let point = if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) };
-            (*x, *y) = (point.x * lens.radius, point.y * lens.radius);
+            (*x, *y) = lens_point(DVec2::new(*x, *y), &lens).into();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Raster → NDC → screen → camera → world: a ray for every pixel, one file a space.
 //!
-//! Reads: the tile's rectangle, the image's shape, the camera's lens and axes.
+//! Reads: the tile's rectangle, the image's shape, the camera's pinhole, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
@@ -31,8 +31,8 @@ pub use equirectangular::{
 pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
 pub use leg::{Leg, pixel_of_row};
 pub use lens::{
-    LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point_stage, lens_stage,
-    polygon_point,
+    LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage,
+    lens_stage, polygon_point,
 };
 pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
 pub use paths::{PathLight, Paths};

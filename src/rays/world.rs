@@ -33,6 +33,8 @@ impl WorldRays {
 /// Fills a tile's world rays: directions turned as the camera is, origins too where a camera's rays have several.
 ///
 /// The camera's position does not occur: render space has it at the origin.
+/// So where every ray starts there nothing is written: a column that had no rows begins with zeros, and the last leg of a
+/// sample leaves none.
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
     many_origins: (Option<Res<Shared<ViewRectangle>>>, Option<Res<Shared<LensTable>>>),

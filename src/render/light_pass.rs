@@ -57,6 +57,7 @@ impl LightPass {
     /// Brings the film's splats in step with so many samples of pixels, or as far as the one who watches lets it.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
+        let mut filter = self.filter.clone();
         let batch = u64::from(LIGHT_PATHS);
         let all = (samples as f64 * self.paths / f64::from(LIGHT_PATHS)).ceil() as u64;
         while splats.paths / batch < all && !watch.stopped() {
@@ -83,7 +84,7 @@ impl LightPass {
                 let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
                 let (x, y, r, g, b) = list.slices();
                 for at in 0..x.len() {
-                    splats.add(&self.filter, [x[at], y[at]], [r[at], g[at], b[at]]);
+                    splats.add(&mut filter, [x[at], y[at]], [r[at], g[at], b[at]]);
                 }
                 list.clear();
             }
@@ -96,13 +97,6 @@ impl LightPass {
         let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, means.execution, &[]);
         made.world.insert_resource(Shared::new(self.sampling));
         made
-    }
-
-    /// Throws the workers' worlds away.
-    pub fn forget_worlds(&self) {
-        for world in &self.worlds {
-            *world.lock().unwrap_or_else(PoisonError::into_inner) = None;
-        }
     }
 
     /// The workers' stopwatches.

@@ -155,9 +155,6 @@ impl RenderUnderWay {
             let mut world = world.lock().unwrap_or_else(PoisonError::into_inner);
             *world = None;
         }
-        if let Some(light) = &self.light {
-            light.forget_worlds();
-        }
         self.renumber(numbers);
     }
 

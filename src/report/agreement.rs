@@ -34,7 +34,9 @@ impl Agreement {
 /// Blocks, not pixels, since a mean of many is nearer to a normal variable.
 /// Errors: images of two sizes, or fewer than two a set.
 pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreement, String> {
-    if one.iter().chain(other).any(|image| image.size != one[0].size) {
+    let mut sizes = one.iter().chain(other).map(|image| image.size);
+    let size = sizes.next();
+    if sizes.any(|other| Some(other) != size) {
         return Err("the images have two sizes".into());
     }
     let [one, other] = [blocks(one, side)?, blocks(other, side)?];

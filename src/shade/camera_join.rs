@@ -1,10 +1,65 @@
 use super::LightRays;
 use super::light::{Aimed, LightRay, LitRows, append_chosen, shadow_reach};
-use crate::extract::{CameraJoinTable, traced_evidence};
+use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine, offset_origin};
-use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{WorldRays, join_camera};
+use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
+use crate::rays::{Draws, Leg, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
+use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+column! {
+    /// Where on the lens each surface that light from a lamp falls on is joined to the camera.
+    pub struct JoinPoints("join", "camera", "scene units", Ray) {
+        /// To the right.
+        x: f64,
+        /// Upward.
+        y: f64,
+    }
+}
+
+impl JoinPoints {
+    /// To the right as red, upward as green.
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.x[row] as f32, self.y[row] as f32, 0.0]
+    }
+
+    /// A row's point.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> DVec2 {
+        DVec2::new(self.x[row], self.y[row])
+    }
+}
+
+/// Draws the points, a new one on every leg.
+pub fn draw_join_points(
+    lens: Res<Shared<LensTable>>,
+    sampling: Res<Shared<SamplingTable>>,
+    mut drawn: Local<Vec<[f64; 2]>>,
+    mut tiles: Query<(&Tile, &Leg, &SampleNumber, &Paths, &MaterialRows, &mut JoinPoints)>,
+) {
+    for (tile, &leg, number, paths, list, mut points) in &mut tiles {
+        let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), leg };
+        draws_of_two(&draws, Purpose::Lens, &list.row, &mut drawn);
+        let (xs, ys) = points.slices_mut(paths.rows());
+        for (&row, &u) in list.row.iter().zip(&*drawn) {
+            (xs[row as usize], ys[row as usize]) = lens_point(u.into(), &lens).into();
+        }
+    }
+}
+
+/// The stage that draws points.
+pub fn join_point_stage() -> Stage {
+    Stage::new("Draw points on the lens to join", TileSystems::Join, draw_join_points)
+        .on_light_paths()
+        .kind(StageKind::Alternative)
+        .reads::<Paths>()
+        .reads::<MaterialRows>()
+        .writes::<JoinPoints>()
+        .table::<LensTable>()
+        .table::<SamplingTable>()
+        .when(|scene| traced_evidence(scene).and(|| lens_evidence(scene)))
+}
 
 /// What a surface that is shaded by another normal than its own sends to the camera of each unit of power, but for its
 /// matter: cos θ to the camera by its own normal, times by how much the other normal changes the cosine of what falls.
@@ -23,13 +78,17 @@ pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64
 /// answers the same either way.
 pub fn aim_at_the_camera(
     join: Res<Shared<CameraJoinTable>>,
-    mut tiles: Query<(&WorldRays, &Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays)>,
+    mut tiles: Query<(
+        (&WorldRays, &Surfaces, Option<&ShadingNormals>, &MaterialRows, Option<&JoinPoints>),
+        &mut LightRays,
+    )>,
 ) {
-    for (arriving, surfaces, shading, list, mut rays) in &mut tiles {
+    for ((arriving, surfaces, shading, list, points), mut rays) in &mut tiles {
         let lit = LitRows { surfaces, shading, rows: &list.row };
         append_chosen(&lit, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);
-            let joined = join_camera(&join, origin.as_dvec3()).unwrap_or_default();
+            let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
+            let joined = join_camera(&join, lens, origin.as_dvec3()).unwrap_or_default();
             let distance = joined.to_camera.length();
             let direction = (joined.to_camera * (1.0 / distance)).as_vec3();
             let (own, from) = (surface.normal.as_dvec3(), -arriving.direction_of(row));
@@ -51,6 +110,7 @@ pub fn camera_join_stage() -> Stage {
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
+        .reads_where::<JoinPoints>(lens_evidence)
         .appends::<LightRays>()
         .table::<CameraJoinTable>()
         .when(traced_evidence)

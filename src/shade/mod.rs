@@ -35,7 +35,9 @@ mod unmet;
 pub use area_light::{aim_at_area_lights, area_light_density, area_light_stage, irradiance_from_area};
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
-pub use camera_join::{aim_at_the_camera, camera_join_stage, join_cosine};
+pub use camera_join::{
+    JoinPoints, aim_at_the_camera, camera_join_stage, draw_join_points, join_cosine, join_point_stage,
+};
 pub use checker::{
     box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
     wave_mean,

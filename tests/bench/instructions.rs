@@ -11,7 +11,7 @@ use pinhole::film::{film_stage, write_checkpoint, write_exr};
 use pinhole::plan::{Stage, plan};
 use pinhole::render::{Execution, Limits, RenderUnderWay, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
-use pinhole::{intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -27,11 +27,17 @@ struct Case {
     samples: u32,
 }
 
-const CASES: [Case; 4] = [
+const CASES: [Case; 5] = [
     Case { name: "spheres seen unlit", scene: UNLIT, stages: unlit, samples: 1 },
     Case { name: "spheres and a plane in light and shadow", scene: LIT, stages: lit, samples: 1 },
     Case { name: "the same with 4 samples a pixel", scene: SAMPLED, stages: sampled, samples: 4 },
     Case { name: "some of chapters 13 to 17, with 4 samples", scene: VARIED, stages: varied, samples: 4 },
+    Case {
+        name: "paths among matte things and a mirror, with 4 samples",
+        scene: FOLLOWED,
+        stages: followed,
+        samples: 4,
+    },
 ];
 
 /// Sizes whose pixels are as 1 to 4, in whole tiles.
@@ -71,6 +77,17 @@ const VARIED: &str = r#"[
         checker: (second: (0.2, 0.2, 0.6), size: 0.3, by: Space)),
     (spot_light: (intensity: (90, 80, 70)), placement: (position: (0, 1, 8))),
     (gradient: (top: (0.1, 0.2, 0.5))),
+]"#;
+
+/// Ways of light beyond the first surface, by the kinds of matter and light that are there and no others.
+const FOLLOWED: &str = r#"[
+    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
+        sampling: (samples: 4), integrator: Path(legs: 5, lights: Weighed, roulette: 3)),
+    (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
+    (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), mirror: ()),
+    (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
+    (sphere: (radius: 0.5), placement: (position: (3, 5, 4)), emissive: (radiance: (30, 28, 26))),
+    (background: (colour: (0.1, 0.2, 0.3))),
 ]"#;
 
 /// From the screen to the world, for a perspective camera.
@@ -118,6 +135,21 @@ fn varied() -> Vec<Stage> {
     stages.extend([shade::footprint_stage(), shade::colour_stage(), shade::lay_stage(), shade::checker_stage()]);
     stages.extend([shade::spot_light_stage(), shade::start_shadow_stage(), shade::disk_shadow_stage()]);
     stages.extend([shade::cuboid_shadow_stage(), shade::light_stage(), shade::phong_stage(), film_stage()]);
+    stages
+}
+
+fn followed() -> Vec<Stage> {
+    let mut stages = perspective();
+    stages.extend([rays::place_samples_stage(), intersect::start_stage(), shade::start_stage()]);
+    stages.extend([shade::start_light_stage(), follow::start_paths_stage(), follow::start_scattered_stage()]);
+    stages.extend([intersect::sphere_stage(), intersect::plane_stage(), intersect::classify_stage()]);
+    stages.extend([follow::classify_matter_stage(), follow::last_leg_stage()]);
+    stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
+    stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
+    stages.extend([shade::plane_shadow_stage(), follow::weigh_matte_stage(), shade::light_stage()]);
+    stages.extend([follow::weighed_emission_stage(), follow::mirror_stage(), follow::matte_stage()]);
+    stages.extend([follow::roulette_stage(), follow::add_leg_stage(), follow::step_stage()]);
+    stages.extend([follow::follow_stage(), follow::gather_stage(), film_stage()]);
     stages
 }
 

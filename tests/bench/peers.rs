@@ -3,7 +3,7 @@
 //! `cargo bench --bench peers -- --peers FOLDER --python PROGRAM` runs both; FOLDER holds `mitsuba_bench.py`, `scenes.py`
 //! and references in `ref/`, PROGRAM is a Python that has numpy and mitsuba.
 //! `--variant scalar_rgb`, `--scenes cornell,veach-mis`, `--samples 4,16,64`, `--rounds 5` and `--sampler sobol` ask for
-//! less or other; without `--python` only pinhole runs and its images are held against the references.
+//! less or other, `--light-tracing 0.0625` for so many rays from the lights a sample; without `--python` only pinhole runs and its images are held against the references.
 //! relMSE is the mean of (x − r)² / (r² + 0.01); the reference's own is subtracted from both sides.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
@@ -18,7 +18,7 @@ use pinhole::measure::image_file::read_numbers;
 use pinhole::render::{Execution, RenderUnderWay};
 use pinhole::report::distribution::normal_share;
 use pinhole::report::run::numbers;
-use pinhole::scene::{Filter, LightSampling, Sampler, Sampling};
+use pinhole::scene::{Filter, LightSampling, LightTracing, Sampler, Sampling};
 use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
 use std::path::PathBuf;
@@ -43,6 +43,7 @@ struct Options {
     rounds: u64,
     sampler: Sampler,
     converge: u32,
+    light_tracing: Option<f64>,
 }
 
 impl Options {
@@ -62,17 +63,21 @@ impl Options {
             rounds: after("--rounds").and_then(|word| word.parse().ok()).unwrap_or(5),
             sampler: Sampler::ALL.iter().find(|(word, _)| *word == sampler).map(|(_, own)| *own).expect("a sampler"),
             converge: after("--converge").and_then(|word| word.parse().ok()).unwrap_or(64),
+            light_tracing: after("--light-tracing").map(|word| word.parse().expect("a number")),
         })
     }
 }
 
 /// One render: seconds, and the image.
-fn ours(scene: &str, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
+fn ours(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
     let mut world = public(scene, LightSampling::Weighed);
     let camera = named(&mut world, "camera");
     // The references have each sample in its own pixel only.
     let filter = Filter::Box { radius: 0.5 };
     world.entity_mut(camera).insert(Sampling { samples, seed, sampler, filter });
+    if let Some(paths) = options.light_tracing {
+        world.entity_mut(camera).insert(LightTracing { paths });
+    }
     let started = Instant::now();
     let mut render = RenderUnderWay::begin(&world, &offer(), &Execution::default()).expect("begins");
     render.advance(render.steps(), &()).expect("renders");
@@ -117,7 +122,7 @@ fn converged(scene: &str, reference: &Numbers, options: &Options) {
     const RUNS: u64 = 8;
     const SIDE: u32 = 16;
     let images: Vec<Numbers> =
-        (0..RUNS).map(|seed| ours(scene, options.converge, 900 + seed, Sampler::Independent).1).collect();
+        (0..RUNS).map(|seed| ours(scene, options, options.converge, 900 + seed, Sampler::Independent).1).collect();
     let [width, height] = reference.size;
     let (mut tests, mut apart, mut worst) = (0, 0, 0.0_f64);
     let limit = {
@@ -159,7 +164,7 @@ fn compare(scene: &str, reference: &Numbers, options: &Options) {
     let own_error = |image: &Numbers| image_error(reference, image).expect("one size").means.expect("means").rel_mse;
     let less = of_reference(scene);
     let run = |samples, seed| {
-        let (seconds, image) = ours(scene, samples, seed, options.sampler);
+        let (seconds, image) = ours(scene, options, samples, seed, options.sampler);
         (seconds, own_error(&image) - less)
     };
     let Some(python) = &options.python else {

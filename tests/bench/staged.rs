@@ -10,6 +10,8 @@ mod interval;
 
 #[path = "../../chapters/mod.rs"]
 mod chapters;
+#[path = "../scenes/sunflower.rs"]
+mod sunflower;
 
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
@@ -27,8 +29,8 @@ fn main() {
     if options.only_samples {
         return;
     }
-    for name in ["05_pinhole", "cover"] {
-        let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
+    let pinhole = chapters::all().into_iter().find(|chapter| chapter.name == "05_pinhole").expect("a chapter");
+    for chapter in [pinhole, sunflower::sunflower()] {
         for threads in [1, 2] {
             compare(&chapter, &options.world(&chapter, false), threads, "one ray a pixel", &options);
         }
@@ -63,11 +65,11 @@ impl Options {
 /// Samples a pixel where several are taken.
 const SAMPLES: u32 = 4;
 
-/// The cover by several samples a pixel, with direct light and shadows, through the default filter; half as wide and high,
+/// The sunflower by several samples a pixel, with direct light and shadows, through the default filter; half as wide and high,
 /// so that there are as many rays as without.
 fn sampled(sampler: Sampler, options: &Options) {
     let size = Resolution { width: options.size.width / 2, height: options.size.height / 2 };
-    let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "cover").expect("the cover");
+    let chapter = sunflower::sunflower();
     let sampling = AskedSampling { samples: Some(SAMPLES), sampler: Some(sampler), ..AskedSampling::default() };
     let world = chapter.world(&Asked { resolution: Some(size), sampling, ..Asked::default() });
     let word = Sampler::ALL.into_iter().find(|(_, other)| *other == sampler).expect("a sampler's name").0;
@@ -141,7 +143,7 @@ fn memory() {
     for size in ["1920x1080", "7680x4320"] {
         let file = folder.path().join("picture.png");
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_pinhole"))
-            .args(["render", "cover", "--size", size, "--stats", "-o"])
+            .args(["render", "10_light_and_shadow", "--size", size, "--stats", "-o"])
             .arg(&file)
             .output()
             .expect("the kit runs");

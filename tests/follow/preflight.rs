@@ -25,7 +25,10 @@ fn slips_are_told_before_the_picture_is_rendered() {
             "the camera inside the ball",
             &[&["likely to be black"], &["inside the sphere \"ball\", and sees it from within"]],
         ),
-        ("the camera inside a block of tinted glass", &[&["inside the cuboid \"block\"", "absorbs on the first leg"]]),
+        (
+            "the camera inside a block of tinted glass",
+            &[&["inside the cuboid \"block\"", "absorbs on the way to what else"]],
+        ),
         ("the camera looks the other way", &[&["likely to be black", "rays meets a shape", "no background"]]),
         ("the same before a blue sky", &[&["none of", "rays tried", "meets a shape"]]),
         ("a lamp a hundred times too bright", &[&["% of the rays tried", "more than white", "EXR"]]),

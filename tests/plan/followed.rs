@@ -48,7 +48,7 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 ("Reflect and refract at glass", whitted && has(Glass)),
                 ("Reflect or refract at glass", chance && has(Glass)),
                 ("Absorb light in glass", followed && absorbing),
-                ("Start outside all glass", followed && absorbing),
+                ("Find the glass that rays start in", followed && absorbing),
                 ("Scatter off rough metal", chance && has(Metal)),
                 ("Scatter off matte surfaces", path),
                 ("End ways by chance", path),

@@ -88,8 +88,8 @@ fn text(bytes: &[u8]) -> String {
 fn a_write_that_fails_half_way_leaves_no_half_a_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (kind, command) in [
-        ("png", "render cover -q --size 640x360 -o out.png"),
-        ("exr", "render cover -q --size 640x360 -o out.exr"),
+        ("png", "render 10 -q --size 640x360 -o out.png"),
+        ("exr", "render 10 -q --size 640x360 -o out.exr"),
         ("ron", "export cover -o out.ron"),
     ] {
         let file = folder.path().join(format!("out.{kind}"));

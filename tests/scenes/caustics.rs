@@ -6,7 +6,8 @@ use glam::{DQuat, DVec3};
 use pinhole::scene::*;
 use std::f64::consts::PI;
 
-/// A ball of glass that absorbs, half a ring of mirror with normals of its corners, metal and a lamp or two.
+/// A ball of glass that absorbs, half a ring of mirror and a sheet of paper with normals of their corners, metal, and
+/// lamps: points, or such with an area, one of which stands in tinted glass.
 pub fn caustics(lamps: bool) -> World {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::new(0.3, 2.6, 3.6), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
@@ -22,7 +23,7 @@ pub fn caustics(lamps: bool) -> World {
     ));
     let glass = Glass { absorption: Rgb::new(0.1, 0.4, 0.8), ..Glass::default() };
     world.spawn((Name::new("ball"), Sphere { radius: 0.5 }, Placement::at(-0.6, 0.6, 0.2), glass));
-    let metal = Metal { colour: Rgb::new(0.9, 0.8, 0.5), roughness: 0.3 };
+    let metal = Metal { colour: Rgb::new(0.9, 0.8, 0.5), roughness: 0.3, ..Metal::default() };
     world.spawn((Name::new("coin"), Disk { radius: 0.5 }, Placement::at(-0.9, 0.02, 1.2), metal));
     const PIECES: u32 = 8;
     let silver = world.spawn((Name::new("silver"), Mirror { colour: Rgb::new(0.9, 0.85, 0.8) })).id();
@@ -38,7 +39,17 @@ pub fn caustics(lamps: bool) -> World {
             world.spawn((Triangle { vertices, normals: Some(normals), uvs: None }, UsesMaterial(silver)));
         }
     }
+    // Its normals lean far enough that light falls on it that they do not see, and the other way round.
+    let vertices = [DVec3::new(-0.4, 0.05, 0.9), DVec3::new(0.5, 0.05, 1.6), DVec3::new(0.6, 0.05, 0.6)];
+    let normals = [DVec3::new(0.9, 0.4, 0.2), DVec3::new(-0.9, 0.4, 0.1), DVec3::new(-0.2, 0.4, -0.9)];
+    let paper = Matte { colour: Rgb::new(0.9, 0.85, 0.8) };
+    world.spawn((Name::new("paper"), Triangle { vertices, normals: Some(normals), uvs: None }, paper));
     if lamps {
+        let tinted = Glass { absorption: Rgb::new(0.5, 1.0, 3.0), ..Glass::default() };
+        let jar = Placement::at(1.6, 0.5, 1.2);
+        world.spawn((Name::new("jar"), Sphere { radius: 0.4 }, jar, tinted));
+        let emissive = Emissive { radiance: Rgb::new(14.0, 12.0, 10.0), ..Emissive::default() };
+        world.spawn((Name::new("bulb"), Sphere { radius: 0.2 }, jar, emissive));
         let emissive = Emissive { radiance: Rgb::new(6.0, 5.5, 5.0), sides: Sides::Both };
         world.spawn((Name::new("lamp"), Sphere { radius: 0.5 }, Placement::at(-1.6, 2.4, -0.4), emissive));
         let front = Emissive { radiance: Rgb::new(3.0, 4.0, 5.0), sides: Sides::Front };

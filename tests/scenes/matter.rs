@@ -19,7 +19,7 @@ pub fn polished(setup: Setup) -> World {
     world.spawn((Name::new("ground"), Plane::default(), at(0.0, 0.017, 0.0), Matte { colour: Rgb::grey(0.6) }));
     world.spawn((Name::new("stone"), sphere(0.3), at(0.3, 0.32, 1.6), Matte { colour: Rgb::new(0.8, 0.3, 0.2) }));
     world.spawn((Name::new("silver"), sphere(0.7), at(-1.37, 0.75, 0.03), Mirror::default()));
-    let gold = Metal { colour: Rgb::new(0.9, 0.7, 0.3), roughness: 1e-4 };
+    let gold = Metal { colour: Rgb::new(0.9, 0.7, 0.3), roughness: 1e-4, ..Metal::default() };
     world.spawn((Name::new("sail"), leaning_triangle(setup.scale), at(-0.5, 1.5, 0.25), gold));
     let green = Glass { absorption: absorbing(0.9, 0.1, 0.5), priority: 1, ..Glass::default() };
     world.spawn((Name::new("green ball"), sphere(0.6), at(0.2, 0.65, 0.3), green));
@@ -35,10 +35,11 @@ pub fn polished(setup: Setup) -> World {
 pub fn brushed(setup: Setup) -> World {
     let mut world = polished(setup);
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
-    let metal = |roughness| Metal { colour: Rgb::new(0.8, 0.6, 0.5), roughness };
+    let metal = |roughness| Metal { colour: Rgb::new(0.8, 0.6, 0.5), roughness, ..Metal::default() };
+    let rough = Metal { multiple_scattering: true, ..metal(0.6) };
     let ball = Sphere { radius: 0.4 * setup.scale };
     world.spawn((Name::new("brushed ball"), ball, at(1.7, 0.42, 0.9), metal(0.15)));
-    world.spawn((Name::new("rough sail"), leaning_triangle(setup.scale), at(0.8, 1.4, -0.4), metal(0.6)));
+    world.spawn((Name::new("rough sail"), leaning_triangle(setup.scale), at(0.8, 1.4, -0.4), rough));
     let camera = named(&mut world, "camera");
     world.entity_mut(camera).insert(Sampling { samples: 2, ..Sampling::default() });
     world

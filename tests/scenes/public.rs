@@ -132,7 +132,7 @@ fn veach(world: &mut World) {
         world.spawn((Sphere { radius }, Placement::at(x, y, z), emissive));
     }
     for (roughness, corners) in PLATES {
-        quad(world, corners, Metal { colour: Rgb::grey(0.8), roughness });
+        quad(world, corners, Metal { colour: Rgb::grey(0.8), roughness, ..Metal::default() });
     }
     let y = -4.14615;
     quad(world, [[-10.0, y, -10.0], [-10.0, y, 10.0], [10.0, y, 10.0], [10.0, y, -10.0]], matte([0.4; 3]));
@@ -165,7 +165,7 @@ fn spheres(world: &mut World) {
         } else if c < 0.95 && roughness < 0.05 {
             ball.insert(Mirror { colour });
         } else if c < 0.95 {
-            ball.insert(Metal { colour, roughness });
+            ball.insert(Metal { colour, roughness, ..Metal::default() });
         } else {
             ball.insert(Glass::default());
         }

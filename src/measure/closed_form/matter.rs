@@ -13,6 +13,9 @@ use std::f64::consts::{FRAC_PI_3, LN_2};
 /// Ways without an end by chance, so that where both media and all angles are known nothing is left to chance either.
 const WAYS: Integrator = Integrator::Path { legs: 1 << 16, lights: LightSampling::ByChance, roulette: 0 };
 
+/// Metal that loses nothing where light meets it once.
+const BRIGHT: Metal = Metal { colour: Rgb::grey(1.0), roughness: 0.0, multiple_scattering: false };
+
 /// The share that glass of index 1.5 reflects of light that falls squarely.
 const SQUARELY: f64 = 0.04;
 
@@ -41,6 +44,18 @@ pub(super) const FORMS: &[ClosedForm] = &[
             world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 2.5), WAYS));
             world.spawn(Background { colour: Rgb::grey(1.0) });
             world.spawn((Sphere { radius: 1.0 }, Glass::default()));
+        },
+    },
+    ClosedForm {
+        name: "from within a tinted ball, index 1",
+        formula: "e^(−σ R)",
+        truth: || libm::exp(-0.5),
+        few: 1 << 10,
+        lane: GREEN,
+        scene: |world| {
+            world.spawn((PerspectiveCamera::default(), Placement::default(), WAYS));
+            world.spawn(Background { colour: Rgb::grey(1.0) });
+            world.spawn((Sphere { radius: 1.0 }, Glass { ior: 1.0, absorption: Rgb::grey(0.5), priority: 0 }));
         },
     },
     ClosedForm {
@@ -109,7 +124,18 @@ pub(super) const FORMS: &[ClosedForm] = &[
         lane: GREEN,
         scene: |world| {
             view(world, 20.0 * DVec3::Z, 1.0);
-            world.spawn((Plane { normal: DVec3::Z }, Metal { colour: Rgb::grey(1.0), roughness: 1.0 }));
+            world.spawn((Plane { normal: DVec3::Z }, Metal { roughness: 1.0, ..BRIGHT }));
+        },
+    },
+    ClosedForm {
+        name: "rough metal, α = 1, several tiny mirrors",
+        formula: "1",
+        truth: || 1.0,
+        few: 1 << 17,
+        lane: GREEN,
+        scene: |world| {
+            view(world, 20.0 * DVec3::Z, 1.0);
+            world.spawn((Plane { normal: DVec3::Z }, Metal { multiple_scattering: true, roughness: 1.0, ..BRIGHT }));
         },
     },
 ];

@@ -1,8 +1,10 @@
 //! Mirrors, glass and rough metal: media that are nearly one, angles at which all is reflected, highlights of any width.
 
 use super::{Group, Method, Tally, Trial};
+use crate::extract::MetalTable;
 use crate::follow::{
-    cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d, ggx_sample, refract, visible_density, visible_normal,
+    MultipleScatteringTable, RoughMetals, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d, ggx_sample, refract,
+    visible_density, visible_normal,
 };
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
 use crate::measure::hemisphere::Quadrature;
@@ -37,6 +39,8 @@ const FRAME: [Method; 2] =
 const SQUARELY: [Method; 2] =
     [Method::kit("kit", "off 1 - ln 2", 1e-6), Method::naive("naive, no masking", "off 1 - ln 2", 1e-6)];
 const OVER: [Method; 2] = [Method::kit("kit", "over 1", 1e-6), Method::naive("naive, no masking", "over 1", 1e-6)];
+const WHOLE: [Method; 2] =
+    [Method::kit("kit, several tiny mirrors", "off 1", 1e-2), Method::naive("naive, one tiny mirror", "off 1", 1e-2)];
 const NUMBERS: [Method; 1] = [Method::kit("kit", "", 0.0)];
 
 /// The cases of the group.
@@ -52,6 +56,7 @@ pub fn trials() -> Vec<Trial> {
         one("frames about normals near -z", &FRAME, judge_frames),
         one("furnace, rough metal lit squarely, alpha 1", &SQUARELY, judge_squarely).at_most(1),
         one("furnace, rough metal at any slant, alpha 0.05 to 1", &OVER, judge_slant).at_most(60),
+        one("furnace, several tiny mirrors at any slant, alpha 0.05 to 1", &WHOLE, judge_several).at_most(40),
         one("directions by numbers at their ends", &NUMBERS, judge_numbers),
     ]
 }
@@ -216,6 +221,23 @@ fn judge_slant(range: Range<u64>) -> Tally {
         tally.count(true);
         for (score, brdf) in tally.scores.iter_mut().zip([ggx_brdf, ggx_brdf_unmasked]) {
             score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| brdf(l, v, alpha)) - 1.0).max(0.0));
+        }
+    }
+    tally
+}
+
+fn judge_several(range: Range<u64>) -> Tally {
+    let (mut tally, rule) = (Tally::new(WHOLE.len()), Quadrature::default());
+    for index in range {
+        let mut draws = Draws::new(1908, index);
+        let alpha = draws.power_of_ten(-1.3, 0.0);
+        let angle = FRAC_PI_2 - draws.power_of_ten(-2.0, 0.19);
+        tally.count(true);
+        let (metals, mut several) = (MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha] }, Default::default());
+        MultipleScatteringTable::push(&mut several, [1.0; 3], Some(alpha));
+        for (score, several) in tally.scores.iter_mut().zip([Some(&several), None]) {
+            let rough = RoughMetals { metals: &metals, several };
+            score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.brdf(0, l, v)[0]) - 1.0).abs());
         }
     }
     tally

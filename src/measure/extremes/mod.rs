@@ -91,7 +91,6 @@ pub enum Group {
 impl Group {
     /// All groups in order.
     pub const ALL: &[Self] = &[
-        Self::Triangle,
         Self::Sphere,
         Self::Plane,
         Self::Shadow,

@@ -27,7 +27,7 @@ const ROULETTE: [Method; 3] = [
     Method::naive("naive, ends after 64 legs", "of itself", 0.0),
     Method::naive("naive, ends by chance, not weighed", "of itself", 0.0),
 ];
-const BOUNCE: [Method; 4] = [
+const SKY: [Method; 4] = [
     Method::kit("kit, as dense as the cosine", "of itself", 1e-10),
     Method::naive("naive, directions alike, no cosine", "of itself", 1e-10),
     Method::naive("naive, pi forgotten", "of itself", 1e-10),
@@ -50,9 +50,9 @@ pub fn trials() -> Vec<Trial> {
     let furnaces = [("furnace, albedo 0.5", 0.5), ("furnace, albedo 0.99", 0.99), ("furnace, albedo 0.9999", 0.9999)];
     let mut trials = vec![Trial::new(Group::Transport, "weights of two, 1e-30 to 1e30", &WEIGHTS, judge_weights)];
     trials.extend(furnaces.map(furnace));
-    trials.push(Trial::new(Group::Transport, "one bounce under an even sky", &BOUNCE, judge_bounce).at_most(8));
+    trials.push(Trial::new(Group::Transport, "one surface under an even sky", &SKY, judge_sky).at_most(8));
     trials
-        .push(Trial::new(Group::Transport, "one bounce under a lamp, 10 to 80 degrees", &LAMP, judge_lamp).at_most(8));
+        .push(Trial::new(Group::Transport, "one surface under a lamp, 10 to 80 degrees", &LAMP, judge_lamp).at_most(8));
     trials
 }
 
@@ -106,8 +106,8 @@ fn light_of_way(albedo: f64, way: u64, kept: impl Fn(f64, f64) -> f64) -> f64 {
 }
 
 /// What a surface of albedo 0.8 sends on of a sky that is 1 everywhere.
-fn judge_bounce(range: Range<u64>) -> Tally {
-    let mut tally = Tally::new(BOUNCE.len());
+fn judge_sky(range: Range<u64>) -> Tally {
+    let mut tally = Tally::new(SKY.len());
     let albedo = 0.8;
     for index in range {
         let mut sums = [0.0; 4];

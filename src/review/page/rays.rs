@@ -115,7 +115,7 @@ pub fn escape(text: &str) -> String {
 mod tests {
     use super::*;
 
-    const PROBES: &str = "96 × 54 pixels\n\ntop: pixel 48,0   sample 0, bounce 0\n\
+    const PROBES: &str = "96 × 54 pixels\n\ntop: pixel 48,0   sample 0, leg 0\n\
         world     world, from the eye  scene units              dx +0.100000  dy +0.223456  dz -1.000000\n\
         hit       along the ray        scene units              t +12.500000  shape near ball\n\
         light     world, from the eye  scene units              nothing\n";

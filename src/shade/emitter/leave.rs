@@ -1,7 +1,7 @@
 //! Points on lights where their light starts, and ways that it takes.
 
 use super::cone_versine;
-use crate::extract::{Emitter, Parallelogram, Target};
+use crate::extract::{Emitter, MOST_TARGETS, Parallelogram, Target};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -98,40 +98,54 @@ pub fn cone_direction(axis: DVec3, whole: f64, u: [f64; 2]) -> DVec3 {
     DMat3::from_cols(right, up, axis) * DVec3::new(sine * right_share, sine * up_share, 1.0 - versine)
 }
 
+/// What f32 takes from a ray, as a share of where it starts and of how far it goes.
+const OF_PLACE: f64 = 1.0 / (1_u64 << 21) as f64;
+
 /// The axis of the cone that a sphere fills as seen from a point, and its 1 − cos; all directions from within.
+///
+/// The sphere is taken larger by what a ray of f32 from there may miss it by.
 #[inline(always)]
 fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
-    let (to, rr) = (target.centre - from, target.radius * target.radius);
+    let to = target.centre - from;
     let dd = to.length_squared();
-    if dd <= rr { (DVec3::Z, 2.0) } else { (to / dd.sqrt(), cone_versine(rr / dd)) }
-}
-
-/// How many steradian all targets fill from a point, each by itself.
-#[inline(always)]
-pub fn targets_solid_angle(targets: &[Target], from: DVec3) -> f64 {
-    targets.iter().map(|target| TAU * cone_to(target, from).1).sum()
+    let distance = dd.sqrt();
+    let radius = target.radius + (sum_of_parts(from) + distance) * OF_PLACE;
+    if distance <= radius { (DVec3::Z, 2.0) } else { (to / distance, cone_versine(radius * radius / dd)) }
 }
 
 // ANCHOR: direction_to_targets
-/// A direction to one of the targets, and 1 over its density, in sr.
+/// A direction to one of the targets, and 1 over its density, in sr; none where they fill `wide` or more of what is seen
+/// from here, or there is none.
 ///
 /// A target is chosen as often as it is large from here, and a direction evenly over its cone.
 /// So where one cone alone leads, the density is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
 #[inline(always)]
-pub fn direction_to_targets(targets: &[Target], from: DVec3, choice: f64, u: [f64; 2]) -> (DVec3, f64) {
-    let all = targets_solid_angle(targets, from);
+pub fn direction_to_targets(
+    targets: &[Target],
+    from: DVec3,
+    wide: f64,
+    choice: f64,
+    u: [f64; 2],
+) -> Option<(DVec3, f64)> {
+    let mut cones = [(DVec3::Z, 0.0); MOST_TARGETS];
+    let cones = &mut cones[..targets.len()];
+    cones.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
+    let all = TAU * cones.iter().map(|(_, whole)| whole).sum::<f64>();
+    if all == 0.0 || all >= wide {
+        return None;
+    }
     let (mut left, mut chosen) = (choice * all, 0);
-    while chosen + 1 < targets.len() && left >= TAU * cone_to(&targets[chosen], from).1 {
-        left -= TAU * cone_to(&targets[chosen], from).1;
+    while chosen + 1 < cones.len() && left >= TAU * cones[chosen].1 {
+        left -= TAU * cones[chosen].1;
         chosen += 1;
     }
-    let (axis, whole) = cone_to(&targets[chosen], from);
+    let (axis, whole) = cones[chosen];
     let direction = cone_direction(axis, whole, u);
-    let others = targets.iter().enumerate().filter(|(number, target)| {
-        let (axis, whole) = cone_to(target, from);
-        *number != chosen && 0.5 * (direction - axis).length_squared() <= whole
-    });
-    (direction, all / (1 + others.count()) as f64)
+    let others = cones
+        .iter()
+        .enumerate()
+        .filter(|(number, (axis, whole))| *number != chosen && 0.5 * (direction - *axis).length_squared() <= *whole);
+    Some((direction, all / (1 + others.count()) as f64))
 }
 // ANCHOR_END: direction_to_targets
 
@@ -167,7 +181,8 @@ mod tests {
                 let told = function(direction) * if within(direction) { 4.0 * PI } else { 0.0 };
                 (even, squares) = (even + told, squares + told * told);
                 let (choice, u) = (draws.unit(), [draws.unit(), draws.unit()]);
-                let (direction, weight) = direction_to_targets(&targets, DVec3::ZERO, choice, u);
+                let drawn = direction_to_targets(&targets, DVec3::ZERO, f64::INFINITY, choice, u);
+                let (direction, weight) = drawn.expect("targets");
                 let told = function(direction) * weight;
                 (aimed, squares) = (aimed + told, squares + told * told);
             }

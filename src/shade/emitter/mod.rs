@@ -13,9 +13,7 @@ mod triangle;
 
 pub use cuboid::{CuboidSeen, cuboid_density, cuboid_distance, cuboid_point};
 pub use disk::{disk_density, disk_point};
-pub use leave::{
-    LeavingPoint, WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction, targets_solid_angle,
-};
+pub use leave::{LeavingPoint, WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
 pub use parallelogram::{
     RectangleSeen, parallelogram_area_density, parallelogram_area_point, parallelogram_density, parallelogram_point,
 };
