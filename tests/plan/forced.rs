@@ -181,6 +181,10 @@ fn forcing_a_needed_stage_off_shows() {
                     assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
                     Some(format!("\"{reader}\" misses `{column}` in \"{name}\""))
                 }
+                Err(Error::Plan(PlanError::WrittenAfterwards { stage: reader, column, writer })) => {
+                    assert!(stage.writes.iter().any(|own| own.name == column), "\"{}\" writes {column}", stage.name);
+                    Some(format!("\"{reader}\" finds `{column}` only after \"{writer}\" in \"{name}\""))
+                }
                 Err(Error::Plan(PlanError::NoSuchView { asked, why })) => {
                     assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
                     Some(format!("the view misses `{asked}` in \"{name}\""))
