@@ -352,7 +352,7 @@ fn what_light_tracing_cannot_do_is_said_in_a_sentence() {
             world.entity_mut(ball).insert(Motion { velocity: DVec3::X });
         }),
         ("on an equirectangular camera", |world, camera| {
-            world.entity_mut(camera).remove::<PerspectiveCamera>().insert(EquirectangularCamera::default());
+            world.entity_mut(camera).remove::<PerspectiveCamera>().insert(EquirectangularCamera);
         }),
         ("light_tracing", |world, _| _ = world.spawn((Name::new("another"), LightTracing::default()))),
         ("on a fisheye camera", |world, camera| {
