@@ -23,15 +23,20 @@ fn scene(world: &mut World) {
         LookAt { eye: [0.0, 4.6, 13.0].into(), target: [0.0, 0.75, -0.4].into(), ..LookAt::default() },
         Resolution { width: 960, height: 540 },
     ));
-    world.spawn((Name::new("pearl"), Sphere { radius: 1.5 }, Placement::at(0.0, 1.5, 0.0), Matte { colour: PEARL }));
+    world.spawn((
+        Name::new("pearl"),
+        Sphere { radius: 1.5 },
+        Placement::at(0.0, 1.5, 0.0),
+        Matte { colour: Rgb::new(0.8, 0.78, 0.74) },
+    ));
     for seed in 0..72 {
         let (turn, ring) = (f64::from(seed) * GOLDEN_ANGLE, 2.0 + 0.062 * f64::from(seed));
-        let radius = 0.2 + 0.0035 * f64::from(seed);
+        let (radius, outward) = (0.2 + 0.0035 * f64::from(seed), f64::from(seed) / 71.0);
         world.spawn((
             Name::new(format!("seed {seed}")),
             Sphere { radius },
             Placement::at(ring * libm::cos(turn), radius, ring * libm::sin(turn)),
-            Matte { colour: seed_colour(f64::from(seed) / 71.0) },
+            Matte { colour: Rgb::new(0.8 - 0.7 * outward, 0.2 + 0.2 * outward, 0.1 + 0.3 * outward) },
         ));
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.52, 0.5, 0.47) }));
@@ -42,20 +47,4 @@ fn scene(world: &mut World) {
         world.spawn((Name::new(name), PointLight { intensity, ..PointLight::default() }, at));
     }
     world.spawn((Name::new("dusk"), Background { colour: Rgb::new(0.016, 0.021, 0.034) }));
-}
-
-const PEARL: Rgb = Rgb::new(0.8, 0.78, 0.74);
-const EMBER: Rgb = Rgb::new(0.82, 0.2, 0.07);
-const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
-const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);
-
-/// From ember through gold to teal, the further out.
-fn seed_colour(way: f64) -> Rgb {
-    if way < 0.5 { blend(EMBER, GOLD, 2.0 * way) } else { blend(GOLD, TEAL, 2.0 * way - 1.0) }
-}
-
-/// A colour on the way from one to another.
-fn blend(from: Rgb, to: Rgb, way: f64) -> Rgb {
-    let [r, g, b] = (from.to_vec() * (1.0 - way) + to.to_vec() * way).to_array();
-    Rgb::new(r, g, b)
 }
