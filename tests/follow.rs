@@ -102,7 +102,14 @@ fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightSampling], samp
 
 #[test]
 fn ways_to_find_light_agree_on_the_public_scenes() {
-    for (name, samples) in [("cornell", 16), ("cornell-glass", 16), ("veach-mis", 24)] {
+    for (name, samples) in [
+        ("cornell", 16),
+        ("cornell-glass", 16),
+        ("veach-mis", 24),
+        ("spheres", 4),
+        ("spheres-lens", 4),
+        ("spheres-sky", 4),
+    ] {
         let make = || {
             let mut world = public(name, LightSampling::Weighed);
             let camera = named(&mut world, "camera");
