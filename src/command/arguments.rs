@@ -1,3 +1,4 @@
+use super::format::Format;
 use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution};
 use super::report_arguments::ReportErrors;
 use crate::look::convention::Mistake;
@@ -28,6 +29,9 @@ use std::path::PathBuf;
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
+    /// Print tables for a person, or one JSON value for a program
+    #[arg(long, global = true, value_enum, default_value_t, hide_possible_values = true, value_name = "text|json")]
+    pub format: Format,
 }
 
 #[derive(Subcommand)]

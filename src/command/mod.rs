@@ -14,6 +14,7 @@ mod export;
 mod extremes;
 mod figure;
 mod find;
+mod format;
 mod hints;
 mod interrupt;
 mod list;
