@@ -14,6 +14,8 @@ mod bad_places;
 mod edits;
 #[path = "scene_files/fuzz.rs"]
 mod fuzz;
+#[path = "scene_files/hostile.rs"]
+mod hostile;
 #[path = "scene_files/list.rs"]
 mod list;
 #[path = "scene_files/round_trip.rs"]
@@ -35,6 +37,17 @@ fn typed(words: &[&str]) -> pinhole::Result<String> {
     let mut out = Vec::new();
     pinhole::command::run(&chapters::all(), &words, &mut out)?;
     Ok(String::from_utf8(out).expect("text"))
+}
+
+/// Few files of the very code to which `cargo bench --bench hostile` gives a hundred thousand.
+#[test]
+fn no_damaged_file_brings_a_command_down() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bases = hostile::Bases::in_folder(folder.path());
+    let mut counts = hostile::Counts::default();
+    (0..240).for_each(|seed| bases.try_seed(seed, &mut counts));
+    eprintln!("damaged files: {counts}");
+    assert!(counts.hold(), "{counts}");
 }
 
 /// Few cases of the very code that `cargo bench --bench fuzz` runs a million times.

@@ -1,0 +1,36 @@
+//! A hundred thousand damaged files given to the program's commands: `cargo bench --bench hostile [-- how many [the first]]`.
+//!
+//! Scene files through `plan`, `render`, `trace` and `preflight`; textures through `render`; images through `compare`;
+//! checkpoints through `render --resume`.
+//! The same code, and few of the same files, run in `cargo test --test scene_files`.
+
+#[path = "../../chapters/mod.rs"]
+mod chapters;
+#[path = "../scene_files/fuzz.rs"]
+#[expect(dead_code, reason = "the bench `fuzz` and the tests use the rest")]
+mod fuzz;
+#[path = "../scene_files/hostile.rs"]
+mod hostile;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+
+use std::time::Instant;
+
+fn main() {
+    let numbers: Vec<u64> = std::env::args().filter_map(|word| word.parse().ok()).collect();
+    let count = numbers.first().copied().unwrap_or(100_000);
+    let first = numbers.get(1).copied().unwrap_or(0);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bases = hostile::Bases::in_folder(folder.path());
+    let mut counts = hostile::Counts::default();
+    let started = Instant::now();
+    for seed in first..first + count {
+        bases.try_seed(seed, &mut counts);
+        let done = seed - first + 1;
+        if done % 5_000 == 0 {
+            eprintln!("after {:?}: {counts}", started.elapsed());
+        }
+    }
+    eprintln!("{counts}, in {:?}", started.elapsed());
+    assert!(counts.hold(), "some files bring a command down");
+}
