@@ -211,6 +211,27 @@ fn the_readme_opens_with_the_cover_that_the_kit_renders_now() {
     eprintln!("the kept cover: 144 blocks, the worst {:.1} % from a small one", 100.0 * worst);
 }
 
+/// A single path that hits the lamp must not whiten a pixel: none is brighter than all its neighbours by a quarter of the
+/// range.
+#[test]
+fn the_kept_cover_has_no_white_specks() {
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters/cover/cover.png");
+    let picture = image::open(kept).expect("a PNG").into_luma8();
+    let luma = |x: u32, y: u32| i16::from(picture.get_pixel(x, y).0[0]);
+    let (mut specks, mut worst) = (Vec::new(), 0);
+    for (x, y) in (1..picture.height() - 1).flat_map(|y| (1..picture.width() - 1).map(move |x| (x, y))) {
+        let square = (y - 1..=y + 1).flat_map(|row| (x - 1..=x + 1).map(move |column| (column, row)));
+        let around = square.filter(|&at| at != (x, y)).map(|(column, row)| luma(column, row));
+        let above = luma(x, y) - around.max().expect("eight neighbours");
+        worst = worst.max(above);
+        if above >= 64 {
+            specks.push((x, y));
+        }
+    }
+    assert!(specks.is_empty(), "{} white specks on the kept cover, at {specks:?}", specks.len());
+    eprintln!("the kept cover: no pixel is brighter than all its neighbours by more than {worst} of 255");
+}
+
 #[test]
 fn the_readme_s_commands_are_commands() {
     let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("kept");
