@@ -3,8 +3,12 @@
 mod scenes;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
-use pinhole::film::{Curve, Film, FilmTile, Rejected, byte_from_linear, png_bytes, write_exr, write_png};
+use pinhole::film::{
+    Curve, FIRST_SAMPLE_STEPS, Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, SplatFilter,
+    byte_from_linear, png_bytes, write_exr, write_layered_exr, write_png,
+};
 use pinhole::rays::Tile;
+use pinhole::scene::{Filter, LayerKind};
 use scenes::{Setup, full, offer};
 use std::fs;
 
@@ -88,4 +92,41 @@ fn files_read_back_as_the_film() {
         }
     }
     eprintln!("files: 3 sizes, PNG by two curves and EXR, every pixel equal to the film");
+}
+
+/// Light from the lights is summed in f64, and the squares of f32 do not fit f32: a picture holds no infinite number.
+#[test]
+fn more_light_than_a_picture_holds_is_its_largest_number() {
+    let (width, height) = (3, 2);
+    let mut film = Film::new(width, height, 32);
+    for row in 0..6 {
+        film.tiles[0].add(row, [f32::MAX, 1.0, 0.0]);
+    }
+    film.done[0] = FIRST_SAMPLE_STEPS;
+    assert_eq!((film.mean(0, 0), film.too_bright()), ([f32::MAX, 1.0, 0.0], 0));
+    let mut splats = FilmSplats::new(width, height);
+    let mut filter = SplatFilter::new(Filter::Box { radius: 0.5 });
+    splats.add(&mut filter, [0.5, 0.5], [1e38, 1e300, 1.0]);
+    splats.paths = 1;
+    film.splats = Some(splats);
+    assert_eq!(film.mean(0, 0), [f32::MAX, f32::MAX, 1.0]);
+    assert_eq!(film.mean(1, 0), [f32::MAX, 1.0, 0.0]);
+    assert_eq!(film.too_bright(), 1);
+
+    let kinds = [LayerKind::Variance];
+    film.layers = vec![FilmLayers::new(6, &kinds)];
+    film.moments = vec![FilmMoments { r: vec![1e77; 6], g: vec![0.0; 6], b: vec![f64::MAX; 6] }];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("bright.exr");
+    write_layered_exr(&film, &[], &path).expect("written");
+    let layer = read_first_flat_layer_from_file(&path).expect("an EXR").layer_data;
+    let (mut values, mut largest) = (0, 0);
+    for channel in &layer.channel_data.list {
+        let FlatSamples::F32(numbers) = &channel.sample_data else { panic!("{} is not f32", channel.name) };
+        assert!(numbers.iter().all(|number| number.is_finite()), "{}: {numbers:?}", channel.name);
+        values += numbers.len();
+        largest += numbers.iter().filter(|&&number| number == f32::MAX).count();
+    }
+    assert_eq!((values, largest), (36, 6 + 1 + 12), "red, one green, and two variances");
+    eprintln!("bright: {values} numbers of a file, {largest} of them as large as there are");
 }

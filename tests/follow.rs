@@ -6,6 +6,10 @@ mod broken;
 mod caustics;
 #[path = "../chapters/mod.rs"]
 mod chapters;
+#[path = "follow/long_paths.rs"]
+mod long_paths;
+#[path = "follow/nested.rs"]
+mod nested;
 #[path = "follow/numerics.rs"]
 mod numerics;
 #[path = "follow/preflight.rs"]

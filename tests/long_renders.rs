@@ -8,6 +8,8 @@ mod adaptive;
 mod killed;
 #[path = "long_renders/layers.rs"]
 mod layers;
+#[path = "long_renders/stopped.rs"]
+mod stopped;
 
 use bevy_ecs::prelude::*;
 use pinhole::Error;

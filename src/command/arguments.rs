@@ -271,6 +271,9 @@ pub struct TraceChapter {
     /// Which of its samples, counted from 0
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub sample: u32,
+    /// Print every bounce of a long path, not only the first and the last few
+    #[arg(long)]
+    pub all: bool,
     #[command(flatten)]
     pub options: SceneOptions,
 }

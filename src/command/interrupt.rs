@@ -1,17 +1,35 @@
+use crate::film::writes_under_way;
 use crate::render::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::Write;
-use std::process;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
+use std::time::{Duration, Instant};
+use std::{process, thread};
 
-/// Set once the reader has pressed Ctrl-C.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Set once the reader has pressed Ctrl-C, or has asked by SIGTERM.
+static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+/// How many there are who look at the flag and end by themselves.
+static ENDING_BY_ITSELF: AtomicUsize = AtomicUsize::new(0);
+/// The status of a program that Ctrl-C has ended, as shells have it: 128 and the signal's number.
+const STATUS: i32 = 130;
+/// How long a file that is being written is waited for.
+const WAIT_FOR_FILES: Duration = Duration::from_millis(800);
+const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
-/// From now on Ctrl-C stops a render between two tiles, and nothing is written; a second one ends the program.
+/// From now on Ctrl-C and SIGTERM end the program within a second.
+///
+/// Where something is under way that keeps what it has, it is told to stop and ends by itself, unless it is asked a second
+/// time; everything else, whatever it may be waiting for, just ends.
 pub fn stop_on_interrupt() {
-    let handled = ctrlc::set_handler(|| {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            process::exit(130);
+    let flag = Arc::clone(&INTERRUPTED);
+    let handled = ctrlc::set_handler(move || {
+        let again = flag.swap(true, Ordering::SeqCst);
+        if again {
+            process::exit(STATUS);
+        }
+        if ENDING_BY_ITSELF.load(Ordering::SeqCst) == 0 {
+            end();
         }
     });
     if let Err(refused) = handled {
@@ -19,9 +37,45 @@ pub fn stop_on_interrupt() {
     }
 }
 
-/// Whether the reader has pressed Ctrl-C.
+/// Ends the program, but lets a file that is being written become whole.
+fn end() {
+    let asked = Instant::now();
+    while writes_under_way() > 0 && asked.elapsed() < WAIT_FOR_FILES {
+        thread::sleep(LOOK_AGAIN);
+    }
+    // A terminal shows ^C, or a bar, on the line that the cursor is on.
+    let mut errors = std::io::stderr();
+    let line = if errors.is_terminal() { "\n" } else { "" };
+    let _ = writeln!(errors, "{line}pinhole: stopped before it was done; files that were there are whole");
+    process::exit(STATUS);
+}
+
+/// Held by whoever looks at [`interrupted`] many times a second, or hands [`stop_flag`] on to a render, and ends by itself
+/// in good order.
+pub struct EndsByItself;
+
+impl EndsByItself {
+    /// From now on, until this is dropped.
+    pub fn begin() -> Self {
+        ENDING_BY_ITSELF.fetch_add(1, Ordering::SeqCst);
+        Self
+    }
+}
+
+impl Drop for EndsByItself {
+    fn drop(&mut self) {
+        ENDING_BY_ITSELF.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Whether the reader has asked to stop.
 pub fn interrupted() -> bool {
-    INTERRUPTED.load(Ordering::Relaxed)
+    INTERRUPTED.load(Ordering::SeqCst)
+}
+
+/// The flag itself, for a render to look at within a tile.
+pub fn stop_flag() -> Arc<AtomicBool> {
+    Arc::clone(&INTERRUPTED)
 }
 
 /// Someone at a terminal: sees a bar, and may press Ctrl-C.
@@ -69,5 +123,9 @@ impl Watch for Waiting {
 
     fn stopped(&self) -> bool {
         interrupted()
+    }
+
+    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
+        Some(stop_flag())
     }
 }

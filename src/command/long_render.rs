@@ -1,4 +1,4 @@
-use super::interrupt::Waiting;
+use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
 use super::span::told;
 use crate::extract::{ShapeTable, adaptive_of};
@@ -90,6 +90,7 @@ pub fn render_long(
         files.write(film)?;
         write_checkpoint(film, key, &checkpoint)
     };
+    let ends_by_itself = EndsByItself::begin();
     let outcome = render_in_passes(render, &limits, &waiting, &mut keep);
     waiting.done();
     let outcome = outcome?;
@@ -104,6 +105,7 @@ pub fn render_long(
             files.told(true)
         )));
     }
+    drop(ends_by_itself);
     files.write(&render.film)?;
     if outcome.time >= WORTH_KEEPING || options.write_every.is_some() || options.resume {
         write_checkpoint(&render.film, key, &checkpoint)?;

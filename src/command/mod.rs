@@ -69,7 +69,7 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         }
         Some(Command::Trace(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?;
-            trace::print_trace(&subject, asked.pixel, asked.sample, &asked.options, out)
+            trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, out)
         }
         Some(Command::Export(asked)) => export::export(chapters, &asked, out),
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, out),
@@ -91,7 +91,7 @@ pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write)
     match arguments.trace {
         Some(pixel) => {
             let (subject, options) = (Subject::Chapter(chapter), &arguments.options.scene);
-            trace::print_trace(&subject, pixel, arguments.sample, options, out)
+            trace::print_trace(&subject, pixel, arguments.sample, false, options, out)
         }
         None => render::render_subject(&Subject::Chapter(chapter), &arguments.options, out),
     }

@@ -33,7 +33,8 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, out: &mut dyn
 }
 
 fn said(scene: &World, stages: &[Stage]) -> Result<Vec<String>> {
-    preflight(scene, stages, &prepare(scene, stages)?.0, Preflight::default())
+    let (plan, tables) = prepare(scene, stages)?;
+    preflight(scene, (&plan, &tables), Preflight::default())
 }
 
 fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {

@@ -33,8 +33,9 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     check_requests(&scene, options, &pictures)?;
     let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
     if !options.quiet && !options.stats {
-        let asked = Preflight { threads: execution.threads, ends_in_time: options.time.is_some() };
-        for warning in preflight(&scene, &subject.stages(), &render.plan, asked)? {
+        let (threads, ends_in_time) = (execution.threads, options.time.is_some());
+        let asked = Preflight { threads, ends_in_time, ..Preflight::default() };
+        for warning in preflight(&scene, (&render.plan, render.tables()), asked)? {
             writeln!(out, "before rendering: {warning}")?;
         }
     }
@@ -61,6 +62,7 @@ pub fn render_subject(subject: &Subject<'_>, options: &RenderOptions, out: &mut 
     }
     writeln!(out, "wrote {}", files.told(outcome.is_some() && files.checkpoint().exists()))?;
     warn_of_rejected(&rendered.film, out)?;
+    tell_of_too_much_light(&rendered.film, out)?;
     warn_of_empty_layers(&rendered.film, &rendered.plan, out)?;
     tell_of_negative_weights(&rendered.film, out)?;
     warn_of_narrow_pixels(subject, options, out)?;
@@ -131,6 +133,19 @@ fn warn_of_rejected(film: &Film, out: &mut dyn Write) -> Result {
     );
     if count > 0 {
         writeln!(out, "warning: {count} samples were negative or not finite and did not join the film; {which}")?;
+    }
+    Ok(())
+}
+
+/// Says how many pixels have gathered more light than a picture holds.
+fn tell_of_too_much_light(film: &Film, out: &mut dyn Write) -> Result {
+    let pixels = film.too_bright();
+    if pixels > 0 {
+        writeln!(
+            out,
+            "note: {pixels} pixels gathered more light than 32-bit floats hold; they show {:e} instead",
+            f32::MAX
+        )?;
     }
     Ok(())
 }

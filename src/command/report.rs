@@ -1,5 +1,5 @@
 use super::figure::svg_place;
-use super::interrupt::interrupted;
+use super::interrupt::{EndsByItself, interrupted, stop_flag};
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
@@ -23,6 +23,8 @@ use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The pixels of a report's image, unless it is told otherwise: as many as fit its time.
 const PIXELS: f64 = 96.0 * 54.0;
@@ -84,6 +86,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) 
     let shelf = Shelf::new(Path::new("out/report").join(format!("{name}.runs")), shelf_made_from);
     let mut provenance = Provenance::now(command_line(asked));
     let waiting = Bar::new(&ladder, &variants);
+    let ends_by_itself = EndsByItself::begin();
     let runs = run_all(&variants, &ladder, threads, &shelf, &waiting);
     waiting.bar.finish_and_clear();
     let runs = runs.map_err(|error| match error {
@@ -92,6 +95,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) 
         )),
         other => other,
     })?;
+    drop(ends_by_itself);
     provenance.load[1] = load();
     let measured = measure(&variants, &ladder, &runs)?;
     let scenes = variants.iter().map(|variant| {
@@ -296,6 +300,10 @@ impl Bar {
 impl Watch for Bar {
     fn stopped(&self) -> bool {
         interrupted()
+    }
+
+    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
+        Some(stop_flag())
     }
 }
 

@@ -10,12 +10,14 @@ pub fn print_trace(
     subject: &Subject<'_>,
     pixel: TracePixel,
     sample: u32,
+    prints_all: bool,
     options: &SceneOptions,
     out: &mut dyn Write,
 ) -> Result {
     let asked = options.asked(false);
     let traced = look::trace_sample(&subject.world(&asked), &subject.stages(), pixel, sample);
-    let trace = traced.map_err(|error| subject.placed(error, &asked))?;
+    let mut trace = traced.map_err(|error| subject.placed(error, &asked))?;
+    trace.prints_all = prints_all;
     write!(out, "{} {trace}", subject.name())?;
     Ok(())
 }

@@ -1,6 +1,6 @@
 use super::arguments::RenderChapter;
 use super::find::is_scene_file;
-use super::interrupt::interrupted;
+use super::interrupt::{EndsByItself, interrupted};
 use super::render::render_subject;
 use super::subject::Subject;
 use crate::chapter::Chapter;
@@ -32,6 +32,7 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
         return Err(Error::Usage(format!("cannot watch {}: {what}", asked.chapter)));
     }
     let (mut seen, mut last) = (stamp(file), None);
+    let mut waits = EndsByItself::begin();
     while !interrupted() {
         let now = stamp(file);
         let settled = last.is_none() || seen == now;
@@ -41,8 +42,11 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
             continue;
         }
         last = Some(now);
+        // A render has its own say in how it ends.
+        drop(waits);
         let rendered =
             Subject::find(chapters, &asked.chapter).and_then(|subject| render_subject(&subject, &asked.options, out));
+        waits = EndsByItself::begin();
         match rendered {
             Err(Error::Print(broken)) => return Err(Error::Print(broken)),
             Err(Error::Interrupted | Error::Stopped(_)) => break,

@@ -22,6 +22,11 @@ impl Bounds {
         Self { least: centre - reach, most: centre + reach }
     }
 
+    /// Whether the two have a point in common.
+    pub fn meets(&self, other: &Self) -> bool {
+        !(other.most.cmplt(self.least) | self.most.cmplt(other.least)).any()
+    }
+
     /// Of a sphere.
     pub fn of_sphere(centre: DVec3, radius: f64) -> Self {
         Self::about(centre, DVec3::splat(radius))

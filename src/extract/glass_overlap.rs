@@ -8,6 +8,7 @@ use crate::scene::{Glass, Refusal, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 /// A shape of glass and the box about it.
 struct Piece {
@@ -43,6 +44,57 @@ pub fn glass_overlaps(scene: &World) -> Evidence {
     }
 }
 
+/// Evidence that more than so many shapes of glass may hold one point, by the boxes about them: each of those shapes then
+/// overlaps with at least so many others.
+///
+/// It may be said of shapes that do not hold a point together, but is never missed of those that do.
+pub fn deep_glass(scene: &World, places: usize) -> Evidence {
+    let none = || Evidence { needed: false, reason: format!("no {} shapes of glass overlap", places + 1), count: 0 };
+    // What cannot be extracted is refused before anything is rendered.
+    let Ok(pieces) = pieces(scene) else { return none() };
+    if !overlap_deeply(&surfaces(pieces), places) {
+        return none();
+    }
+    let count = places + 1;
+    Evidence { needed: true, reason: format!("{count} shapes of glass or more may overlap"), count }
+}
+
+/// The same with the parts of one surface put together.
+fn surfaces(pieces: Vec<Piece>) -> Vec<Piece> {
+    let (parts, mut whole): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.part);
+    let mut of_glass: BTreeMap<u32, Piece> = BTreeMap::new();
+    for part in parts {
+        let surface = of_glass.entry(part.of).or_insert(Piece { ..part });
+        surface.bounds.least = surface.bounds.least.min(part.bounds.least);
+        surface.bounds.most = surface.bounds.most.max(part.bounds.most);
+    }
+    whole.extend(of_glass.into_values());
+    whole
+}
+
+/// Whether more than so many pieces overlap with at least so many others each.
+fn overlap_deeply(pieces: &[Piece], places: usize) -> bool {
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    let least = |piece: usize| pieces[piece].bounds.least.x;
+    order.sort_by(|&a, &b| least(a).partial_cmp(&least(b)).unwrap_or(Ordering::Equal));
+    let (mut overlaps, mut deep) = (vec![0; pieces.len()], 0);
+    let mut open: Vec<usize> = Vec::new();
+    for piece in order {
+        open.retain(|&other| pieces[other].bounds.most.x >= least(piece));
+        for &other in open.iter().filter(|&&other| pieces[other].bounds.meets(&pieces[piece].bounds)) {
+            for one in [other, piece] {
+                overlaps[one] += 1;
+                deep += usize::from(overlaps[one] == places);
+            }
+        }
+        if deep > places {
+            return true;
+        }
+        open.push(piece);
+    }
+    false
+}
+
 /// The numbers of two shapes whose boxes meet, the first such pair along x.
 fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
     let by_least = |a: &Piece, b: &Piece| {
@@ -54,8 +106,7 @@ fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
         open.retain(|other| other.bounds.most.x >= piece.bounds.least.x);
         let meets = |other: &&&Piece| {
             let one_surface = piece.part && other.part && piece.of == other.of;
-            let apart = other.bounds.most.cmplt(piece.bounds.least) | piece.bounds.most.cmplt(other.bounds.least);
-            !one_surface && !apart.any()
+            !one_surface && other.bounds.meets(&piece.bounds)
         };
         if let Some(other) = open.iter().find(meets) {
             let (one, other) = (piece.shape.min(other.shape), piece.shape.max(other.shape));

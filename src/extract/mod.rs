@@ -83,7 +83,7 @@ pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radi
 pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use flat::Flat;
 pub use glass::{GlassTable, glass_evidence};
-pub use glass_overlap::{glass_overlaps, glass_that};
+pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::Texels;
 pub use image_texture::ImageTable;

@@ -22,6 +22,19 @@ pub fn srgb_from_linear(linear: f64) -> f64 {
 }
 // ANCHOR_END: srgb_from_linear
 
+/// A sum's mean as a picture holds it: light is not below 0, and what is more than f32 holds counts as its largest number,
+/// for an infinite pixel spoils every mean that it enters.
+#[inline(always)]
+pub(super) fn shown(mean: f64) -> f32 {
+    finite(mean.max(0.0))
+}
+
+/// A number in f32, of either sign; the largest that there is where it would be infinite.
+#[inline(always)]
+pub(super) fn finite(number: f64) -> f32 {
+    number.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+}
+
 /// For each byte above 0, the least light that rounds to it.
 static BYTE_STEPS: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|step| linear_from_srgb((step as f64 + 0.5) / 255.0)));

@@ -1,3 +1,4 @@
+use super::develop::shown;
 use super::{FilmLayers, FilmMoments, FilmSplats};
 use crate::plan::{Column, Lane, LaneValues, Lifetime};
 use crate::rays::Tile;
@@ -114,7 +115,7 @@ impl FilmTile {
     /// the plain mean.
     /// Where such a filter rings below 0, it is 0.
     pub fn mean(&self, row: usize) -> [f32; 3] {
-        self.shown_f64(row).map(|part| part.max(0.0) as f32)
+        self.shown_f64(row).map(shown)
     }
 
     /// The same, unrounded, and below 0 where a filter rings.
@@ -241,19 +242,28 @@ impl Film {
         let waits =
             self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS);
         if !waits {
-            return self.with_splats(x, y, &self.tiles[tile], row);
+            return self.with_splats(x, y, &self.tiles[tile], row).map(shown);
         }
         let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
         let traced = |&(tile, row): &(usize, usize)| self.tiles[tile].count[row] > 0;
         let (tile, row) = coarser.into_iter().find(traced).unwrap_or((tile, row));
-        self.with_splats(x, y, &self.tiles[tile], row)
+        self.with_splats(x, y, &self.tiles[tile], row).map(shown)
     }
 
     /// The mean of a tile's row, and beside it what rays from the lights brought to a pixel.
-    fn with_splats(&self, x: u32, y: u32, tile: &FilmTile, row: usize) -> [f32; 3] {
-        let Some(splats) = &self.splats else { return tile.mean(row) };
-        let (seen, brought) = (tile.shown_f64(row), splats.mean(x, y));
-        [0, 1, 2].map(|part| (seen[part] + brought[part]).max(0.0) as f32)
+    fn with_splats(&self, x: u32, y: u32, tile: &FilmTile, row: usize) -> [f64; 3] {
+        let (seen, brought) = (tile.shown_f64(row), self.splats.as_ref().map(|splats| splats.mean(x, y)));
+        brought.map_or(seen, |brought| [0, 1, 2].map(|part| seen[part] + brought[part]))
+    }
+
+    /// How many pixels have gathered more light than a picture's 32-bit floats hold, and show the most that these do.
+    pub fn too_bright(&self) -> usize {
+        let pixels = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        let is_too_bright = |&(x, y): &(u32, u32)| {
+            let (tile, row) = self.place(x, y);
+            self.with_splats(x, y, &self.tiles[tile], row).iter().any(|&part| part > f64::from(f32::MAX))
+        };
+        pixels.filter(is_too_bright).count()
     }
 
     /// The tile that holds a pixel, and the pixel's row in it.

@@ -1,3 +1,4 @@
+use super::develop::finite;
 use super::{Film, write_whole};
 use crate::Result;
 use crate::scene::LayerKind;
@@ -66,11 +67,11 @@ fn samples(film: &Film, kind: LayerKind, channel: usize) -> FlatSamples {
         })),
         LayerKind::Variance => FlatSamples::F32(pixels(film, |x, y| {
             let (tile, row) = film.place(x, y);
-            film.variance_of_mean(tile, row)[channel] as f32
+            finite(film.variance_of_mean(tile, row)[channel])
         })),
         _ => FlatSamples::F32(pixels(film, |x, y| {
             let (tile, row) = film.place(x, y);
-            film.layers[tile].mean(kind, channel, row) as f32
+            finite(film.layers[tile].mean(kind, channel, row))
         })),
     }
 }

@@ -2,6 +2,7 @@ use crate::{Error, Result};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use tempfile::{Builder, NamedTempFile};
 
 /// Writes a file whole or not at all: into a temporary file beside it, which then takes its name.
@@ -18,10 +19,35 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io:
 /// Missing folders are made.
 /// Errors: as [`write_whole`].
 pub fn check_place(path: &Path) -> Result {
+    let _counted = UnderWay::begin();
     place_beside(path).map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
 }
 
+/// How many files are being written at this moment, for whoever is about to end the program.
+pub fn writes_under_way() -> usize {
+    UNDER_WAY.load(Ordering::SeqCst)
+}
+
+static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
+
+/// Counts a file while it is there under another name.
+struct UnderWay;
+
+impl UnderWay {
+    fn begin() -> Self {
+        UNDER_WAY.fetch_add(1, Ordering::SeqCst);
+        Self
+    }
+}
+
+impl Drop for UnderWay {
+    fn drop(&mut self) {
+        UNDER_WAY.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
 fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
+    let _counted = UnderWay::begin();
     let temporary = place_beside(path)?;
     let mut buffered = BufWriter::new(temporary.as_file());
     write(&mut buffered)?;

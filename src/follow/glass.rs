@@ -1,6 +1,7 @@
+use super::deeper_media::{deeper_media_evidence, near_and_far};
 use super::media::media_evidence;
 use super::mirror::mirroring_normal;
-use super::{GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
+use super::{DeeperMedia, GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
 use crate::extract::{
     GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
 };
@@ -66,6 +67,7 @@ struct Met<'a> {
     shading: Option<&'a ShadingNormals>,
     sides: &'a SurfaceSides,
     media: Option<&'a Media>,
+    deeper: Option<&'a DeeperMedia>,
     list: &'a GlassRows,
 }
 
@@ -78,8 +80,9 @@ impl Met<'_> {
         let ior = |of: u32| if of == NO_ROW { 1.0 } else { self.glass.ior[of as usize] };
         match self.media {
             Some(media) => {
-                let crossing = media.get(row).crossing(own, from_outside, &self.glass.priority);
-                ior(crossing.far) / ior(crossing.near)
+                let beyond = self.deeper.map_or(&[][..], |deeper| deeper.get(row));
+                let [near, far] = near_and_far(media.get(row), beyond, own, from_outside, &self.glass.priority);
+                ior(far) / ior(near)
             }
             None if from_outside => ior(own),
             None => 1.0 / ior(own),
@@ -116,17 +119,22 @@ pub fn scatter_glass<const FROM_LIGHT: bool>(
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
     mut tiles: Query<(
-        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths, Option<&Media>),
+        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
+        (Option<&Media>, Option<&DeeperMedia>),
         (&Surfaces, Option<&ShadingNormals>, &SurfaceSides, &GlassRows),
         &mut Scattered,
     )>,
 ) {
-    for ((tile, &leg, number, samples, rays, paths, media), (surfaces, shading, sides, list), mut scattered) in
-        &mut tiles
+    for (
+        (tile, &leg, number, samples, rays, paths),
+        (media, deeper),
+        (surfaces, shading, sides, list),
+        mut scattered,
+    ) in &mut tiles
     {
         let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
         draws_of_one(&draws, Purpose::MatterChoice, &list.row, &mut numbers);
-        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, list };
+        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         scattered.append(&list.row, |number, row| {
             let (direction, normal) = met.met(row);
             let way = glass_event(direction, normal, met.eta(number, row), numbers[number]);
@@ -144,13 +152,13 @@ const LEAST_SHARE: f64 = 1.0 / 512.0;
 pub fn split_at_glass(
     glass: Res<Shared<GlassTable>>,
     mut tiles: Query<(
-        (&WorldRays, &Paths, Option<&Media>),
+        (&WorldRays, &Paths, Option<&Media>, Option<&DeeperMedia>),
         (&Surfaces, Option<&ShadingNormals>, &SurfaceSides, &GlassRows),
         &mut Scattered,
     )>,
 ) {
-    for ((rays, paths, media), (surfaces, shading, sides, list), mut scattered) in &mut tiles {
-        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, list };
+    for ((rays, paths, media, deeper), (surfaces, shading, sides, list), mut scattered) in &mut tiles {
+        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         for which in [0, 1] {
             scattered.append(&list.row, |number, row| {
                 let (direction, normal) = met.met(row);
@@ -204,6 +212,7 @@ fn reading(stage: Stage) -> Stage {
         .reads::<SurfaceSides>()
         .reads::<GlassRows>()
         .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
         .appends::<Scattered>()
         .table::<GlassTable>()
 }

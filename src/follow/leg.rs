@@ -1,5 +1,6 @@
+use super::deeper_media::deeper_media_evidence;
 use super::media::media_evidence;
-use super::{Media, Scattered};
+use super::{DeeperMedia, Media, Scattered, Stop};
 use crate::extract::{IntegratorTable, filtered_evidence, followed_evidence, motion_evidence};
 use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
 use crate::rays::{Leg, PathLight, Paths, RayTimes, WorldRays};
@@ -68,11 +69,15 @@ pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
 }
 
 // ANCHOR: follow_legs
-/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left.
+/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left or nobody waits for
+/// them any longer.
 pub fn follow_legs(world: &mut World, tiles: &mut QueryState<&WorldRays, With<Leg>>) {
     let legs = world.resource::<Shared<IntegratorTable>>().legs;
     for _ in 1..legs {
         if tiles.iter(world).all(|rays| rays.rows() == 0) {
+            break;
+        }
+        if world.get_resource_mut::<Stop>().is_some_and(|mut stop| stop.gives_up()) {
             break;
         }
         world.run_schedule(Bounce);
@@ -141,6 +146,7 @@ pub fn follow_stage() -> Stage {
         .on_first_leg()
         .reads::<WorldRays>()
         .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
         .reads_where::<RayTimes>(motion_evidence)
         .reads_where::<Footprints>(filtered_evidence)
         .reads::<PathLight>()

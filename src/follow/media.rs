@@ -1,4 +1,5 @@
-use super::{GlassRows, MediumStack, Scattered, transmittance};
+use super::deeper_media::{Carrier, deeper_media_evidence};
+use super::{DeeperMedia, GlassRows, MediumStack, Scattered, transmittance};
 use crate::extract::{GlassTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that};
 use crate::intersect::{Hits, SurfaceSides, Surfaces};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
@@ -15,12 +16,15 @@ column! {
         second: u32,
         /// The next.
         third: u32,
-        /// And the last that is remembered.
+        /// And the last here; what else there is stands in the column of deeper media, where that exists.
         fourth: u32,
     }
 }
 
 impl Media {
+    /// How many kinds of glass a row names.
+    pub(super) const PLACES: usize = 4;
+
     /// White in glass.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [f32::from(u8::from(self.first[row] != NO_ROW)); 3]
@@ -43,8 +47,11 @@ impl Media {
 /// Starts every ray outside all glass, but for those that meet glass from within: these started in it.
 ///
 /// What else lies in the glass that a ray started in hides its wall, and then it is not known.
-pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut Media)>) {
-    for (rays, sides, list, mut media) in &mut tiles {
+pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut Media, Option<&mut DeeperMedia>)>) {
+    for (rays, sides, list, mut media, deeper) in &mut tiles {
+        if let Some(mut deeper) = deeper {
+            deeper.start(rays.rows());
+        }
         let (first, second, third, fourth) = media.slices_mut(rays.rows());
         [&mut *first, second, third, fourth].into_iter().for_each(|lane| lane.fill(NO_ROW));
         for (&row, &of) in list.row.iter().zip(&list.of) {
@@ -78,9 +85,11 @@ pub fn carry_media(
     glass: Res<Shared<GlassTable>>,
     mut kept: Local<Media>,
     mut glass_of: Local<Vec<u32>>,
-    mut tiles: Query<(&Scattered, &Surfaces, &SurfaceSides, &GlassRows, &mut Media)>,
+    mut carrier: Local<Carrier>,
+    mut tiles: Query<(&Scattered, &Surfaces, &SurfaceSides, &GlassRows, &mut Media, Option<&mut DeeperMedia>)>,
 ) {
-    for (scattered, surfaces, sides, list, mut media) in &mut tiles {
+    for (scattered, surfaces, sides, list, mut media, mut deeper) in &mut tiles {
+        carrier.start();
         glass_of.clear();
         glass_of.resize(surfaces.rows(), NO_ROW);
         list.row.iter().zip(&list.of).for_each(|(&row, &of)| glass_of[row as usize] = of);
@@ -89,9 +98,17 @@ pub fn carry_media(
             let row = scattered.path[ray] as usize;
             let goes = DVec3::new(scattered.dx[ray].into(), scattered.dy[ray].into(), scattered.dz[ray].into());
             let through = glass_of[row] != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
-            let stack = media.get(row);
-            let crossing = || stack.crossing(glass_of[row], sides.outside[row] != 0, &glass.priority);
-            kept.set(ray, if through { crossing().beyond } else { stack });
+            let (stack, crossed) = (media.get(row), (glass_of[row], sides.outside[row] != 0));
+            let crossing = || stack.crossing(crossed.0, crossed.1, &glass.priority);
+            let next = match &deeper {
+                Some(deeper) => carrier.push((stack, deeper.get(row)), through.then_some(crossed), &glass.priority),
+                None if through => crossing().beyond,
+                None => stack,
+            };
+            kept.set(ray, next);
+        }
+        if let Some(deeper) = &mut deeper {
+            carrier.swap(deeper);
         }
         std::mem::swap(&mut *kept, &mut *media);
     }
@@ -105,6 +122,7 @@ pub fn start_media_stage() -> Stage {
         .reads::<SurfaceSides>()
         .reads::<GlassRows>()
         .writes::<Media>()
+        .writes::<DeeperMedia>()
         .when(media_evidence)
 }
 
@@ -127,7 +145,9 @@ pub fn carry_media_stage() -> Stage {
         .reads::<SurfaceSides>()
         .reads::<GlassRows>()
         .reads::<Media>()
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
         .writes::<Media>()
+        .writes::<DeeperMedia>()
         .table::<GlassTable>()
         .when(media_evidence)
 }

@@ -1,11 +1,11 @@
 use crate::extract::NO_ROW;
 
 // ANCHOR: MediumStack
-/// The kinds of glass that a point lies in, the one that is there first; at most four.
+/// The kinds of glass that a point lies in, the one that is there first; the first four of them.
 ///
 /// Of those whose shapes hold the point the one of the highest priority is there, and of equals the one that was
 /// spawned first, whichever was entered first (Schmidt and Budge 2002).
-/// Who enters a fifth forgets the least of them.
+/// Where more than four shapes of glass may hold a point, [`DeeperMedia`](super::DeeperMedia) knows the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MediumStack {
     /// Rows of the table of glass in order of rank, each as often as its shapes hold the point; [`NO_ROW`] after them.

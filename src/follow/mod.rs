@@ -10,6 +10,7 @@
 mod beer;
 mod caustic_paths;
 mod classify;
+mod deeper_media;
 mod emission;
 mod frame;
 mod fresnel;
@@ -30,12 +31,14 @@ mod roulette;
 mod scattered;
 mod shading_adjoint;
 mod splat;
+mod stop;
 mod unfollowed;
 mod weigh;
 
 pub use beer::{absorbed, transmittance};
 pub use caustic_paths::{CausticPaths, caustic_paths_stage, note_caustic_paths};
 pub use classify::{GlassRows, MetalRows, MirrorRows, classify_matter, classify_matter_stage};
+pub use deeper_media::{DeeperMedia, deeper_media_evidence};
 pub use emission::{
     add_weighed_emission, add_weighed_environment, power_heuristic, weighed_emission_stage, weighed_environment_stage,
 };
@@ -69,6 +72,7 @@ pub use roulette::{chance_to_go_on, play_roulette, roulette_stage};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
 pub use shading_adjoint::{shading_adjoint, shading_adjoint_stage, weigh_by_shading_normals};
 pub use splat::{Splats, keep_polished, keep_polished_stage, splat_light, splat_stage};
+pub use stop::{Stop, is_whole};
 pub use unfollowed::check_matter_is_followed;
 pub use weigh::{weigh_matte, weigh_matte_stage, weigh_metal, weigh_metal_stage};
 

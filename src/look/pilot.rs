@@ -1,13 +1,14 @@
 use crate::Result;
 use crate::extract::ImageShape;
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Column, Stage, Table};
+use crate::plan::{Column, ExtractedTable, Plan, Stage, Table};
 use crate::rays::{Leg, Tile};
-use crate::render::{Hook, inspect_tiles};
+use crate::render::{Hook, look_at_pieces, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// The most pieces of the picture along each axis, and the pixels along a side of each.
 const PIECES: [u32; 2] = [12, 8];
@@ -20,7 +21,7 @@ const LEGS: u32 = 4;
 /// What a few rays of the picture to come have met and brought back.
 #[derive(Clone, Debug, Default)]
 pub struct Pilot {
-    /// Rays from the camera.
+    /// Rays from the camera, in pieces that were finished; all but the last five numbers speak of these.
     pub rays: usize,
     /// Those that met a shape.
     pub met: usize,
@@ -32,11 +33,20 @@ pub struct Pilot {
     pub to_lights: usize,
     /// How many of them each shape is in the way of, by its number.
     pub blocked: BTreeMap<u32, usize>,
-    /// What a ray took on average with all that followed from it, in seconds of one thread.
+    /// What a ray took on average with all that followed from it, in seconds of one thread; where pieces were given up, at
+    /// least that.
     pub seconds_a_ray: f64,
+    /// How many rays follow one of the camera's on average, those to lights not counted.
+    pub followed_by: f64,
+    /// Rays from the camera, those in pieces that were given up counted too.
+    pub tried: usize,
+    /// The most bounces that a ray in a piece had behind it when the piece was given up.
+    pub deepest: u32,
+    /// Pieces of the picture that were to be tried.
+    pub pieces: usize,
 }
 
-/// What a hook has counted so far.
+/// What a hook has counted in one piece so far.
 #[derive(Resource, Clone, Debug, Default)]
 struct Counted {
     met: usize,
@@ -44,45 +54,82 @@ struct Counted {
     to_lights: BTreeMap<u32, usize>,
     /// What is in their way.
     blocked: BTreeMap<u32, BTreeMap<u32, usize>>,
+    /// The bounce at hand, counted from 0, and its rays.
+    bounce: (u32, usize),
+    /// The rays of all bounces before it.
+    before: usize,
 }
 
-/// Traces one sample of each pixel of some small pieces of the picture, evenly spread over it.
+/// Traces one sample of each pixel of some small pieces of the picture, spread evenly over it, until all are done or the
+/// time is up.
 ///
-/// Errors: what the render would be refused for.
-pub fn pilot(scene: &World, offer: &[Stage]) -> Result<Pilot> {
+/// Errors: an image without a shape.
+pub fn pilot(scene: &World, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
     let image = ImageShape::extract(scene)?;
-    let inspection = &mut inspect_tiles(scene, offer, pieces(image), 0, &[counting_hook()])?;
-    let counted = inspection.world.remove_resource::<Counted>().unwrap_or_default();
-    let mut pilot = Pilot { met: counted.met, to_lights: counted.to_lights.values().sum(), ..Pilot::default() };
-    for (shape, count) in counted.blocked.into_values().flatten() {
-        *pilot.blocked.entry(shape).or_default() += count;
-    }
-    for &tile in &inspection.tiles {
-        let rays = inspection.world.get::<Tile>(tile).map_or(0, Tile::rows);
+    let side = SIDE.min(usual_tile_side(scene, prepared.0));
+    let pieces = pieces(image, side);
+    let mut pilot = Pilot { pieces: pieces.len(), ..Pilot::default() };
+    let (mut time, mut all, started) = (0.0, 0, Instant::now());
+    look_at_pieces(scene, prepared, &pieces, patience, &[counting_hook()], &mut |world, took| {
+        let counted = world.remove_resource::<Counted>().unwrap_or_default();
+        let mut tiles = world.query::<(&Tile, Option<&Radiance>)>();
+        let Ok((tile, radiance)) = tiles.single(world) else { return };
+        let rays = tile.rows();
+        all += counted.before + counted.bounce.1;
+        pilot.tried += rays;
+        match took {
+            Some(took) => time += took.as_secs_f64(),
+            None => return pilot.deepest = pilot.deepest.max(counted.bounce.0),
+        }
         pilot.rays += rays;
+        pilot.met += counted.met;
+        pilot.to_lights += counted.to_lights.values().sum::<usize>();
+        for (shape, count) in counted.blocked.into_values().flatten() {
+            *pilot.blocked.entry(shape).or_default() += count;
+        }
         // Where nothing in the scene brings light, there is no such column, or it has no rows.
-        let Some(radiance) = inspection.world.get::<Radiance>(tile).filter(|radiance| radiance.rows() == rays) else {
+        let Some(radiance) = radiance.filter(|radiance| radiance.rows() == rays) else {
             pilot.black += rays;
-            continue;
+            return;
         };
         let (r, g, b) = radiance.slices();
         pilot.black += (0..radiance.rows()).filter(|&row| r[row].max(g[row]).max(b[row]) < DARK).count();
         pilot.beyond_white += (0..radiance.rows()).filter(|&row| r[row].min(g[row]).min(b[row]) > 1.0).count();
+    });
+    if pilot.rays < pilot.tried {
+        time = started.elapsed().as_secs_f64();
     }
-    pilot.seconds_a_ray = inspection.time.as_secs_f64() / pilot.rays.max(1) as f64;
+    pilot.seconds_a_ray = time / pilot.tried.max(1) as f64;
+    pilot.followed_by = (all as f64 / pilot.tried.max(1) as f64 - 1.0).max(0.0);
     Ok(pilot)
 }
 
-/// The pieces: each in the middle of its share of the picture, and all of a small one.
-fn pieces(image: ImageShape) -> Vec<Tile> {
+/// The pieces: each in the middle of its part of the picture, and all of a small one; in an order in which the first few
+/// are spread evenly already.
+fn pieces(image: ImageShape, side: u32) -> Vec<Tile> {
     let along = |pixels: u32, most: u32| -> Vec<[u32; 2]> {
         let count = (pixels / SIDE).clamp(1, most);
-        let side = SIDE.min(pixels);
+        let side = side.min(pixels);
         (0..count).map(|piece| [((2 * piece + 1) * pixels / (2 * count)).saturating_sub(side / 2), side]).collect()
     };
     let columns = along(image.width, PIECES[0]);
     let piece = |[y, height]: [u32; 2]| columns.iter().map(move |&[x, width]| Tile { x, y, width, height });
-    along(image.height, PIECES[1]).into_iter().flat_map(piece).collect()
+    let pieces: Vec<Tile> = along(image.height, PIECES[1]).into_iter().flat_map(piece).collect();
+    let stride = stride(pieces.len());
+    (0..pieces.len()).map(|turn| pieces[turn * stride % pieces.len()]).collect()
+}
+
+/// Steps of about the golden section of a circle leave no large gap at any time; a step that has no factor in common with
+/// the circle comes by every place.
+fn stride(places: usize) -> usize {
+    let has_common = |mut a: usize, mut b: usize| {
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a > 1
+    };
+    let golden = (places as f64 * 0.618).round() as usize;
+    (golden.max(1)..).find(|&step| !has_common(step, places)).unwrap_or(1)
 }
 
 /// Counts what the camera's rays have met, and on the first legs which rays to lights are blocked.
@@ -101,11 +148,12 @@ fn counting_hook() -> Hook {
                 return;
             }
             let mut counted = world.remove_resource::<Counted>().unwrap_or_default();
-            let (mut met, mut to_lights, mut blocked) = (0, 0, BTreeMap::new());
+            let (mut met, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
             let mut leg = 0;
             for (own, hit, light) in tiles.iter(world) {
                 leg = own.0;
                 if let Some(hit) = hit {
+                    rows += hit.rows();
                     met += hit.shape.iter().filter(|&&shape| shape != NO_SHAPE).count();
                 }
                 if let Some((rays, shadows)) = light {
@@ -118,6 +166,12 @@ fn counting_hook() -> Hook {
             if hits && leg == 0 {
                 counted.met = met;
             }
+            if hits {
+                if counted.bounce.0 != leg {
+                    counted.before += counted.bounce.1;
+                }
+                counted.bounce = (leg, rows);
+            }
             if shadows && leg < LEGS {
                 counted.to_lights.insert(leg, to_lights);
                 counted.blocked.insert(leg, blocked);
@@ -126,4 +180,26 @@ fn counting_hook() -> Hook {
         };
         count.into_configs()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every piece is tried once, and the first few of them lie in all quarters of the picture.
+    #[test]
+    fn pieces_are_spread_evenly_from_the_first_on() {
+        for places in 1..=200 {
+            let step = stride(places);
+            let mut seen: Vec<usize> = (0..places).map(|turn| turn * step % places).collect();
+            seen.sort_unstable();
+            assert_eq!(seen, (0..places).collect::<Vec<_>>(), "{places}");
+        }
+        let image = ImageShape { width: 960, height: 540 };
+        let pieces = pieces(image, SIDE);
+        assert_eq!(pieces.len(), 96);
+        let quarter = |tile: &Tile| (tile.x < 480, tile.y < 270);
+        let first: std::collections::BTreeSet<_> = pieces[..8].iter().map(quarter).collect();
+        assert_eq!(first.len(), 4, "{:?}", &pieces[..8]);
+    }
 }

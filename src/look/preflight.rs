@@ -1,16 +1,17 @@
 use super::inside::shape_around_camera;
 use super::pilot::{Pilot, pilot};
-use super::slow::{Effort, slow};
+use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
-    ImageShape, LightTracingTable, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, mirror_evidence, shadowed_point_evidence, traced_evidence,
+    ImageShape, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence,
+    followed_evidence, glass_evidence, integrator_of, mirror_evidence, shadowed_point_evidence, traced_evidence,
 };
-use crate::plan::{Evidence, Plan, Stage, Table};
+use crate::plan::{Evidence, ExtractedTable, Plan, Table};
 use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use std::time::Duration;
 
 /// From this share of the rays on a picture counts as black or white.
 const NEARLY_ALL: f64 = 0.95;
@@ -24,25 +25,41 @@ pub struct Preflight {
     pub threads: Option<usize>,
     /// Whether it ends after a given time.
     pub ends_in_time: bool,
+    /// How long rays may be tried; none for a second.
+    pub patience: Option<Duration>,
 }
+
+/// How long rays are tried. A build without optimisation is about ten times as slow and gets that much longer, so that it
+/// says the same.
+const PATIENCE: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 1 });
 
 /// Says why the picture of a scene is likely to be black or white, to miss light, or to take very long, before it is
 /// rendered: a sentence each.
 ///
 /// Where the plan makes a picture of light, one sample of each pixel of some small pieces of it is traced for that.
+/// That ends after about a second, whatever the scene: what is said then rests on the rays that have come to an end.
+/// `prepared` are the plan and the tables that the render has of the scene.
 /// Errors: what the render would be refused for.
-pub fn preflight(scene: &World, offer: &[Stage], plan: &Plan, asked: Preflight) -> Result<Vec<String>> {
-    if plan.view.is_some() {
+pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), asked: Preflight) -> Result<Vec<String>> {
+    if prepared.0.view.is_some() {
         return Ok(Vec::new());
     }
-    let pilot = pilot(scene, offer)?;
+    let pilot = pilot(scene, prepared, asked.patience.unwrap_or(PATIENCE))?;
     let shapes = ShapeTable::extract(scene).map_err(Error::from)?;
+    let (effort, legs) = (effort(scene, asked)?, IntegratorTable::extract(scene)?.legs);
     let mut told = Vec::new();
-    told.extend(by_pilot(scene, &pilot, &shapes));
+    if pilot.rays > 0 {
+        told.extend(by_pilot(scene, &pilot, &shapes));
+        told.extend(many_bounces(&pilot, legs));
+    } else {
+        told.push(never_done(&pilot, &why_slow(scene, &pilot, legs, shapes.name.len()), effort));
+    }
     told.extend(shape_around_camera(scene, &shapes)?);
     told.extend(unseen(scene));
     told.extend(out_of_reach(scene));
-    told.extend(slow(pilot.seconds_a_ray, effort(scene, asked)?));
+    if pilot.rays > 0 {
+        told.extend(slow(pilot.seconds_a_ray, effort));
+    }
     Ok(told)
 }
 

@@ -1,5 +1,12 @@
+use super::pilot::Pilot;
+use crate::shade::point_evidence;
+use bevy_ecs::prelude::*;
+
 /// From so many seconds on it is said before a render how long it is likely to take.
 const LONG: f64 = 600.0;
+/// From so many rays after one of the camera's on it is said that surfaces absorb too little; rooms with white walls and
+/// a ball of glass stay below a quarter of that.
+const MANY_BOUNCES: f64 = 64.0;
 
 /// How much there is to render, and by how many.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +31,46 @@ pub fn slow(seconds_a_ray: f64, effort: Effort) -> Option<String> {
             if effort.threads == 1 { "1 thread".into() } else { format!("{} threads", effort.threads) }
         )
     })
+}
+
+/// Says that surfaces hand light on to one another for very long, which makes a picture slow without making it better.
+pub fn many_bounces(pilot: &Pilot, legs: u32) -> Option<String> {
+    (pilot.followed_by >= MANY_BOUNCES).then(|| {
+        format!(
+            "each ray from the camera is followed by {:.0} more on average, because the surfaces that it comes by absorb \
+             next to no light; darker surfaces, or fewer than the {legs} legs that the integrator allows, render faster",
+            pilot.followed_by
+        )
+    })
+}
+
+/// Says that not one of the small pieces of the picture that were tried was finished.
+pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
+    let seconds = pilot.seconds_a_ray;
+    let picture = effort.samples.map(|samples| samples * seconds / effort.threads.max(1) as f64);
+    let picture = picture.filter(|&picture| picture >= LONG).map(long_span);
+    let picture =
+        picture.map_or_else(String::new, |span| format!(", so the picture is likely to take more than {span}"));
+    format!(
+        "none of {} rays tried had come to its end when the time for trying was up: a ray takes more than {}{picture}; \
+         {why}",
+        pilot.tried,
+        short_span(seconds)
+    )
+}
+
+/// What makes a ray slow in this scene.
+pub fn why_slow(scene: &World, pilot: &Pilot, legs: u32, shapes: usize) -> String {
+    if f64::from(pilot.deepest) >= MANY_BOUNCES {
+        return format!(
+            "after {} bounces its path still went on, and the integrator allows {legs} legs; a smaller number, or surfaces \
+             that absorb more, would end it",
+            pilot.deepest
+        );
+    }
+    let lights = point_evidence(scene).count;
+    let tests = if lights > 1 { format!(", for each of {lights} lights") } else { String::new() };
+    format!("each ray is tested against {shapes} shapes{tests}")
 }
 
 /// Minutes, hours, days or years, whichever gives a number that is easily taken in.

@@ -72,6 +72,7 @@ impl RenderStats {
         let aimed = stages.iter().filter(|stage| stage.stage.starts_with("Aim at "));
         let light_rays = aimed.map(|stage| stage.rows).max().unwrap_or(0);
         let rays = rays_of("Turn rays into the world") + light_rays;
+        let tile_side = tile_side.min(rendered.film.tile_side);
         let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();
         let left_out = rendered.plan.rows.iter().filter(|row| !row.kept);
         Self {

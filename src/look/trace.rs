@@ -1,10 +1,12 @@
 use crate::plan::{Column, ColumnKind, Lifetime, Plan, Stage};
 use crate::rays::{Leg, PathLight, Paths, Tile};
-use crate::render::{Hook, inspect_tile};
+use crate::render::{Hook, inspect_pixel};
 use crate::scene::{Refusal, TracePixel};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use std::collections::HashMap;
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What one stage wrote for one pixel. Its address is (stage, pixel, sample, leg).
@@ -37,7 +39,12 @@ pub struct Trace {
     pub stages: Vec<Recorded>,
     /// The names of shapes, by number.
     pub shapes: Vec<String>,
+    /// Whether all legs are printed, however many there are; else the first few and the last.
+    pub prints_all: bool,
 }
+
+/// How many legs of a long way are printed at its beginning and at its end.
+const SHOWN: [u32; 2] = [16, 4];
 
 /// Follows a pixel's first sample by running the stages on its tile.
 ///
@@ -65,11 +72,11 @@ pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u
         return Err(Error::from(Refusal::new("the trace", "sample", sample.to_string(), accepted)));
     }
     let hook = record_hook(pixel, sample);
-    let mut inspection = inspect_tile(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
+    let mut inspection = inspect_pixel(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
     let stages = inspection.world.remove_resource::<Recording>().unwrap_or_default().0;
     let shapes = crate::extract::shape_entities(scene);
     let shapes = shapes.into_iter().map(|shape| crate::scene::called(scene, shape)).collect();
-    Ok(Trace { pixel, sample, stages, shapes })
+    Ok(Trace { pixel, sample, stages, shapes, prints_all: false })
 }
 
 /// A system after each stage that copies what it wrote for the pixel, before a later leg can overwrite it.
@@ -115,13 +122,24 @@ fn rows_on_leg(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize
 
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let last_of = |column: ColumnKind, leg: u32| {
-            self.stages.iter().rposition(|recorded| recorded.column == column && recorded.leg == leg)
-        };
+        // A stage that runs later on the same leg may write over what an earlier one wrote.
+        let mut last: HashMap<(u32, &str), usize> = HashMap::new();
+        for (position, recorded) in self.stages.iter().enumerate() {
+            last.insert((recorded.leg, recorded.column.name), position);
+        }
+        let left_out = self.legs_left_out();
         let mut told = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
-            if last_of(recorded.column, recorded.leg) != Some(position) || listing {
+            if last.get(&(recorded.leg, recorded.column.name)) != Some(&position) || listing {
+                continue;
+            }
+            if left_out.contains(&recorded.leg) {
+                if recorded.leg == left_out.start && told != Some(recorded.leg) {
+                    let (first, end) = (left_out.start, left_out.end - 1);
+                    writeln!(f, "legs {first} to {end} are left out; --all prints them")?;
+                    told = Some(recorded.leg);
+                }
                 continue;
             }
             if told != Some(recorded.leg) {
@@ -144,6 +162,13 @@ impl fmt::Display for Trace {
 }
 
 impl Trace {
+    /// The legs that are not printed: those in the middle of a long way.
+    fn legs_left_out(&self) -> Range<u32> {
+        let legs = self.stages.iter().map(|recorded| recorded.leg).max().map_or(0, |last| last + 1);
+        let [first, last] = SHOWN;
+        if self.prints_all || legs <= first + last { 0..0 } else { first..legs - last }
+    }
+
     /// Lanes of a row, vectors in brackets, a shape by its name.
     fn show_row(&self, lanes: &[(&'static str, String)]) -> String {
         let shape_name = |value: &str| value.parse().ok().and_then(|number: usize| self.shapes.get(number).cloned());

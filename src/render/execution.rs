@@ -1,5 +1,6 @@
 use bevy_ecs::schedule::Schedule;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// How many worlds hold the tiles while they run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,7 +17,8 @@ pub enum Worlds {
 pub struct Execution {
     /// Workers; none for as many as the machine has cores.
     pub threads: Option<usize>,
-    /// The side of a full tile, in pixels.
+    /// The most pixels along the side of a full tile; where many lights or shapes would make its columns large or its
+    /// stages slow, a render takes fewer.
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
@@ -30,7 +32,7 @@ impl Default for Execution {
     }
 }
 
-/// Someone who waits for a render: is told of progress, and may stop it between two tiles.
+/// Someone who waits for a render: is told of progress, and may stop it.
 pub trait Watch: Sync {
     /// A tile is done.
     fn tile_done(&self) {}
@@ -38,9 +40,13 @@ pub trait Watch: Sync {
     fn traced(&self, _samples: u64) {}
     /// A pass begins: so many samples of pixels are expected altogether, and so many samples a pixel are done.
     fn expect(&self, _samples: u64, _done: u32, _of: u32) {}
-    /// Whether to stop.
+    /// Whether to stop before the next sample of a tile.
     fn stopped(&self) -> bool {
         false
+    }
+    /// A flag that is set to stop even between two bounces of a tile, so that an endless path ends too.
+    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
+        None
     }
 }
 

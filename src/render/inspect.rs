@@ -1,11 +1,13 @@
 use super::Execution;
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
+use super::tile_side::tile_side;
 use super::under_way::{film_for, shares};
 use crate::Result;
 use crate::extract::ImageShape;
 use crate::film::{Film, FilmTile};
-use crate::plan::{Plan, Stage, Table, TileSystems};
+use crate::follow::Stop;
+use crate::plan::{ExtractedTable, Plan, Stage, Table, TileSystems};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -47,39 +49,70 @@ pub fn first_leg_only(offer: &[Stage]) -> Vec<Stage> {
     offer
 }
 
-/// Runs the kept stages over the one tile that holds a pixel, for one of its samples; hooks follow each stage.
-pub fn inspect_tile(
+/// Runs the kept stages over one pixel, for one of its samples; hooks follow each stage.
+///
+/// The pixel is a tile by itself, since nothing that a stage writes for it depends on its neighbours.
+pub fn inspect_pixel(
     scene: &World,
     offer: &[Stage],
-    pixel: [u32; 2],
+    [x, y]: [u32; 2],
     sample: u32,
     hooks: &[Hook],
 ) -> Result<Inspection> {
     let image = ImageShape::extract(scene)?;
-    let side = Execution::default().tile_side;
-    let [x, y] = pixel.map(|along| along / side * side);
-    let tile = Tile { x, y, width: side.min(image.width - x), height: side.min(image.height - y) };
-    inspect_tiles(scene, offer, vec![tile], sample, hooks)
+    let film = film_of(Tile { x, y, width: 1, height: 1 });
+    inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
 }
 
-/// Runs the kept stages over some pieces of the frame, for one sample of each of their pixels; hooks follow each stage.
-pub fn inspect_tiles(
-    scene: &World,
-    offer: &[Stage],
-    tiles: Vec<Tile>,
-    sample: u32,
-    hooks: &[Hook],
-) -> Result<Inspection> {
-    let image = ImageShape::extract(scene)?;
-    let film = Film {
-        width: image.width,
-        height: image.height,
-        tile_side: Execution::default().tile_side,
-        done: vec![0; tiles.len()],
-        tiles: tiles.into_iter().map(FilmTile::new).collect(),
+/// A film of nothing but one tile.
+fn film_of(tile: Tile) -> Film {
+    Film {
+        width: tile.width,
+        height: tile.height,
+        tile_side: tile.width.max(tile.height),
+        done: vec![0],
+        tiles: vec![FilmTile::new(tile)],
         ..Film::default()
-    };
-    inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
+    }
+}
+
+/// Runs the kept stages over pieces of the frame, one after another in one small world, for the first sample of each of
+/// their pixels; hooks follow each stage.
+///
+/// After each piece `look` is shown the world and told how long it took; none where it was given up.
+/// All of them together take no longer than `patience`, and one of them no longer than a part of what is left of that: so
+/// a piece whose paths do not end leaves time for others.
+pub fn look_at_pieces(
+    scene: &World,
+    (plan, tables): (&Plan, &[ExtractedTable]),
+    pieces: &[Tile],
+    patience: Duration,
+    hooks: &[Hook],
+    look: &mut dyn FnMut(&mut World, Option<Duration>),
+) {
+    const PART: u32 = 4;
+    const TOO_SHORT: Duration = Duration::from_millis(2);
+    let end = Instant::now() + patience;
+    let mut frame = RenderWorld::new(plan, tables, 1, &Execution::default(), hooks);
+    for &piece in pieces {
+        let started = Instant::now();
+        let left = end.saturating_duration_since(started);
+        if left < TOO_SHORT {
+            return;
+        }
+        let mut film = film_for(scene, plan, film_of(piece));
+        let tile = frame.tiles[0];
+        shares(&mut film).for_each(|mut share| frame.swap_share(tile, &mut share));
+        frame.activate(tile, &Run::FIRST, None);
+        frame.stop_at(Stop::at_deadline(started + left / PART));
+        let whole = frame.run();
+        look(&mut frame.world, whole.then(|| started.elapsed()));
+    }
+}
+
+/// The side of a full tile of a render that is executed as usual.
+pub fn usual_tile_side(scene: &World, plan: &Plan) -> u32 {
+    tile_side(scene, plan, Execution::default().tile_side)
 }
 
 fn inspect_film(

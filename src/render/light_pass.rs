@@ -1,16 +1,16 @@
 use super::Execution;
 use super::clock::StageClock;
 use super::render_world::RenderWorld;
-use crate::extract::{FilterTable, LightTracingTable, SamplingTable};
+use crate::extract::{FilterTable, ImageShape, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
-use crate::follow::{LIGHT_PATHS, Splats};
+use crate::follow::{LIGHT_PATHS, Splats, Stop};
 use crate::plan::{ExtractedTable, Plan, RowKind, Shared, Table};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
 use crate::scene::Refusal;
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Batches whose splats wait together to be added: a few for every worker, so that memory stays bounded.
@@ -31,6 +31,24 @@ pub(super) struct LightPass {
     sampling: SamplingTable,
 }
 
+/// How many batches a render's light pass runs at once at most; 0 without such a pass.
+pub(super) fn batches(scene: &World, plan: &Plan, sampling: SamplingTable, image: ImageShape) -> Result<u64, Refusal> {
+    if !has_light_pass(plan) {
+        return Ok(0);
+    }
+    let samples = f64::from(image.width) * f64::from(image.height) * f64::from(sampling.samples);
+    Ok(batches_for(samples, LightTracingTable::extract(scene)?.paths).min(BATCHES_AT_ONCE))
+}
+
+/// How many batches keep step with so many samples of pixels.
+fn batches_for(samples: f64, paths: f64) -> u64 {
+    (samples * paths / f64::from(LIGHT_PATHS)).ceil() as u64
+}
+
+fn has_light_pass(plan: &Plan) -> bool {
+    plan.passes.iter().any(|pass| pass.row == RowKind::LightPath)
+}
+
 /// What a pass needs of the render.
 pub(super) struct Means<'a> {
     pub plan: &'a Plan,
@@ -42,7 +60,7 @@ pub(super) struct Means<'a> {
 impl LightPass {
     /// The pass, where the plan has one.
     pub fn of(scene: &World, plan: &Plan, workers: usize) -> Result<Option<Self>, Refusal> {
-        if !plan.passes.iter().any(|pass| pass.row == RowKind::LightPath) {
+        if !has_light_pass(plan) {
             return Ok(None);
         }
         Ok(Some(Self {
@@ -54,31 +72,41 @@ impl LightPass {
         }))
     }
 
-    /// Brings the film's splats in step with so many samples of pixels, or as far as the one who watches lets it.
+    /// Brings the film's splats in step with so many samples of pixels, or as far as the one who watches lets it: of the
+    /// batches that were under way when it was stopped, none joins the film.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
         let mut filter = self.filter.clone();
         let batch = u64::from(LIGHT_PATHS);
-        let all = (samples as f64 * self.paths / f64::from(LIGHT_PATHS)).ceil() as u64;
+        let stop = Stop::at_flag(watch.stop_flag());
+        let all = batches_for(samples as f64, self.paths);
         while splats.paths / batch < all && !watch.stopped() {
             let first = splats.paths / batch;
             let count = (all - first).min(BATCHES_AT_ONCE);
-            let next = AtomicU64::new(0);
+            let (next, given_up) = (AtomicU64::new(0), AtomicBool::new(false));
             let work = |worker: usize| {
                 let mut world = self.worlds[worker].lock().unwrap_or_else(PoisonError::into_inner);
                 let world = world.get_or_insert_with(|| self.world(means));
+                world.stop_at(stop.clone());
                 loop {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     if number >= count {
                         return;
                     }
-                    let list = &self.lists[number as usize];
-                    run_batch(world, first + number, &mut list.lock().unwrap_or_else(PoisonError::into_inner));
+                    let mut list = self.lists[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
+                    if watch.stopped() || !run_batch(world, first + number, &mut list) {
+                        given_up.store(true, Ordering::Relaxed);
+                        return;
+                    }
                 }
             };
             match means.pool {
                 Some(pool) => _ = pool.broadcast(|context| work(context.index())),
                 None => work(0),
+            }
+            if given_up.into_inner() {
+                self.lists.iter().for_each(|list| list.lock().unwrap_or_else(PoisonError::into_inner).clear());
+                return;
             }
             for list in &self.lists[..count as usize] {
                 let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
@@ -108,8 +136,8 @@ impl LightPass {
     }
 }
 
-/// Runs a batch of ways; `list`, which is empty, gets their splats.
-fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) {
+/// Runs a batch of ways; `list`, which is empty, gets their splats. Whether it was not given up.
+fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) -> bool {
     let tile = world.tiles[0];
     let mut entity = world.world.entity_mut(tile);
     if let Some(mut place) = entity.get_mut::<Tile>() {
@@ -119,8 +147,9 @@ fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) {
     if let Some(mut number) = entity.get_mut::<SampleNumber>() {
         *number = SampleNumber(batch as u32);
     }
-    world.run();
+    let whole = world.run();
     if let Some(mut own) = world.world.get_mut::<Splats>(tile) {
         std::mem::swap(&mut *own, list);
     }
+    whole
 }

@@ -15,12 +15,16 @@ mod passes;
 mod render_world;
 mod rendered;
 mod steps;
+mod tile_side;
 mod under_way;
+mod workers;
 
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
-pub use inspect::{Inspection, first_leg_only, inspect, inspect_stages, inspect_tile, inspect_tiles};
+pub use inspect::{
+    Inspection, first_leg_only, inspect, inspect_pixel, inspect_stages, look_at_pieces, usual_tile_side,
+};
 pub use key::film_key;
 pub use memory::peak_memory;
 pub use passes::{Limits, Outcome, render_in_passes};

@@ -4,7 +4,7 @@ use super::steps::Run;
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
-use crate::follow::check_matter_is_followed;
+use crate::follow::{Stop, check_matter_is_followed, is_whole};
 use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_met;
@@ -74,12 +74,18 @@ impl RenderWorld {
             }
             schedule
         };
-        if plan.stages.iter().any(|stage| stage.set == TileSystems::Follow) {
+        let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::Follow);
+        world.insert_resource(Stop::default());
+        if follows {
             world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
                 stage.runs_in(row) && stage.on_every_leg
             })));
         }
-        let schedule = arranged(schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row)));
+        let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row));
+        if follows {
+            schedule.configure_sets((TileSystems::Moments.run_if(is_whole), TileSystems::Film.run_if(is_whole)));
+        }
+        let schedule = arranged(schedule);
         Self { world, schedule, tiles }
     }
 
@@ -118,12 +124,22 @@ impl RenderWorld {
         0
     }
 
-    /// Runs every kept stage once over all tiles of this world.
-    pub fn run(&mut self) {
+    /// From now on a run is given up as soon as this says so.
+    pub fn stop_at(&mut self, stop: Stop) {
+        self.world.insert_resource(stop);
+    }
+
+    /// Runs every kept stage once over all tiles of this world; whether it was not given up before its light was
+    /// gathered, in which case no light has joined the film.
+    pub fn run(&mut self) -> bool {
+        if let Some(mut stop) = self.world.get_resource_mut::<Stop>() {
+            stop.given_up = false;
+        }
         if let Some(mut clock) = self.world.get_resource_mut::<StageClock>() {
             clock.start();
         }
         self.schedule.run(&mut self.world);
+        self.world.get_resource::<Stop>().is_none_or(|stop| !stop.given_up)
     }
 }
 

@@ -48,6 +48,11 @@ impl Run {
         Self { sample, lattices: [0, LATTICES.len()] }
     }
 
+    /// The step that a tile has come to after this run.
+    pub fn ends(&self) -> u32 {
+        if self.sample == 0 { self.lattices[1] as u32 } else { self.sample.saturating_add(WHOLE) }
+    }
+
     /// Whether a pixel is on the lattices of this run and on none before them.
     fn holds(&self, x: u32, y: u32) -> bool {
         let on = |lattice: u32| x.is_multiple_of(lattice) && y.is_multiple_of(lattice);
@@ -90,6 +95,7 @@ mod tests {
                             tried += 1;
                         }
                     }
+                    assert_eq!(runs(done, to).last().map_or(done, Run::ends), to.max(done), "the last run ends there");
                     done = to;
                 }
                 assert!(next.iter().all(|&samples| samples == 5), "{next:?}");

@@ -1,11 +1,13 @@
 use super::clock::{Lap, StageClock};
-use super::light_pass::{LightPass, Means};
+use super::light_pass::{LightPass, Means, batches};
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{WHOLE, runs, steps_of};
+use super::tile_side::tile_side;
+use super::workers::workers;
 use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageShape, LayerTable, SamplingTable};
 use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
-use crate::follow::Splats;
+use crate::follow::{Splats, Stop};
 use crate::plan::{Column, ExtractedTable, Plan, Shared, Stage, Table};
 use crate::rays::PixelSamples;
 use crate::{Error, Result};
@@ -51,12 +53,14 @@ impl RenderUnderWay {
     pub fn begin(scene: &World, offer: &[Stage], execution: &Execution) -> Result<Self> {
         let (plan, tables) = prepare(scene, offer)?;
         let image = ImageShape::extract(scene)?;
+        let execution = Execution { tile_side: tile_side(scene, &plan, execution.tile_side), ..execution.clone() };
         let film = film_for(scene, &plan, Film::new(image.width, image.height, execution.tile_side));
+        let sampling = SamplingTable::extract(scene)?;
         let pool = match execution.worlds {
             Worlds::One => None,
             Worlds::PerWorker => Some(
                 rayon::ThreadPoolBuilder::new()
-                    .num_threads(execution.threads.unwrap_or(0))
+                    .num_threads(workers(&execution, film.tiles.len() as u64, batches(scene, &plan, sampling, image)?))
                     .build()
                     .map_err(|refused| Error::Usage(format!("cannot start the workers: {refused}")))?,
             ),
@@ -67,9 +71,9 @@ impl RenderUnderWay {
             light,
             plan,
             film,
-            sampling: SamplingTable::extract(scene)?,
+            sampling,
             tables,
-            execution: execution.clone(),
+            execution,
             pool,
             worlds: (0..worlds).map(|_| Mutex::new(None)).collect(),
             time: Duration::ZERO,
@@ -79,6 +83,11 @@ impl RenderUnderWay {
     /// Workers.
     pub fn threads(&self) -> usize {
         self.worlds.len()
+    }
+
+    /// The tables that its stages read, for whoever looks at the scene before it is rendered.
+    pub fn tables(&self) -> &[ExtractedTable] {
+        &self.tables
     }
 
     /// Whether the camera takes samples; where it does not, all is one step.
@@ -99,9 +108,11 @@ impl RenderUnderWay {
     /// Brings every tile to `to` steps; one that is further already stays as it is.
     ///
     /// Errors: a stop by the one who watches; each tile then has all of some number of steps, and can be brought on.
+    /// A sample that was under way is thrown away.
     pub fn advance(&mut self, to: u32, watch: &dyn Watch) -> Result {
         let started = Instant::now();
         let to = if self.is_sampled() { to } else { WHOLE };
+        let stop = Stop::at_flag(watch.stop_flag());
         match &self.pool {
             Some(pool) => {
                 let tiles = Mutex::new(shares(&mut self.film));
@@ -110,6 +121,7 @@ impl RenderUnderWay {
                 pool.broadcast(|context| {
                     let mut world = worlds[context.index()].lock().unwrap_or_else(PoisonError::into_inner);
                     let world = world.get_or_insert_with(|| RenderWorld::new(plan, tables, 1, execution, &[]));
+                    world.stop_at(stop.clone());
                     while let Some(mut share) = next().filter(|_| !watch.stopped()) {
                         if *share.done < to {
                             world.run_share(&mut share, to, watch);
@@ -215,16 +227,31 @@ impl RenderWorld {
     fn run_share(&mut self, share: &mut Share<'_>, to: u32, watch: &dyn Watch) {
         let tile = self.tiles[0];
         self.swap_share(tile, share);
+        // Layers are added to before light goes on its way, so a run that is given up has to take them back.
+        let mut layers = FilmLayers::default();
         for run in runs(*share.done, to) {
+            if watch.stopped() {
+                break;
+            }
             let active = self.activate(tile, &run, share.planned);
             if active > 0 {
-                self.run();
+                if let Some(own) = self.world.get::<FilmLayers>(tile) {
+                    layers.clone_from(own);
+                }
+                if !self.run() {
+                    if let Some(mut own) = self.world.get_mut::<FilmLayers>(tile) {
+                        std::mem::swap(&mut *own, &mut layers);
+                    }
+                    break;
+                }
                 watch.traced(active as u64);
             }
+            *share.done = run.ends();
         }
         self.swap_share(tile, share);
-        *share.done = to;
-        watch.tile_done();
+        if *share.done >= to {
+            watch.tile_done();
+        }
     }
 
     /// Brings all tiles to `to` steps; those that have the fewest behind them first catch up with the others.

@@ -11,7 +11,8 @@ use crate::scene::{Sampler, Sampling, Statistics};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
-use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// Pairs of runs with and without timers.
@@ -83,6 +84,10 @@ impl Watch for FirstTile<'_> {
     fn stopped(&self) -> bool {
         self.built.get_or_init(|| self.started.elapsed().as_secs_f64());
         self.watch.stopped()
+    }
+
+    fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
+        self.watch.stop_flag()
     }
 }
 

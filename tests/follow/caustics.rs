@@ -6,7 +6,7 @@ use pinhole::film::{read_checkpoint, write_checkpoint};
 use pinhole::follow::fresnel;
 use pinhole::look::{Preflight, preflight};
 use pinhole::naive::caustics::{join_without_area, join_without_cosine, refract_as_radiance};
-use pinhole::render::{RenderUnderWay, Worlds, steps_of};
+use pinhole::render::{RenderUnderWay, Worlds, prepare, steps_of};
 use pinhole::scene::*;
 use scenes::FilmBits;
 use scenes::caustics::{caustics, traced};
@@ -379,8 +379,9 @@ fn what_light_tracing_cannot_do_is_said_in_a_sentence() {
 #[test]
 fn what_only_light_tracing_finds_is_said_before() {
     let told = |scene: &World| {
-        let plan = pinhole::plan::plan(scene, &offer()).expect("a plan");
-        preflight(scene, &offer(), &plan, Preflight { threads: Some(1), ends_in_time: true }).expect("looks").join("\n")
+        let (plan, tables) = prepare(scene, &offer()).expect("prepared");
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        preflight(scene, (&plan, &tables), asked).expect("looks").join("\n")
     };
     let (mut plain, mut asking) = (caustics(false), traced(|| caustics(false))());
     assert!(told(&plain).contains("LightTracing on the camera, beside paths, finds it"), "{}", told(&plain));

@@ -49,9 +49,9 @@ fn a_point_behind_glass_lights_nothing_and_that_is_said() {
             continue;
         }
         let world = seen(&scene, integrator);
-        let plan = prepare(&world, &offer()).expect("prepared").0;
-        let asked = Preflight { threads: Some(1), ends_in_time: true };
-        let said = preflight(&world, &offer(), &plan, asked).expect("said");
+        let (plan, tables) = prepare(&world, &offer()).expect("prepared");
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let said = preflight(&world, (&plan, &tables), asked).expect("said");
         let told = |sentence: &String| sentence.contains("\"shell\"") && sentence.contains("\"bulb\"");
         assert!(said.iter().any(told), "{integrator:?}: {said:#?}");
         tried += 1;

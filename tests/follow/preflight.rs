@@ -10,8 +10,8 @@ use pinhole::{Chapter, follow, intersect, rays, shade};
 
 /// What is said of a scene for which every stage is on offer, or the refusal.
 fn said(scene: &World) -> Result<Vec<String>, Error> {
-    let plan = prepare(scene, &offer())?.0;
-    preflight(scene, &offer(), &plan, Preflight { threads: Some(1), ends_in_time: true })
+    let (plan, tables) = prepare(scene, &offer())?;
+    preflight(scene, (&plan, &tables), Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() })
 }
 
 #[test]
@@ -143,9 +143,9 @@ fn nothing_is_said_of_the_chapters_scenes() {
     for chapter in &chapters {
         let asked = Asked { resolution: Some(Resolution { width: 96, height: 54 }), ..Asked::default() };
         let scene = chapter.world(&asked);
-        let plan = prepare(&scene, &chapter.stages()).expect("prepared").0;
-        let asked = Preflight { threads: Some(1), ends_in_time: true };
-        let mut told = preflight(&scene, &chapter.stages(), &plan, asked).expect("said");
+        let (plan, tables) = prepare(&scene, &chapter.stages()).expect("prepared");
+        let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
+        let mut told = preflight(&scene, (&plan, &tables), asked).expect("said");
         // That is so there: the first two of light that is followed show it.
         if ["19_mirrors", "20_glass"].contains(&chapter.name) {
             told.retain(|sentence| !sentence.contains("mirrors or glass"));

@@ -1,0 +1,175 @@
+use super::{Media, MediumStack};
+use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
+use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime};
+use bevy_ecs::prelude::*;
+
+/// What else each ray's origin lies in beyond the four kinds of glass that [`Media`] names, in order of rank; exists only
+/// where more than four shapes of glass may lie in one another.
+///
+/// All rows share one list, so that a ray in a hundred glasses needs no memory of its own and one in none needs no place.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct DeeperMedia {
+    /// Where in the list each row's part ends; it begins where that of the row before ends.
+    end: Vec<u32>,
+    /// Rows of the table of glass.
+    glass: Vec<u32>,
+}
+
+impl DeeperMedia {
+    /// What a row's ray starts in beyond the fourth.
+    #[inline(always)]
+    pub fn get(&self, row: usize) -> &[u32] {
+        let Some(&end) = self.end.get(row) else { return &[] };
+        let start = if row == 0 { 0 } else { self.end[row - 1] };
+        &self.glass[start as usize..end as usize]
+    }
+
+    /// Leaves nothing beyond the fourth on so many rows.
+    pub(super) fn start(&mut self, rows: usize) {
+        self.glass.clear();
+        self.end.clear();
+        self.end.resize(rows, 0);
+    }
+
+    /// Appends a row.
+    fn push(&mut self, beyond: &[u32]) {
+        self.glass.extend_from_slice(beyond);
+        self.end.push(self.glass.len() as u32);
+    }
+}
+
+/// The glass on the near side of a surface of glass, and on the far side: as [`MediumStack::crossing`] has it, with what
+/// lies beyond the fourth in mind.
+#[inline(always)]
+pub(super) fn near_and_far(
+    stack: MediumStack,
+    beyond: &[u32],
+    row: u32,
+    from_outside: bool,
+    priorities: &[u32],
+) -> [u32; 2] {
+    // Whoever leaves a glass that was not among the first four stays in the first.
+    if !from_outside && !stack.rows.contains(&row) && beyond.contains(&row) {
+        return [stack.top(); 2];
+    }
+    let crossing = stack.crossing(row, from_outside, priorities);
+    [crossing.near, crossing.far]
+}
+
+/// Carries over what rays lie in, first to last, one ray after another.
+#[derive(Default)]
+pub struct Carrier {
+    whole: Vec<u32>,
+    kept: DeeperMedia,
+}
+
+impl Carrier {
+    /// Forgets the rays of the tile before.
+    pub(super) fn start(&mut self) {
+        self.kept.start(0);
+    }
+
+    /// Appends what a ray lies in that comes from another and has, or has not, crossed a surface of glass; its first four.
+    pub(super) fn push(
+        &mut self,
+        (stack, beyond): (MediumStack, &[u32]),
+        crossed: Option<(u32, bool)>,
+        priorities: &[u32],
+    ) -> MediumStack {
+        let whole = &mut self.whole;
+        whole.clear();
+        whole.extend(stack.rows.iter().filter(|&&row| row != NO_ROW));
+        whole.extend_from_slice(beyond);
+        match crossed {
+            Some((row, true)) => {
+                let outranks = |&other: &u32| (priorities[row as usize], other) > (priorities[other as usize], row);
+                let place = whole.iter().position(outranks).unwrap_or(whole.len());
+                whole.insert(place, row);
+            }
+            Some((row, false)) => {
+                if let Some(place) = whole.iter().position(|&own| own == row) {
+                    whole.remove(place);
+                }
+            }
+            None => {}
+        }
+        let first = whole.len().min(4);
+        let mut rows = [NO_ROW; 4];
+        rows[..first].copy_from_slice(&whole[..first]);
+        self.kept.push(&whole[first..]);
+        MediumStack { rows }
+    }
+
+    /// Puts what was carried over in the place of what was there.
+    pub(super) fn swap(&mut self, with: &mut DeeperMedia) {
+        std::mem::swap(&mut self.kept, with);
+    }
+}
+
+impl Column for DeeperMedia {
+    const NAME: &'static str = "deeper media";
+    const SPACE: &'static str = "light";
+    const UNIT: &'static str = "places in a list of glass";
+    const LIFETIME: Lifetime = Lifetime::Path;
+
+    fn rows(&self) -> usize {
+        self.end.len()
+    }
+
+    fn lanes(&self) -> Vec<Lane<'_>> {
+        vec![Lane { name: "end", values: LaneValues::U32(&self.end) }]
+    }
+
+    fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [f32::from(u8::from(!self.get(row).is_empty())); 3]
+    }
+}
+
+/// Evidence that a ray may lie in more than four shapes of glass at once.
+pub fn deeper_media_evidence(scene: &World) -> Evidence {
+    glass_evidence(scene).and(|| followed_evidence(scene)).and(|| deep_glass(scene, Media::PLACES))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::ray_aim::Draws;
+
+    /// Walks in and out of nine shapes of glass in every kind of order; what is there is always the one of the highest
+    /// priority, and of equals the first.
+    #[test]
+    fn what_is_there_is_right_however_deep() {
+        const SHAPES: usize = 9;
+        let (mut surfaces, mut deepest) = (0, 0);
+        for walk in 0..3000 {
+            let mut draws = Draws::new(1717, walk);
+            let below = |draws: &mut Draws, most: usize| (draws.unit() * most as f64) as usize;
+            let priorities: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, 4) as u32).collect();
+            let glass: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, SHAPES) as u32).collect();
+            let rule = |inside: &[bool]| {
+                let held = (0..SHAPES).filter(|&shape| inside[shape]).map(|shape| glass[shape]);
+                held.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
+            };
+            let (mut inside, mut stack, mut beyond) = ([false; SHAPES], MediumStack::OUTSIDE, DeeperMedia::default());
+            beyond.start(1);
+            let mut carrier = Carrier::default();
+            for _ in 0..40 {
+                let shape = below(&mut draws, SHAPES);
+                let (row, from_outside) = (glass[shape], !inside[shape]);
+                let [near, far] = near_and_far(stack, beyond.get(0), row, from_outside, &priorities);
+                assert_eq!(near, rule(&inside), "walk {walk}");
+                inside[shape] = !inside[shape];
+                assert_eq!(far, rule(&inside), "walk {walk}");
+                carrier.start();
+                stack = carrier.push((stack, beyond.get(0)), Some((row, from_outside)), &priorities);
+                carrier.swap(&mut beyond);
+                let depth = stack.rows.iter().filter(|&&row| row != NO_ROW).count() + beyond.get(0).len();
+                assert_eq!(depth, inside.iter().filter(|&&inside| inside).count(), "nothing is forgotten");
+                deepest = deepest.max(depth);
+                surfaces += 1;
+            }
+        }
+        assert!(deepest > 7, "only {deepest} deep");
+        eprintln!("deeper media: {surfaces} surfaces, up to {deepest} shapes about a point");
+    }
+}

@@ -1,0 +1,87 @@
+//! Paths of thousands of bounces: what is said of them, and what it costs to follow one.
+
+use super::*;
+use pinhole::look::{Preflight, preflight, trace};
+use pinhole::render::prepare;
+use pinhole::scene::*;
+use std::time::{Duration, Instant};
+
+/// A camera in a closed ball that absorbs nothing.
+fn closed_ball(legs: u32, matter: impl Bundle) -> World {
+    let mut world = World::new();
+    let size = Resolution { width: 24, height: 16 };
+    let integrator = Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 0 };
+    world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 1.0, 6.0), size, integrator));
+    world.spawn((Name::new("ball"), Sphere { radius: 100.0 }, matter));
+    let lamp = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
+    world.spawn((Name::new("lamp"), Sphere { radius: 1.0 }, Placement::at(0.0, 0.0, 90.0), lamp));
+    world
+}
+
+fn silver() -> Mirror {
+    Mirror { colour: Rgb::grey(1.0) }
+}
+
+fn said(scene: &World, patience: Duration) -> (Vec<String>, Duration) {
+    let (plan, tables) = prepare(scene, &offer()).expect("prepared");
+    let asked = Preflight { threads: Some(1), ends_in_time: false, patience: Some(patience) };
+    let began = Instant::now();
+    (preflight(scene, (&plan, &tables), asked).expect("said"), began.elapsed())
+}
+
+#[test]
+fn what_does_not_end_is_said_in_time() {
+    let patience = Duration::from_millis(300);
+    let (told, took) = said(&closed_ball(u32::MAX, silver()), patience);
+    eprintln!("{took:?}: {told:#?}");
+    assert!(took < Duration::from_secs(2), "{took:?}");
+    assert_eq!(told.len(), 2, "{told:?}");
+    for words in ["rays tried had come to its end", "the integrator allows 4294967295 legs"] {
+        assert!(told[0].contains(words), "no \"{words}\" in {told:?}");
+    }
+    assert!(told[1].contains("inside the sphere \"ball\""), "{told:?}");
+
+    // What ends, but only after a hundred bounces, is told otherwise.
+    let white = Matte { colour: Rgb::grey(1.0) };
+    let (told, _) = said(&closed_ball(101, white), Duration::from_secs(60));
+    eprintln!("{told:#?}");
+    assert!(
+        told.iter().any(|sentence| sentence.contains("is followed by") && sentence.contains("101 legs")),
+        "{told:?}"
+    );
+    let grey = closed_ball(101, Matte { colour: Rgb::grey(0.5) });
+    let camera = Integrator::Path { legs: 101, lights: LightSampling::Weighed, roulette: 5 };
+    let mut grey = grey;
+    let entity = named(&mut grey, "camera");
+    grey.entity_mut(entity).insert(camera);
+    let (told, _) = said(&grey, Duration::from_secs(60));
+    assert!(!told.iter().any(|sentence| sentence.contains("is followed by")), "{told:?}");
+}
+
+/// Four times the bounces take about four times as long to be traced and printed, not sixteen times.
+#[test]
+fn a_trace_grows_with_its_bounces_and_no_faster() {
+    let traced = |legs| {
+        let scene = closed_ball(legs, silver());
+        let began = Instant::now();
+        let mut trace = trace(&scene, &offer(), TracePixel { x: 3, y: 3 }).expect("traced");
+        trace.prints_all = true;
+        let text = trace.to_string();
+        (began.elapsed(), trace, text)
+    };
+    let fastest = |legs| (0..3).map(|_| traced(legs).0).min().expect("three");
+    let times = [1024, 4096].map(fastest);
+    let ratio = times[1].as_secs_f64() / times[0].as_secs_f64();
+    eprintln!("traces of 1,024 and 4,096 legs: {times:?}, a factor of {ratio:.1}");
+    assert!(ratio < 8.0, "{times:?}");
+
+    let (_, mut trace, all) = traced(100);
+    let legs = |text: &str| text.lines().filter(|line| line.starts_with("pixel 3,3")).count();
+    assert_eq!(legs(&all), 101, "each leg, and the first again once all light is gathered");
+    trace.prints_all = false;
+    let short = trace.to_string();
+    assert_eq!(legs(&short), 21, "{short}");
+    assert!(short.contains("\nlegs 16 to 95 are left out; --all prints them\n"), "{short}");
+    assert!(short.contains("leg 15\n") && short.contains("leg 96\n") && !short.contains("leg 16\n"), "{short}");
+    assert!(trace.stages.iter().any(|recorded| recorded.leg == 50), "what is recorded stays");
+}

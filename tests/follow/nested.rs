@@ -1,0 +1,69 @@
+//! Shapes of glass in one another, as many as there may be.
+
+use super::*;
+use glam::DVec3;
+use pinhole::scene::*;
+
+/// Balls of glass about one centre, or eggs, or cuboids, in an even sky of radiance 1.
+fn shells(count: u32, absorption: f64, shape: &dyn Fn(&mut World, f64) -> Entity) -> World {
+    let mut world = World::new();
+    let size = Resolution { width: 24, height: 16 };
+    let look = LookAt { eye: DVec3::new(0.3, 1.5, 5.0), target: DVec3::ZERO, ..LookAt::default() };
+    let camera = (Name::new("camera"), PerspectiveCamera { fov: Degrees(30.0), ..PerspectiveCamera::default() });
+    world.spawn((camera, look, size, Integrator::PATH));
+    for number in 0..count {
+        let part = f64::from(number) / f64::from(count);
+        let made = shape(&mut world, 1.0 - 0.7 * part);
+        let glass = Glass { ior: 1.2 + 0.4 * part, absorption: Rgb::grey(absorption), priority: number };
+        world.entity_mut(made).insert((Name::new(format!("shell {number}")), glass));
+    }
+    world.spawn((Name::new("sky"), Background { colour: Rgb::grey(1.0) }));
+    world
+}
+
+/// Glass that absorbs nothing hands all of an even sky on, so however many shells a ray goes through, it brings 1.
+#[test]
+fn an_even_sky_is_seen_evenly_through_any_number_of_shells() {
+    let kinds: [(&str, &dyn Fn(&mut World, f64) -> Entity); 3] = [
+        ("balls", &|world, size| world.spawn(Sphere { radius: size }).id()),
+        ("eggs", &|world, size| {
+            let place = Placement { scale: DVec3::new(1.2, 1.0, 0.8), ..Placement::default() };
+            world.spawn((Sphere { radius: size }, place)).id()
+        }),
+        ("cuboids", &|world, size| world.spawn(Cuboid { size: DVec3::splat(size) }).id()),
+    ];
+    let mut tried = 0;
+    for (kind, shape) in kinds {
+        for count in [1, 4, 5, 8, 20] {
+            let world = shells(count, 0.0, shape);
+            let film = render(&world, &offer(), &Execution::default(), &()).expect("renders").film;
+            let (mut lowest, mut highest) = (f32::MAX, 0.0_f32);
+            for part in (0..24).flat_map(|x| (0..16).map(move |y| (x, y))).flat_map(|(x, y)| film.mean(x, y)) {
+                (lowest, highest) = (lowest.min(part), highest.max(part));
+            }
+            eprintln!("{count:>2} {kind}: from {lowest} to {highest}");
+            // What is caught in a cuboid for 4096 legs is lost, and is never more than a share of a pixel's light.
+            assert!((highest - 1.0).abs() < 1e-5, "{count} {kind}: {highest}");
+            assert!(kind == "cuboids" || (lowest - 1.0).abs() < 1e-5, "{count} {kind}: {lowest}");
+            tried += 1;
+        }
+    }
+    eprintln!("nested glass: {tried} scenes of up to 20 shells, each as bright as the sky");
+}
+
+/// The column for what lies beyond the fourth glass is there for those who need it, and costs the others nothing.
+#[test]
+fn only_glass_that_nests_deeply_has_the_deeper_column() {
+    let has = |world: &World| {
+        let plan = pinhole::plan::plan(world, &offer()).expect("a plan");
+        ["media", "deeper media"].map(|name| plan.columns.iter().any(|column| column.name == name))
+    };
+    let ball = |world: &mut World, size: f64| world.spawn(Sphere { radius: size }).id();
+    let apart = |world: &mut World, size: f64| {
+        world.spawn((Sphere { radius: 0.01 }, Placement::at(100.0 * size, 0.0, 0.0))).id()
+    };
+    assert_eq!(has(&shells(1, 0.0, &ball)), [false, false]);
+    assert_eq!(has(&shells(4, 0.0, &ball)), [true, false]);
+    assert_eq!(has(&shells(5, 0.0, &ball)), [true, true]);
+    assert_eq!(has(&shells(12, 1.0, &apart)), [true, false], "they absorb, but lie apart");
+}
