@@ -3,7 +3,7 @@ use super::subject::{Subject, every_stage};
 use crate::chapter::Chapter;
 use crate::look::{Preflight, SLIPS, preflight};
 use crate::plan::Stage;
-use crate::render::prepare;
+use crate::render::{check_film_fits, prepare};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::io::Write;
@@ -33,7 +33,9 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, out: &mut dyn
 }
 
 fn said(scene: &World, stages: &[Stage]) -> Result<Vec<String>> {
-    preflight(scene, stages, &prepare(scene, stages)?.0, Preflight::default())
+    let (plan, _) = prepare(scene, stages)?;
+    check_film_fits(scene, &plan)?;
+    preflight(scene, stages, &plan, Preflight::default())
 }
 
 fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {
