@@ -1,5 +1,5 @@
 use crate::plan::PlanError;
-use crate::scene::{FileProblem, Refusal};
+use crate::scene::{FileProblem, Refusal, printable_path};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ pub enum Error {
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// A file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}", printable_path(path))]
     Write {
         /// The file.
         path: PathBuf,

@@ -184,7 +184,7 @@ fn what_cannot_be_compared_is_refused_in_a_sentence_and_nothing_is_written() {
     let out = shown(&path("d.jpg"));
     for (words, told) in [
         (vec![&*png, &*exr], "one holds bytes after the curve, the other light"),
-        (vec![&*png, &*shown(&path("b.png"))], "cannot read"),
+        (vec![&*png, &*shown(&path("b.png"))], "there is no file"),
         (vec![&*png, &*shown(&path("no.png"))], "cannot read"),
         (vec![&*exr, &*shown(&path("half.exr"))], "cannot read"),
         (vec![&*png, "a.txt"], "cannot compare a.txt: the name must end in .png or .exr"),
@@ -195,4 +195,59 @@ fn what_cannot_be_compared_is_refused_in_a_sentence_and_nothing_is_written() {
         assert!(!sentence.contains('\n') && !sentence.ends_with('.'), "{sentence}");
     }
     assert!(!path("d.jpg").exists());
+}
+
+/// A head that says more than the file can hold, in its only part and in its second.
+#[test]
+fn images_that_say_they_are_huge_are_refused_before_memory_is_asked_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name);
+    write_exr(&path("a.exr"), [2, 2], &[[0.5; 3]; 4]);
+    let part = |name: &str| {
+        let channels = SpecificChannels::rgb(|_: exr::math::Vec2<usize>| (0.5_f32, 0.5_f32, 0.5_f32));
+        let attributes = exr::prelude::LayerAttributes::named(name);
+        exr::prelude::Layer::new((2, 2), attributes, Encoding::UNCOMPRESSED, channels)
+    };
+    let size = exr::meta::attribute::IntegerBounds::from_dimensions((2, 2));
+    let attributes = exr::prelude::ImageAttributes::new(size);
+    let two = Image::empty(attributes).with_layer(part("one")).with_layer(part("two"));
+    two.write().non_parallel().to_file(path("two.exr")).expect("written");
+    for (from, part, name) in [("a.exr", 0, "huge.exr"), ("two.exr", 1, "multi.exr")] {
+        let mut bytes = std::fs::read(path(from)).expect("read");
+        let head = b"dataWindow\0box2i\0\x10\0\0\0";
+        let at: Vec<usize> = (0..bytes.len() - head.len()).filter(|&at| bytes[at..].starts_with(head)).collect();
+        // The largest x of the window, so that the number of lines stays what it is.
+        let x = at[part] + head.len() + 8;
+        bytes[x..x + 4].copy_from_slice(&900_000_000_i32.to_le_bytes());
+        std::fs::write(path(name), bytes).expect("written");
+        let said = compare(&[&shown(&path("a.exr")), &shown(&path(name))]).expect_err("refused");
+        assert!(said.starts_with("cannot read ") && !said.contains('\n'), "{said}");
+        assert!(said.contains("900000001 × 2 pixels, which do not fit into its"), "{said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_are_refused_and_bombs_are_weighed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name);
+    write_png(&path("a.png"), [2, 2], 9);
+    for name in ["pipe.png", "pipe.exr"] {
+        assert!(std::process::Command::new("mkfifo").arg(path(name)).status().expect("mkfifo").success());
+        let said = compare(&[&shown(&path(name)), &shown(&path(name))]).expect_err("refused");
+        assert!(said.ends_with("is not a regular file"), "{said}");
+    }
+    if cfg!(target_os = "linux") {
+        let mut encoder = png::Encoder::new(std::fs::File::create(path("bomb.png")).expect("made"), 16384, 16384);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::One);
+        encoder.write_header().expect("a head").write_image_data(&vec![0; 16384 * 2048]).expect("pixels");
+        let command = "ulimit -v 4000000 && exec \"$@\"";
+        let program = env!("CARGO_BIN_EXE_pinhole");
+        let words = ["-c", command, "sh", program, "compare", "a.png", "bomb.png"];
+        let out = std::process::Command::new("sh").args(words).current_dir(folder.path()).output().expect("starts");
+        let said = String::from_utf8(out.stderr).expect("text");
+        assert_eq!((out.status.code(), said.lines().count()), (Some(1), 1), "{said}");
+        assert!(said.contains("16384 × 16384 pixels, and comparing them needs 6.5 GiB"), "{said}");
+    }
 }

@@ -153,7 +153,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
             }
         }
         write_checkpoint(&under_way.film, key, &path).expect("written");
-        let kept = read_checkpoint(key, &path).expect("read");
+        let kept = read_checkpoint(key, &under_way.film, false, &path).expect("read");
         assert!(kept == under_way.film, "a checkpoint holds all of a film");
         let mut next = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
         next.take(kept);
@@ -205,7 +205,7 @@ fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
     let good = fs::read(&path).expect("read");
     let refused = |bytes: &[u8], key: u64| {
         fs::write(&path, bytes).expect("written");
-        let said = read_checkpoint(key, &path).err().map(|error| error.to_string()).unwrap_or_default();
+        let said = read_checkpoint(key, &film, false, &path).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(said.starts_with(&format!("cannot continue from {}: ", path.display())), "{said}");
         assert!(!said.contains('\n') && !said.ends_with('.'), "{said}");
         said
@@ -231,6 +231,55 @@ fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
     later[20] = 9;
     assert!(refused(&later, key).contains("version 9"));
     eprintln!("checkpoints: {cut} cut short, {damaged} damaged, all refused");
+}
+
+/// The checksum is no signature, so whoever wants to can write one: no film that no render leaves is taken.
+#[test]
+fn a_forged_checkpoint_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("picture.checkpoint");
+    let scene =
+        sampled([40, 24], seven(Sampler::Sobol), Layers { kinds: vec![LayerKind::Position, LayerKind::Variance] });
+    let film = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
+    write_checkpoint(&film, 1, &path).expect("written");
+    assert!(read_checkpoint(1, &film, false, &path).expect("read") == film, "the true one is taken");
+    let forgeries: [(&str, fn(&mut Film)); 13] = [
+        ("counts", |film| film.tiles[0].count[3] = u32::MAX),
+        ("one count too many", |film| film.tiles[0].count[3] += 1),
+        ("infinite light", |film| film.tiles[1].r[0] = f64::INFINITY),
+        ("light that is no number", |film| film.tiles[1].g[5] = f64::NAN),
+        ("negative light", |film| film.tiles[0].b[0] = -1.0),
+        ("infinite moments", |film| film.moments[0].r[0] = f64::INFINITY),
+        ("steps", |film| film.done[0] = u32::MAX),
+        ("all steps", |film| film.done.fill(u32::MAX)),
+        ("a pilot without an error", |film| film.pilot = true),
+        ("a plan without an error", |film| {
+            film.planned = film.tiles.iter().map(|own| vec![9; own.count.len()]).collect()
+        }),
+        ("rejected samples", |film| film.tiles[0].rejected = u64::MAX),
+        ("layers", |film| film.layers[0].met[0] = film.layers[0].taken[0] + 1),
+        ("tiles of one pixel", |film| {
+            *film = Film { done: vec![10; 960], moments: film.moments.clone(), ..Film::new(40, 24, 1) };
+        }),
+    ];
+    for (what, forge) in forgeries {
+        let mut forged = film.clone();
+        forge(&mut forged);
+        write_checkpoint(&forged, 1, &path).expect("written");
+        let said = read_checkpoint(1, &film, false, &path).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(said.ends_with("the file is cut short or damaged"), "{what}: {said}");
+    }
+}
+
+/// A pipe that nobody writes to once made `--resume` wait for ever.
+#[cfg(unix)]
+#[test]
+fn a_checkpoint_that_is_a_pipe_is_refused_at_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("picture.checkpoint");
+    assert!(std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo").success());
+    let said = read_checkpoint(1, &Film::new(1, 1, 32), false, &path).expect_err("refused").to_string();
+    assert!(said.starts_with("cannot continue: ") && said.ends_with("is not a regular file"), "{said}");
 }
 
 #[test]

@@ -10,6 +10,8 @@ mod bad_cases;
 mod bad_files;
 #[path = "scene_files/bad_places.rs"]
 mod bad_places;
+#[path = "scene_files/damaged.rs"]
+mod damaged;
 #[path = "scene_files/edits.rs"]
 mod edits;
 #[path = "scene_files/fuzz.rs"]
@@ -39,12 +41,12 @@ fn typed(words: &[&str]) -> pinhole::Result<String> {
     Ok(String::from_utf8(out).expect("text"))
 }
 
-/// Few files of the very code to which `cargo bench --bench hostile` gives a hundred thousand.
+/// Few files of the very code to which `cargo bench --bench damaged` gives a hundred thousand.
 #[test]
 fn no_damaged_file_brings_a_command_down() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let bases = hostile::Bases::in_folder(folder.path());
-    let mut counts = hostile::Counts::default();
+    let bases = damaged::Bases::in_folder(folder.path());
+    let mut counts = damaged::Counts::default();
     (0..240).for_each(|seed| bases.try_seed(seed, &mut counts));
     eprintln!("damaged files: {counts}");
     assert!(counts.hold(), "{counts}");

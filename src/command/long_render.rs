@@ -81,10 +81,10 @@ pub fn render_long(
 ) -> Result<Outcome> {
     let (key, checkpoint) = (film_key(scene, &render.plan), files.checkpoint());
     check_place(&checkpoint)?;
-    if options.resume {
-        resume(render, key, &checkpoint, options, out)?;
-    }
     let limits = Limits { time: options.time, write_every: options.write_every, adaptive: adaptive_of(scene)? };
+    if options.resume {
+        resume(render, key, limits.adaptive.is_some(), &checkpoint, options, out)?;
+    }
     let waiting = Waiting::new(0, options.quiet || options.stats);
     let mut keep = |film: &Film| {
         files.write(film)?;
@@ -120,16 +120,13 @@ pub fn render_long(
 fn resume(
     render: &mut RenderUnderWay,
     key: u64,
+    adaptive: bool,
     checkpoint: &Path,
     options: &RenderOptions,
     out: &mut dyn Write,
 ) -> Result {
     let told = if checkpoint.exists() {
-        let film = read_checkpoint(key, checkpoint)?;
-        if !film.is_like(&render.film) {
-            let what = "the file is cut short or damaged";
-            return Err(Error::Usage(format!("cannot continue from {}: {what}", checkpoint.display())));
-        }
+        let film = read_checkpoint(key, &render.film, adaptive, checkpoint)?;
         render.take(film);
         let samples = crate::render::samples_after(render.film.least_done());
         let of = if render.film.pilot { " of the pilot" } else { "" };

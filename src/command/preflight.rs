@@ -3,7 +3,7 @@ use super::subject::{Subject, every_stage};
 use crate::chapter::Chapter;
 use crate::look::{Preflight, SLIPS, preflight};
 use crate::plan::Stage;
-use crate::render::prepare;
+use crate::render::{check_film_fits, prepare};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::io::Write;
@@ -34,6 +34,7 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, out: &mut dyn
 
 fn said(scene: &World, stages: &[Stage]) -> Result<Vec<String>> {
     let (plan, tables) = prepare(scene, stages)?;
+    check_film_fits(scene, &plan)?;
     preflight(scene, (&plan, &tables), Preflight::default())
 }
 

@@ -1,10 +1,13 @@
 use crate::Result;
 use crate::film::write_whole;
+use crate::scene::{FileError, FileKind, Unopened, printable_path, read_file};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::path::Path;
+
+const PROGRESS: FileKind = FileKind { name: "a record of progress", most: 1 << 20 };
 
 /// How often each exercise was tried, and with what result, by the chapter's name.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,10 +30,10 @@ impl Progress {
     ///
     /// A file that cannot be understood is renamed, so that nothing in it is lost, and the second value says so.
     pub fn read(file: &Path) -> (Self, Option<String>) {
-        let text = match fs::read(file) {
+        let text = match read_file(file, PROGRESS) {
             Ok(text) => text,
-            Err(none) if none.kind() == ErrorKind::NotFound => return (Self::default(), None),
-            Err(refused) => return (Self::default(), Some(format!("cannot read {}: {refused}", file.display()))),
+            Err(FileError { why: Unopened::Missing, .. }) => return (Self::default(), None),
+            Err(refused) => return (Self::default(), Some(format!("progress is not read: {refused}"))),
         };
         match serde_json::from_slice(&text) {
             Ok(progress) => (progress, None),
@@ -57,9 +60,9 @@ impl Progress {
 /// Renames a damaged file, and says what was done.
 fn set_aside(file: &Path, wrong: &str) -> String {
     let aside = file.with_extension("damaged.json");
-    let damaged = format!("{} is damaged ({wrong})", file.display());
+    let damaged = format!("{} is damaged ({wrong})", printable_path(file));
     match fs::rename(file, &aside) {
-        Ok(()) => format!("{damaged}; it is set aside as {}, and counting starts anew", aside.display()),
+        Ok(()) => format!("{damaged}; it is set aside as {}, and counting starts anew", printable_path(&aside)),
         Err(refused) => format!("{damaged} and cannot be set aside ({refused}); counting starts anew"),
     }
 }

@@ -4,7 +4,7 @@ use super::pose::world_from_entity;
 use crate::plan::{Table, counted, entities};
 use crate::scene::{
     Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution,
-    called,
+    called, some_of,
 };
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -42,8 +42,7 @@ pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
             Err(Refusal::new("the scene", "camera", value, accepted))
         }
         _ => {
-            let names: Vec<String> = cameras.iter().map(|&camera| called(scene, camera)).collect();
-            let value = format!("given {}: {}", counted(cameras.len(), "time"), names.join(", "));
+            let value = format!("given {}: {}", counted(cameras.len(), "time"), some_of(scene, &cameras, ", "));
             Err(Refusal::new("the scene", "camera", value, accepted))
         }
     }

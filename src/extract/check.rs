@@ -1,7 +1,7 @@
 //! Checks that several kinds of component share, each giving the one sentence that a refusal is.
 
 use crate::plan::entities;
-use crate::scene::{Refusal, Rgb, called};
+use crate::scene::{Refusal, Rgb, called, some_of};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -80,9 +80,13 @@ pub fn number(value: f64) -> String {
 pub fn at_most_one<C: Component>(scene: &World, field: &'static str, kind: &str) -> Result<Option<Entity>, Refusal> {
     let found = entities::<With<C>>(scene);
     if found.len() > 1 {
-        let names: Vec<String> = found.iter().map(|&entity| called(scene, entity)).collect();
         let accepted = format!("at most one entity may carry a {kind}");
-        return Err(Refusal::new("the scene", field, format!("given by {}", names.join(" and ")), accepted));
+        return Err(Refusal::new(
+            "the scene",
+            field,
+            format!("given by {}", some_of(scene, &found, " and ")),
+            accepted,
+        ));
     }
     Ok(found.first().copied())
 }

@@ -1,15 +1,16 @@
 use super::Texels;
 use super::check::{at_most_one, kind_and_name, number};
-use super::image_file::{Numbers, read_texels};
+use super::image_file::background_image;
 use crate::plan::Table;
 use crate::scene::{Environment, Refusal};
 use bevy_ecs::prelude::*;
+use std::sync::Arc;
 
 /// The radiance of a background from an image of all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentTable {
     /// Linear Rec. 709 radiance.
-    pub image: Texels,
+    pub image: Arc<Texels>,
     /// Sine and cosine of the turn about +y.
     pub turn: [f64; 2],
 }
@@ -19,7 +20,7 @@ impl Table for EnvironmentTable {
 
     fn extract(scene: &World) -> Result<Self, Refusal> {
         let Some(entity) = at_most_one::<Environment>(scene, "environment", "Environment")? else {
-            return Ok(Self { image: Texels::single([0.0; 3]), turn: [0.0, 1.0] });
+            return Ok(Self { image: Texels::single([0.0; 3]).into(), turn: [0.0, 1.0] });
         };
         let Environment { file, turn, scale } = scene.get::<Environment>(entity).cloned().unwrap_or_default();
         let who = kind_and_name(scene, "environment", entity);
@@ -29,9 +30,11 @@ impl Table for EnvironmentTable {
         if !(0.0..f64::INFINITY).contains(&scale) {
             return Err(Refusal::new(who, "scale", number(scale), "it must be a finite number of at least 0"));
         }
-        let mut image = read_texels(scene, &who, &file, Numbers::Radiance)?;
-        for part in image.rgb.iter_mut().flatten() {
-            *part = (f64::from(*part) * scale) as f32;
+        let mut image = background_image(scene, &who, &file)?;
+        if scale != 1.0 {
+            let mut scaled = Texels::clone(&image);
+            scaled.rgb.iter_mut().flatten().for_each(|part| *part = (f64::from(*part) * scale) as f32);
+            image = scaled.into();
         }
         if image.rgb.iter().flatten().any(|part| !part.is_finite()) {
             let accepted = "the brightest texel times it must be at most 3.4e38";
@@ -42,6 +45,6 @@ impl Table for EnvironmentTable {
     }
 
     fn bytes(&self) -> usize {
-        self.image.rgb.len() * size_of::<[f32; 3]>() + size_of::<[f64; 2]>()
+        self.image.bytes() + size_of::<[f64; 2]>()
     }
 }

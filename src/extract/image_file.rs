@@ -1,15 +1,23 @@
 //! Image files → texels in linear light.
 
-use super::linear_from_srgb;
-use crate::scene::{Refusal, SceneFolder};
+use super::image_head::{ImageHead, image_head, one_line};
+use super::image_store::{ImageStore, Undecoded};
+use super::{Pyramid, linear_from_srgb};
+use crate::scene::{
+    IMAGE_FILE, Refusal, SceneFolder, TooLittleMemory, check_memory, open_file, printable, printable_path,
+};
 use bevy_ecs::prelude::*;
-use exr::prelude::{MetaData, ReadChannels, ReadLayers, read};
+use exr::prelude::{ReadChannels, ReadLayers, read};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
-use std::fs;
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::io::{BufRead, BufReader, Cursor, Seek};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// The most texels of one image; with its smaller copies they take 16 bytes each.
+/// The most texels of one image.
 const MOST_TEXELS: u64 = 1 << 24;
+/// What a texel takes with its part of the smaller copies.
+const BYTES_A_TEXEL: u64 = 16;
 
 /// An image in linear light, its rows from top to bottom.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,11 +35,16 @@ impl Texels {
     pub fn single(rgb: [f32; 3]) -> Self {
         Self { width: 1, height: 1, rgb: vec![rgb] }
     }
+
+    /// Bytes that they take.
+    pub fn bytes(&self) -> usize {
+        self.rgb.len() * size_of::<[f32; 3]>()
+    }
 }
 
 /// Which numbers an image may hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Numbers {
+enum Numbers {
     /// Shares of light, from 0 to 1.
     Shares,
     /// Radiance: finite, at least 0.
@@ -61,85 +74,121 @@ impl Numbers {
     }
 }
 
-/// Reads the image file that a component names.
+/// The images of textures, in shares of light, and those of backgrounds, in radiance.
+static TEXTURES: ImageStore<Pyramid> = ImageStore::new();
+static BACKGROUNDS: ImageStore<Texels> = ImageStore::new();
+
+/// The image of a texture, with its smaller copies.
 ///
 /// Errors: another ending, a file that is not there, cannot be read or is too large, a texel that is out of range.
-pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers) -> Result<Texels, Refusal> {
-    let refused = |accepted: String| Refusal::new(who, "file", shortened(&format!("{file:?}")), accepted);
+pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, Refusal> {
+    let decode = |texels: Texels| {
+        let pyramid = Pyramid::on(texels);
+        let bytes = pyramid.bytes();
+        (pyramid, bytes)
+    };
+    decoded(&TEXTURES, scene, who, file, Numbers::Shares, decode)
+}
+
+/// The image of a background.
+///
+/// Errors: as those of a texture.
+pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, Refusal> {
+    let decode = |texels: Texels| {
+        let bytes = texels.bytes();
+        (texels, bytes)
+    };
+    decoded(&BACKGROUNDS, scene, who, file, Numbers::Radiance, decode)
+}
+
+/// A file's name as a refusal shows it.
+pub(super) fn shown_name(file: &str) -> String {
+    format!("\"{}\"", printable(file, 80))
+}
+
+fn decoded<T>(
+    store: &ImageStore<T>,
+    scene: &World,
+    who: &str,
+    file: &str,
+    numbers: Numbers,
+    prepared: impl FnOnce(Texels) -> (T, usize),
+) -> Result<Arc<T>, Refusal> {
+    let refused = |accepted: String| Refusal::new(who, "file", shown_name(file), accepted);
     let path = SceneFolder::path_of(scene, file);
     let (endings, accepted) = numbers.endings();
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if !endings.contains(&ending.as_str()) {
-        return Err(refused(accepted.into()));
-    }
-    let texels = decoded(&path, &ending).map_err(refused)?;
+    let format = format_of(&path).filter(|(ending, _)| endings.contains(ending));
+    let (_, format) = format.ok_or_else(|| refused(accepted.into()))?;
+    let decode = |bytes: &[u8]| {
+        let texels =
+            texels(bytes, format).map_err(|problem| format!("{} cannot be read: {problem}", printable_path(&path)))?;
+        check_numbers(&texels, numbers)?;
+        Ok(prepared(texels))
+    };
+    store.get(&path, decode).map_err(|why| match why {
+        Undecoded::File(error) => refused(error.to_string()),
+        Undecoded::Image(problem) => refused(problem),
+    })
+}
+
+/// What all files of textures together need, as far as they are not in memory yet.
+///
+/// Errors: how many files they are, and what they need.
+pub(super) fn check_memory_of_textures<'f>(
+    scene: &World,
+    files: impl Iterator<Item = &'f str>,
+) -> Result<(), (usize, TooLittleMemory)> {
+    let paths: BTreeSet<PathBuf> = files.map(|file| SceneFolder::path_of(scene, file)).collect();
+    // What cannot be read is refused by its own name later.
+    let bytes = |path: &PathBuf| -> Option<u64> {
+        let (_, format) = format_of(path)?;
+        let file = open_file(path, IMAGE_FILE).ok()?;
+        let length = file.metadata.len();
+        let is_there = TEXTURES.holds(path, &file.metadata);
+        let head = image_head(BufReader::new(file.file), format, length).ok()?;
+        (!is_there && head.pixels() <= MOST_TEXELS).then(|| head.pixels() * BYTES_A_TEXEL)
+    };
+    let needed = paths.iter().filter_map(bytes).sum();
+    check_memory(needed).map_err(|too_little| (paths.len(), too_little))
+}
+
+fn format_of(path: &Path) -> Option<(&'static str, ImageFormat)> {
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    let formats = [("png", ImageFormat::Png), ("hdr", ImageFormat::Hdr), ("exr", ImageFormat::OpenExr)];
+    formats.into_iter().find(|(own, _)| *own == ending)
+}
+
+fn check_numbers(texels: &Texels, numbers: Numbers) -> Result<(), String> {
     let wrong = |texel: &[f32; 3]| !texel.iter().all(|&part| numbers.accepts(part));
-    if let Some(first) = texels.rgb.iter().position(wrong) {
-        let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
-        let [r, g, b] = texels.rgb[first];
-        let (x, y) = (first % texels.width, first / texels.width);
-        let held = format!("it holds {count} other texels, the first at {x}, {y}: ({r}, {g}, {b})");
-        return Err(refused(format!("each part of a texel must be {}, and {held}", numbers.range())));
+    let Some(first) = texels.rgb.iter().position(wrong) else { return Ok(()) };
+    let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
+    let [r, g, b] = texels.rgb[first];
+    let (x, y) = (first % texels.width, first / texels.width);
+    let held = format!("it holds {count} other texels, the first at {x}, {y}: ({r}, {g}, {b})");
+    Err(format!("each part of a texel must be {}, and {held}", numbers.range()))
+}
+
+/// The texels of a file of these bytes.
+fn texels(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
+    let head = image_head(Cursor::new(bytes), format, bytes.len() as u64)?;
+    let ImageHead { width, height, decoded } = head;
+    if head.pixels() > MOST_TEXELS {
+        return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
     }
-    Ok(texels)
-}
-
-fn decoded(path: &Path, ending: &str) -> Result<Texels, String> {
-    let shown = shortened(&path.display().to_string());
-    let metadata = fs::metadata(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => format!("there is no file {shown}"),
-        _ => format!("{shown} cannot be read: {}", one_line(&error)),
-    })?;
-    if !metadata.is_file() {
-        return Err(format!("{shown} is no ordinary file"));
+    // The decoder's own pixels stand beside the texels for a while.
+    check_memory(head.pixels() * BYTES_A_TEXEL + 2 * decoded)
+        .map_err(|too_little| format!("it has {width} × {height} texels, which {too_little}"))?;
+    match format {
+        ImageFormat::OpenExr => read_exr(Cursor::new(bytes)),
+        _ => {
+            let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+            let mut limits = Limits::default();
+            limits.max_alloc = Some(MOST_TEXELS * 16);
+            reader.limits(limits);
+            let image = reader.decode().map_err(|error| one_line(&error))?;
+            Ok(Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image) })
+        }
     }
-    let read = match ending {
-        "exr" => read_exr(path),
-        "hdr" => read_by_image(path, ImageFormat::Hdr),
-        _ => read_by_image(path, ImageFormat::Png),
-    };
-    read.map_err(|problem| format!("{shown} cannot be read: {problem}"))
-}
-
-/// What a library says, as a part of one sentence.
-fn one_line(what: &dyn std::fmt::Display) -> String {
-    let what = what.to_string();
-    let line = what.lines().next().unwrap_or_default().trim_end_matches('.').replace(". ", ", ");
-    shortened(&line)
-}
-
-/// The end of a long text, where a path is told from another.
-pub(super) fn shortened(text: &str) -> String {
-    const MOST_LETTERS: usize = 80;
-    let letters = text.chars().count();
-    let end = text.chars().skip(letters.saturating_sub(MOST_LETTERS));
-    let end: String = end.map(|letter| if letter.is_control() { '?' } else { letter }).collect();
-    if letters > MOST_LETTERS { format!("…{end}") } else { end }
-}
-
-fn check_size(width: u64, height: u64) -> Result<(), String> {
-    let texels = width.checked_mul(height);
-    match texels {
-        Some(1..=MOST_TEXELS) => Ok(()),
-        Some(0) => Err("it has no texels".into()),
-        _ => Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}")),
-    }
-}
-
-fn read_by_image(path: &Path, format: ImageFormat) -> Result<Texels, String> {
-    let reader = |path: &Path| -> Result<_, String> {
-        let mut reader = ImageReader::open(path).map_err(|error| one_line(&error))?;
-        reader.set_format(format);
-        Ok(reader)
-    };
-    let (width, height) = reader(path)?.into_dimensions().map_err(|error| one_line(&error))?;
-    check_size(width.into(), height.into())?;
-    let mut reader = reader(path)?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_TEXELS * 16);
-    reader.limits(limits);
-    let image = reader.decode().map_err(|error| one_line(&error))?;
-    Ok(Texels { width: width as usize, height: height as usize, rgb: linear(image) })
 }
 
 /// Whole numbers are sRGB, floats are linear; alpha is left out.
@@ -158,11 +207,10 @@ fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
     }
 }
 
-fn read_exr(path: &Path) -> Result<Texels, String> {
-    let meta = MetaData::read_from_file(path, false).map_err(|error| one_line(&error))?;
-    for header in &meta.headers {
-        check_size(header.layer_size.0 as u64, header.layer_size.1 as u64)?;
-    }
+/// The channels R, G and B of an EXR's first part that has them, at full size.
+///
+/// Errors: what the library says, on one line.
+pub fn read_exr(reader: impl BufRead + Seek) -> Result<Texels, String> {
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -176,7 +224,7 @@ fn read_exr(path: &Path) -> Result<Texels, String> {
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_file(path)
+        .from_buffered(reader)
         .map_err(|error| one_line(&error))?;
     Ok(image.layer_data.channel_data.pixels)
 }

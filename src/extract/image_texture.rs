@@ -1,19 +1,21 @@
+use super::Pyramid;
 use super::check::kind_and_name;
-use super::image_file::{Numbers, read_texels, shortened};
+use super::image_file::{check_memory_of_textures, shown_name, texture_image};
 use super::phong::beside_highlight;
 use super::texture::{Texture, rows_of_kind};
-use super::{Pyramid, Texels};
-use crate::plan::{Table, entities};
+use crate::plan::{Table, counted, entities};
 use crate::scene::{ImageTexture, Refusal, Rgb, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The materials that are coloured by an image, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImageTable {
     /// The row of each material's image; [`NO_TEXTURE`](super::NO_TEXTURE) where it has none.
     pub of_material: Vec<u32>,
-    /// The images, in linear light.
-    pub pyramid: Vec<Pyramid>,
+    /// The images, in linear light; one that several materials name is one in memory.
+    pub pyramid: Vec<Arc<Pyramid>>,
     /// How often the image is as high as its texture's unit: its width over its height by space, 1 by uv.
     pub aspect: Vec<f64>,
     /// What there is beyond their edges.
@@ -24,16 +26,22 @@ pub struct ImageTable {
 
 /// Checks every image texture's file.
 pub(super) fn check_images(scene: &World) -> Result<(), Refusal> {
-    entities::<With<ImageTexture>>(scene).into_iter().try_for_each(|owner| image_of(scene, owner).map(|_| ()))
+    let owners = entities::<With<ImageTexture>>(scene);
+    let files = owners.iter().filter_map(|&owner| scene.get::<ImageTexture>(owner)).map(|texture| &*texture.file);
+    check_memory_of_textures(scene, files).map_err(|(count, too_little)| {
+        let files = counted(count, "file");
+        Refusal::new("the scene", "image textures", files, format!("to decode them {too_little}"))
+    })?;
+    owners.into_iter().try_for_each(|owner| image_of(scene, owner).map(|_| ()))
 }
 
-fn image_of(scene: &World, owner: Entity) -> Result<Texels, Refusal> {
+fn image_of(scene: &World, owner: Entity) -> Result<Arc<Pyramid>, Refusal> {
     let file = scene.get::<ImageTexture>(owner).map_or("", |texture| &texture.file);
     let who = kind_and_name(scene, ImageTexture::WORD, owner);
-    let texels = read_texels(scene, &who, file, Numbers::Shares)?;
-    let [r, g, b] = [0, 1, 2].map(|part| texels.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max).into());
-    beside_highlight(scene, owner, (&who, "file", shortened(&format!("{file:?}"))), Rgb::new(r, g, b))?;
-    Ok(texels)
+    let image = texture_image(scene, &who, file)?;
+    let [r, g, b] = image.brightest.map(f64::from);
+    beside_highlight(scene, owner, (&who, "file", shown_name(file)), Rgb::new(r, g, b))?;
+    Ok(image)
 }
 
 impl Table for ImageTable {
@@ -45,9 +53,9 @@ impl Table for ImageTable {
         for material in rows {
             let Some(texture) = scene.get::<ImageTexture>(material) else { continue };
             let image = image_of(scene, material)?;
-            let aspect = image.width as f64 / image.height as f64;
+            let aspect = image.levels[0].width as f64 / image.levels[0].height as f64;
             table.aspect.push(if texture.by == TextureBy::Uv { 1.0 } else { aspect });
-            table.pyramid.push(Pyramid::on(image));
+            table.pyramid.push(image);
             table.wrap.push(texture.wrap);
             table.filter.push(texture.filter);
         }
@@ -55,6 +63,8 @@ impl Table for ImageTable {
     }
 
     fn bytes(&self) -> usize {
-        self.of_material.len() * 4 + self.pyramid.iter().map(Pyramid::bytes).sum::<usize>()
+        let images: BTreeMap<_, usize> =
+            self.pyramid.iter().map(|pyramid| (Arc::as_ptr(pyramid), pyramid.bytes())).collect();
+        self.of_material.len() * 4 + images.into_values().sum::<usize>()
     }
 }

@@ -30,6 +30,8 @@ mod glass;
 mod glass_overlap;
 mod gradient;
 mod image_file;
+mod image_head;
+mod image_store;
 mod image_texture;
 mod integrator;
 mod integrator_table;
@@ -85,7 +87,8 @@ pub use flat::Flat;
 pub use glass::{GlassTable, glass_evidence};
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
-pub use image_file::Texels;
+pub use image_file::{Texels, read_exr};
+pub use image_head::{ImageHead, image_head, one_line};
 pub use image_texture::ImageTable;
 pub use integrator::{
     ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,

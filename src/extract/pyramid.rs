@@ -7,22 +7,25 @@ use super::Texels;
 pub struct Pyramid {
     /// The image first.
     pub levels: Vec<Texels>,
+    /// The largest red, green and blue among the image's texels.
+    pub brightest: [f32; 3],
 }
 
 impl Pyramid {
     /// The pyramid that stands on an image.
     pub fn on(image: Texels) -> Self {
+        let brightest = [0, 1, 2].map(|part| image.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max));
         let mut levels = vec![image];
         while let Some(below) = levels.last().filter(|level| level.width * level.height > 1) {
             let next = halved(below);
             levels.push(next);
         }
-        Self { levels }
+        Self { levels, brightest }
     }
 
     /// Bytes that its texels take.
     pub fn bytes(&self) -> usize {
-        self.levels.iter().map(|level| level.rgb.len() * size_of::<[f32; 3]>()).sum()
+        self.levels.iter().map(Texels::bytes).sum()
     }
 }
 

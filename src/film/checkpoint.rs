@@ -2,19 +2,32 @@
 //!
 //! Little-endian: the word `pinhole checkpoint`, the format's version, the key of plan and scene, the film's shape, what
 //! it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples, moments, layers; then what
-//! rays from the lights brought; last a digest of every number before it.
+//! rays from the lights brought; last the CRC-32 of every number before it.
+//!
+//! The checksum tells damage, and is no signature: who wants to can write a checkpoint of any picture.
+//! So nothing in the file decides how much memory is asked for, and what no render can have left is refused.
 
+use super::plausible::is_plausible;
 use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, write_whole};
-use crate::scene::LayerKind;
+use crate::scene::{FileKind, check_memory, open_file, printable_path};
 use crate::{Error, Result};
-use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 /// What a checkpoint begins with.
 const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";
 /// A file of another version is refused.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
+/// The largest film with all that can be kept of it stays below this.
+const CHECKPOINT: FileKind = FileKind { name: "a checkpoint", most: 1 << 40 };
+/// Numbers that are read or written at once.
+const AT_ONCE: usize = 4096;
+// Bits of what a film keeps.
+const MOMENTS: u32 = 1;
+const LAYERS: u32 = 2;
+const PILOT: u32 = 4;
+const PLANNED: u32 = 8;
+const SPLATS: u32 = 16;
 
 /// Writes the state of a film whole, under the key of what it is a film of.
 ///
@@ -22,64 +35,97 @@ const VERSION: u32 = 2;
 pub fn write_checkpoint(film: &Film, key: u64, path: &Path) -> Result {
     write_whole(path, |file| {
         file.write_all(&WORD)?;
-        let mut out = Numbers { stream: file, digest: Digest::default() };
+        let mut out = Numbers { stream: file, sum: crc32fast::Hasher::new() };
         out.write_u32(VERSION)?;
         out.write_u64(key)?;
+        out.write_u32s(&shape(film))?;
         write_film(film, &mut out)?;
-        let digest = out.digest.0;
-        out.write_u64(digest)
+        let sum = out.sum.clone().finalize();
+        out.write_u32(sum)
     })
 }
 
-/// Reads the state of a film.
+/// Reads the state of a film like `film`, which the render that is to go on has made; `adaptive` where the error decides
+/// how many samples each pixel gets.
 ///
 /// Errors, each in one sentence: no such file or what the system said, another kind of file, another version, a film of
 /// something else than `key`, a file that is cut or damaged.
-pub fn read_checkpoint(key: u64, path: &Path) -> Result<Film> {
-    let refused = |what: &str| Error::Usage(format!("cannot continue from {}: {what}", path.display()));
+pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Result<Film> {
+    let refused = |what: &str| Error::Usage(format!("cannot continue from {}: {what}", printable_path(path)));
+    let damaged = || refused("the file is cut short or damaged");
     let unread = |error: io::Error| match error.kind() {
-        io::ErrorKind::UnexpectedEof | io::ErrorKind::InvalidData => refused("the file is cut short or damaged"),
-        io::ErrorKind::NotFound => refused("there is no such file"),
+        io::ErrorKind::UnexpectedEof | io::ErrorKind::InvalidData => damaged(),
         _ => refused(&error.to_string()),
     };
-    let mut file = BufReader::new(File::open(path).map_err(unread)?);
+    let opened = open_file(path, CHECKPOINT).map_err(|error| Error::Usage(format!("cannot continue: {error}")))?;
+    let length = opened.metadata.len();
+    let mut file = BufReader::new(opened.file);
     let mut word = [0; WORD.len()];
     file.read_exact(&mut word).map_err(unread)?;
     if word != WORD {
         return Err(refused("it is no checkpoint of pinhole"));
     }
-    let mut numbers = Numbers { stream: file, digest: Digest::default() };
+    let mut numbers = Numbers { stream: file, sum: crc32fast::Hasher::new() };
     let version = numbers.read_u32().map_err(unread)?;
     if version != VERSION {
         return Err(refused(&format!("it is of version {version}, but this program reads version {VERSION}")));
     }
     if numbers.read_u64().map_err(unread)? != key {
         return Err(refused(
-            "it is of another scene, size, seed, sampler, filter or set of layers than is asked for now; \
-             render without --resume to begin anew",
+            "it is of another scene, size, seed, sampler, filter or set of layers than is asked for now, or of another \
+             state of the program; render without --resume to begin anew",
         ));
     }
-    let length = path.metadata().map_err(unread)?.len();
-    let film = read_film(&mut numbers, length).map_err(unread)?;
-    let digest = numbers.digest.0;
-    let whole = numbers.read_u64().map_err(unread)? == digest && numbers.stream.read(&mut [0]).map_err(unread)? == 0;
-    if whole { Ok(film) } else { Err(refused("the file is cut short or damaged")) }
+    let mut found = [0; 5];
+    numbers.read_u32s(&mut found).map_err(unread)?;
+    let extra = if adaptive { found[3] & (PILOT | PLANNED) } else { 0 };
+    let mut expected = shape(film);
+    expected[3] = expected[3] & !(PILOT | PLANNED) | extra;
+    let least = least_length(film, extra & PLANNED != 0);
+    // What counts negatively is kept from the first such sample on, and of each tile the first rejected samples are.
+    let most =
+        least + film.tiles.iter().map(|tile| 28 * tile.count.len() as u64 + 24 * Rejected::MOST as u64).sum::<u64>();
+    if found != expected || !(least..=most).contains(&length) {
+        return Err(damaged());
+    }
+    check_memory(length).map_err(|too_little| refused(&format!("its film {too_little}")))?;
+    let mut read = Film { pilot: extra & PILOT != 0, ..film.emptied() };
+    if extra & PLANNED != 0 {
+        read.planned = read.tiles.iter().map(|tile| vec![0; tile.count.len()]).collect();
+    }
+    read_film(&mut read, &mut numbers).map_err(unread)?;
+    let sum = numbers.sum.clone().finalize();
+    let whole = numbers.read_u32().map_err(unread)? == sum && numbers.stream.read(&mut [0]).map_err(unread)? == 0;
+    if whole && is_plausible(&read) { Ok(read) } else { Err(damaged()) }
+}
+
+/// What the head says of a film: its size, the side of a tile, what it keeps, and of which layers.
+fn shape(film: &Film) -> [u32; 5] {
+    let kept = [
+        (MOMENTS, !film.moments.is_empty()),
+        (LAYERS, !film.layers.is_empty()),
+        (PILOT, film.pilot),
+        (PLANNED, !film.planned.is_empty()),
+        (SPLATS, film.splats.is_some()),
+    ];
+    let keeps = kept.iter().filter(|(_, kept)| *kept).map(|(bit, _)| bit).sum();
+    let kinds = film.layers.first().map_or(0, FilmLayers::kind_bits);
+    [film.width, film.height, film.tile_side, keeps, kinds]
+}
+
+/// The bytes of the checkpoint of a film like this none of whose samples was rejected or counts negatively.
+fn least_length(film: &Film, planned: bool) -> u64 {
+    let pixels = u64::from(film.width) * u64::from(film.height);
+    let layers = film.layers.first().map_or(0, |layers| 12 + 8 * layers.sums.len() as u64);
+    let moments = if film.moments.is_empty() { 0 } else { 24 };
+    let (splats, of_splats) = if film.splats.is_some() { (24, 16) } else { (0, 0) };
+    let a_pixel = 28 + layers + moments + splats + if planned { 4 } else { 0 };
+    // The word, the version, the key, the shape and the checksum; of a tile its steps, whether anything counts negatively,
+    // and how many samples were rejected and are remembered.
+    WORD.len() as u64 + 4 + 8 + 20 + 4 + of_splats + 20 * film.tiles.len() as u64 + a_pixel * pixels
 }
 
 fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
-    for number in [film.width, film.height, film.tile_side] {
-        out.write_u32(number)?;
-    }
-    let kinds = film.layers.first().map_or(0, FilmLayers::kind_bits);
-    let keeps = [
-        !film.moments.is_empty(),
-        !film.layers.is_empty(),
-        film.pilot,
-        !film.planned.is_empty(),
-        film.splats.is_some(),
-    ];
-    out.write_u32(keeps.iter().rev().fold(0, |bits, &keeps| bits << 1 | u32::from(keeps)))?;
-    out.write_u32(kinds)?;
     for (number, tile) in film.tiles.iter().enumerate() {
         out.write_u32(film.done[number])?;
         if let Some(planned) = film.planned.get(number) {
@@ -125,34 +171,16 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
     Ok(())
 }
 
-fn read_film<S: Read>(numbers: &mut Numbers<S>, length: u64) -> io::Result<Film> {
-    let [width, height, tile_side] = [numbers.read_u32()?, numbers.read_u32()?, numbers.read_u32()?];
-    let (keeps, kind_bits) = (numbers.read_u32()?, numbers.read_u32()?);
-    // A damaged size must not make the film larger than the file: a pixel takes at least its sums and its count.
-    let pixels = u64::from(width) * u64::from(height);
-    if tile_side == 0 || pixels.saturating_mul(28) > length || keeps > 31 {
-        return Err(io::ErrorKind::InvalidData.into());
-    }
-    let kinds: Vec<LayerKind> = LayerKind::ALL.into_iter().filter(|&kind| kind_bits >> kind as u32 & 1 == 1).collect();
-    let mut film = Film::new(width, height, tile_side);
-    if keeps & 1 != 0 {
-        film.moments = film.tiles.iter().map(|tile| FilmMoments::new(tile.tile.rows())).collect();
-    }
-    if keeps & 2 != 0 {
-        film.layers = film.tiles.iter().map(|tile| FilmLayers::new(tile.tile.rows(), &kinds)).collect();
-    }
-    film.pilot = keeps & 4 != 0;
-    if keeps & 8 != 0 {
-        film.planned = film.tiles.iter().map(|tile| vec![0; tile.tile.rows()]).collect();
-    }
+/// Fills an empty film.
+fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<()> {
     for number in 0..film.tiles.len() {
         film.done[number] = numbers.read_u32()?;
         if let Some(planned) = film.planned.get_mut(number) {
             numbers.read_u32s(planned)?;
         }
         read_tile(&mut film.tiles[number], numbers)?;
-        if let Some(moments) = film.moments.get_mut(number) {
-            for lane in [&mut moments.r, &mut moments.g, &mut moments.b] {
+        if let Some(FilmMoments { r, g, b }) = film.moments.get_mut(number) {
+            for lane in [r, g, b] {
                 numbers.read_f64s(lane)?;
             }
         }
@@ -165,15 +193,13 @@ fn read_film<S: Read>(numbers: &mut Numbers<S>, length: u64) -> io::Result<Film>
             }
         }
     }
-    if keeps & 16 != 0 {
-        let mut splats = FilmSplats::new(width, height);
-        (splats.paths, splats.rejected) = (numbers.read_u64()?, numbers.read_u64()?);
-        for sums in &mut splats.sums {
+    if let Some(FilmSplats { paths, rejected, sums, .. }) = &mut film.splats {
+        (*paths, *rejected) = (numbers.read_u64()?, numbers.read_u64()?);
+        for sums in sums {
             numbers.read_f64s(sums)?;
         }
-        film.splats = Some(splats);
     }
-    Ok(film)
+    Ok(())
 }
 
 fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Result<()> {
@@ -192,7 +218,7 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
     }
     tile.rejected = numbers.read_u64()?;
     let remembered = numbers.read_u32()?;
-    if remembered > 64 {
+    if remembered as usize > Rejected::MOST {
         return Err(io::ErrorKind::InvalidData.into());
     }
     for _ in 0..remembered {
@@ -205,74 +231,74 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
     Ok(())
 }
 
-/// A digest of numbers in order: FNV-1a over 64-bit words.
-struct Digest(u64);
-
-impl Default for Digest {
-    fn default() -> Self {
-        Self(0xCBF2_9CE4_8422_2325)
-    }
-}
-
-impl Digest {
-    fn take(&mut self, word: u64) {
-        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01B3).rotate_left(23);
-    }
-}
-
-/// Numbers on their way to or from a file, and the digest of those that have passed.
+/// Numbers on their way to or from a file, and the checksum of those that have passed.
 struct Numbers<S> {
     stream: S,
-    digest: Digest,
+    sum: crc32fast::Hasher,
 }
 
 impl<S: Write> Numbers<S> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.sum.update(bytes);
+        self.stream.write_all(bytes)
+    }
+
     fn write_u32(&mut self, number: u32) -> io::Result<()> {
-        self.digest.take(u64::from(number));
-        self.stream.write_all(&number.to_le_bytes())
+        self.write(&number.to_le_bytes())
     }
 
     fn write_u64(&mut self, number: u64) -> io::Result<()> {
-        self.digest.take(number);
-        self.stream.write_all(&number.to_le_bytes())
+        self.write(&number.to_le_bytes())
     }
 
     fn write_u32s(&mut self, numbers: &[u32]) -> io::Result<()> {
-        numbers.iter().try_for_each(|&number| self.write_u32(number))
+        let mut some = numbers.chunks(AT_ONCE);
+        some.try_for_each(|some| {
+            self.write(some.iter().map(|number| number.to_le_bytes()).collect::<Vec<_>>().as_flattened())
+        })
     }
 
     fn write_f64s(&mut self, numbers: &[f64]) -> io::Result<()> {
-        numbers.iter().try_for_each(|&number| self.write_u64(number.to_bits()))
+        let mut some = numbers.chunks(AT_ONCE);
+        some.try_for_each(|some| {
+            self.write(some.iter().map(|number| number.to_le_bytes()).collect::<Vec<_>>().as_flattened())
+        })
     }
 }
 
 impl<S: Read> Numbers<S> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<()> {
+        self.stream.read_exact(bytes)?;
+        self.sum.update(bytes);
+        Ok(())
+    }
+
     fn read_u32(&mut self) -> io::Result<u32> {
         let mut bytes = [0; 4];
-        self.stream.read_exact(&mut bytes)?;
-        let number = u32::from_le_bytes(bytes);
-        self.digest.take(u64::from(number));
-        Ok(number)
+        self.read(&mut bytes)?;
+        Ok(u32::from_le_bytes(bytes))
     }
 
     fn read_u64(&mut self) -> io::Result<u64> {
         let mut bytes = [0; 8];
-        self.stream.read_exact(&mut bytes)?;
-        let number = u64::from_le_bytes(bytes);
-        self.digest.take(number);
-        Ok(number)
+        self.read(&mut bytes)?;
+        Ok(u64::from_le_bytes(bytes))
     }
 
     fn read_u32s(&mut self, numbers: &mut [u32]) -> io::Result<()> {
-        for number in numbers {
-            *number = self.read_u32()?;
+        for some in numbers.chunks_mut(AT_ONCE) {
+            let mut bytes = vec![[0; 4]; some.len()];
+            self.read(bytes.as_flattened_mut())?;
+            some.iter_mut().zip(bytes).for_each(|(number, bytes)| *number = u32::from_le_bytes(bytes));
         }
         Ok(())
     }
 
     fn read_f64s(&mut self, numbers: &mut [f64]) -> io::Result<()> {
-        for number in numbers {
-            *number = f64::from_bits(self.read_u64()?);
+        for some in numbers.chunks_mut(AT_ONCE) {
+            let mut bytes = vec![[0; 8]; some.len()];
+            self.read(bytes.as_flattened_mut())?;
+            some.iter_mut().zip(bytes).for_each(|(number, bytes)| *number = f64::from_le_bytes(bytes));
         }
         Ok(())
     }

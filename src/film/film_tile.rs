@@ -7,9 +7,6 @@ use bevy_ecs::prelude::*;
 /// How many steps of a render the first sample of all pixels takes: one for every eighth, fourth, second and every pixel.
 pub const FIRST_SAMPLE_STEPS: u32 = 4;
 
-/// How many rejected samples a tile remembers by their address; all are counted.
-const REMEMBERED: usize = 4;
-
 /// A sample that could not join the film, because a part of it was negative or not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rejected {
@@ -22,6 +19,9 @@ pub struct Rejected {
 }
 
 impl Rejected {
+    /// How many of them a tile remembers by their address; all are counted.
+    pub const MOST: usize = 4;
+
     /// What comes first: by the sample, then line by line from the top.
     fn place(&self) -> [u32; 3] {
         [self.sample, self.pixel[1], self.pixel[0]]
@@ -90,7 +90,7 @@ impl FilmTile {
         let rejected = Rejected { pixel: self.tile.pixel_of(row), sample: self.count[row], radiance };
         let at = self.first_rejected.partition_point(|earlier| earlier.place() <= rejected.place());
         self.first_rejected.insert(at, rejected);
-        self.first_rejected.truncate(REMEMBERED);
+        self.first_rejected.truncate(Rejected::MOST);
     }
 
     /// Adds a sample that counts negatively, or rejects it.
@@ -234,6 +234,20 @@ impl Film {
         Self { width, height, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
     }
 
+    /// The same film with no samples in it.
+    pub fn emptied(&self) -> Self {
+        let mut film = Self::new(self.width, self.height, self.tile_side);
+        let rows = |tile: &FilmTile| tile.tile.rows();
+        if !self.moments.is_empty() {
+            film.moments = film.tiles.iter().map(|tile| FilmMoments::new(rows(tile))).collect();
+        }
+        film.splats = self.splats.as_ref().map(|_| FilmSplats::new(self.width, self.height));
+        if let Some(layers) = self.layers.first() {
+            film.layers = film.tiles.iter().map(|tile| FilmLayers::new(rows(tile), &layers.kinds)).collect();
+        }
+        film
+    }
+
     /// The mean radiance of a pixel, linear Rec. 709.
     ///
     /// While the first samples are under way, a pixel that has none yet shows the nearest one up and to the left that has.
@@ -316,7 +330,7 @@ impl Film {
         let count = self.tiles.iter().map(|tile| tile.rejected).sum::<u64>() + of_lights;
         let mut first: Vec<Rejected> = self.tiles.iter().flat_map(|tile| tile.first_rejected.clone()).collect();
         first.sort_by_key(Rejected::place);
-        first.truncate(REMEMBERED);
+        first.truncate(Rejected::MOST);
         (count, first)
     }
 

@@ -13,6 +13,7 @@ mod film_tile;
 mod layered_exr;
 mod layers;
 mod moments;
+mod plausible;
 mod png;
 mod splats;
 mod whole_file;

@@ -1,36 +1,29 @@
+use crate::scene::printable_path;
 use crate::{Error, Result};
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 use tempfile::{Builder, NamedTempFile};
 
-/// Writes a file whole or not at all: into a temporary file beside it, which then takes its name.
-///
-/// Missing folders are made.
-/// Errors: the path and what the system said (no permission, no space, a folder in the way); what stood there before
-/// is then still there.
-pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result {
-    write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
-}
+const PREFIX: &str = ".pinhole-";
+const SUFFIX: &str = ".part";
+/// A temporary file that is older belongs to nobody who still writes it.
+const STALE: Duration = Duration::from_secs(3600);
+/// The most links that lead from a name to a file.
+const MOST_LINKS: usize = 40;
 
-/// Whether a file could be written here: what [`write_whole`] would be refused for, before there is anything to write.
-///
-/// Missing folders are made.
-/// Errors: as [`write_whole`].
-pub fn check_place(path: &Path) -> Result {
-    let _counted = UnderWay::begin();
-    place_beside(path).map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
-}
+static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
 
-/// How many files are being written at this moment, for whoever is about to end the program.
+/// How many files are being written: a program that ends now leaves as many temporary files behind.
 pub fn writes_under_way() -> usize {
     UNDER_WAY.load(Ordering::SeqCst)
 }
 
-static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
-
-/// Counts a file while it is there under another name.
+/// Counts a write while it lives.
 struct UnderWay;
 
 impl UnderWay {
@@ -46,15 +39,60 @@ impl Drop for UnderWay {
     }
 }
 
+/// Writes a file whole or not at all: into a temporary file beside it, which then takes its name.
+///
+/// It is on the disk, and not only on its way there, before it takes the name, so that a power cut leaves the old file or
+/// the new one. A link is written through, a file that was there keeps its permissions, and missing folders are made.
+/// Errors: the path and what the system said (no permission, no space, a folder in the way); what stood there before
+/// is then still there.
+pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result {
+    let _under_way = UnderWay::begin();
+    write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
+}
+
+/// Whether a file could be written here: what [`write_whole`] would be refused for, before there is anything to write.
+///
+/// Missing folders are made.
+/// Errors: as [`write_whole`].
+pub fn check_place(path: &Path) -> Result {
+    let _under_way = UnderWay::begin();
+    let place = resolved(path).and_then(|path| place_beside(&path));
+    place.map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
+}
+
 fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
-    let _counted = UnderWay::begin();
-    let temporary = place_beside(path)?;
+    let path = resolved(path)?;
+    let temporary = place_beside(&path)?;
     let mut buffered = BufWriter::new(temporary.as_file());
     write(&mut buffered)?;
     buffered.flush()?;
     drop(buffered);
-    temporary.persist(path).map_err(|refused| refused.error)?;
+    #[cfg(unix)]
+    if let Ok(before) = fs::metadata(&path) {
+        temporary.as_file().set_permissions(before.permissions())?;
+    }
+    temporary.as_file().sync_all()?;
+    temporary.persist(&path).map_err(|refused| refused.error)?;
+    // The name is kept by the folder. Some file systems cannot be asked for this, and the file is whole without it.
+    #[cfg(unix)]
+    let _ = File::open(folder_of(&path)).and_then(|folder| folder.sync_all());
     Ok(())
+}
+
+/// The file that a name leads to through links, whether or not it is there.
+fn resolved(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(target) => path = folder_of(&path).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many links lead on from here"))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// A temporary file in the folder that the file is to stand in.
@@ -62,19 +100,23 @@ fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
     if path.is_dir() {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if path.exists() && !path.is_file() {
+        return Err(io::Error::other("what is there is not a regular file"));
+    }
+    let folder = folder_of(path);
     if let Some(file) = folder.ancestors().find(|above| above.is_file()) {
-        let what = format!("{} is a file, and would have to be a folder", file.display());
+        let what = format!("{} is a file, and would have to be a folder", printable_path(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, what));
     }
     fs::create_dir_all(folder)?;
-    temporary_in(folder)
+    sweep(folder);
+    temporary_in(folder).map_err(without_path)
 }
 
 /// A temporary file that will get the permissions a person's own files get, less what their umask takes away.
 fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
-    builder.prefix(".pinhole-").suffix(".part");
+    builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
     let permissions: fs::Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
@@ -82,9 +124,40 @@ fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
+/// What the system said, without the name of the temporary file, which nobody asked for.
+fn without_path(error: io::Error) -> io::Error {
+    let said = error.get_ref().and_then(|inner| inner.source()).map(ToString::to_string);
+    said.map_or(error.kind().into(), |said| io::Error::new(error.kind(), said))
+}
+
+/// Removes what writes that were killed have left in a folder, the first time that something is written there.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.into()) {
+        remove_stale(folder, STALE);
+    }
+}
+
+fn remove_stale(folder: &Path, age: Duration) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        let old = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
+        if is_ours && old().is_some_and(|old| old > age) {
+            // Whoever cannot remove it did not leave it.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn put(path: &Path, text: &str) {
+        write_whole(path, |file| file.write_all(text.as_bytes())).expect("written");
+    }
 
     #[test]
     fn a_failed_write_leaves_what_was_there_and_nothing_else() {
@@ -92,11 +165,54 @@ mod tests {
         let path = folder.path().join("picture.png");
         fs::write(&path, "before").expect("written");
         let failed = write_whole(&path, |file| {
+            assert!(writes_under_way() > 0);
             file.write_all(b"half")?;
             Err(io::Error::other("no space"))
         });
         assert_eq!(failed.expect_err("refused").to_string(), format!("cannot write {}: no space", path.display()));
         assert_eq!(fs::read_to_string(&path).expect("read"), "before");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_written_through_and_permissions_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let [file, link, dangling, circle] =
+            ["file", "link", "dangling", "circle"].map(|name| folder.path().join(name));
+        put(&file, "one");
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).expect("set");
+        symlink("file", &link).expect("linked");
+        put(&link, "two");
+        assert!(link.is_symlink() && !file.is_symlink());
+        assert_eq!(fs::read_to_string(&file).expect("read"), "two");
+        assert_eq!(fs::metadata(&file).expect("there").permissions().mode() & 0o777, 0o600);
+        symlink("new", &dangling).expect("linked");
+        put(&dangling, "three");
+        assert_eq!(fs::read_to_string(folder.path().join("new")).expect("read"), "three");
+        symlink("circle", &circle).expect("linked");
+        assert!(check_place(&circle).expect_err("refused").to_string().contains("too many links"));
+    }
+
+    #[test]
+    fn what_killed_writes_have_left_is_swept_and_what_is_young_is_not() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let names = [".pinhole-abc.part", ".pinhole-abc.png", "part.part"];
+        names.iter().for_each(|name| fs::write(folder.path().join(name), "x").expect("written"));
+        let there = || names.map(|name| folder.path().join(name).exists());
+        remove_stale(folder.path(), STALE);
+        assert_eq!(there(), [true; 3]);
+        std::thread::sleep(Duration::from_millis(20));
+        remove_stale(folder.path(), Duration::from_millis(1));
+        assert_eq!(there(), [false, true, true]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_refusal_names_the_file_that_was_asked_for() {
+        let path = Path::new("/proc/picture.png");
+        let said = check_place(path).expect_err("refused").to_string();
+        assert!(said.starts_with("cannot write /proc/picture.png: ") && !said.contains(".part"), "{said}");
     }
 }

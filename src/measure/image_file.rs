@@ -1,12 +1,16 @@
 //! Images in files as numbers to be compared.
 
 use super::image_error::Numbers;
-use exr::prelude::{MetaData, ReadChannels, ReadLayers, read};
-use image::{DynamicImage, ImageReader, Limits};
+use crate::extract::{ImageHead, image_head, one_line, read_exr};
+use crate::scene::{FileKind, check_memory, open_file, printable_path};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use std::io::{BufReader, Seek};
 use std::path::Path;
 
 /// The most pixels that are read: as many as a film has at most.
 const MOST_PIXELS: u64 = 1 << 30;
+/// An image of so many pixels with every layer that there is stays below this.
+const IMAGE: FileKind = FileKind { name: "an image", most: 1 << 37 };
 
 /// What kind of numbers a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +30,14 @@ impl ImageKind {
         match ending.as_deref() {
             Some("png") => Ok(Self::Png),
             Some("exr") => Ok(Self::Exr),
-            _ => Err(format!("cannot compare {}: the name must end in .png or .exr", path.display())),
+            _ => Err(format!("cannot compare {}: the name must end in .png or .exr", printable_path(path))),
+        }
+    }
+
+    fn format(self) -> ImageFormat {
+        match self {
+            Self::Png => ImageFormat::Png,
+            Self::Exr => ImageFormat::OpenExr,
         }
     }
 
@@ -43,30 +54,33 @@ impl ImageKind {
 ///
 /// Errors: the file, and what is wrong with it, in one sentence.
 pub fn read_numbers(path: &Path) -> Result<Numbers, String> {
-    let refused = |what: &dyn std::fmt::Display| {
-        let what = what.to_string();
-        let what = what.lines().next().unwrap_or_default().trim_end_matches('.');
-        format!("cannot read {}: {what}", path.display())
-    };
-    match ImageKind::of(path)? {
+    let refused = |what: String| format!("cannot read {}: {what}", printable_path(path));
+    let kind = ImageKind::of(path)?;
+    let file = open_file(path, IMAGE).map_err(|error| format!("cannot compare: {error}"))?;
+    let length = file.metadata.len();
+    let mut reader = BufReader::new(file.file);
+    let head = image_head(&mut reader, kind.format(), length).map_err(refused)?;
+    let ImageHead { width, height, decoded } = head;
+    if head.pixels() > MOST_PIXELS {
+        return Err(refused(format!("it says it has {width} × {height} pixels, more than {MOST_PIXELS}")));
+    }
+    // The decoder's pixels stand beside the numbers that are made of them.
+    let needed = head.pixels().saturating_mul(size_of::<[f64; 3]>() as u64).saturating_add(decoded.saturating_mul(2));
+    check_memory(needed)
+        .map_err(|too_little| refused(format!("it has {width} × {height} pixels, and comparing them {too_little}")))?;
+    reader.rewind().map_err(|error| refused(one_line(&error)))?;
+    match kind {
         ImageKind::Png => {
-            let mut reader = ImageReader::open(path).map_err(|error| refused(&error))?;
+            let mut reader = ImageReader::with_format(reader, kind.format());
             let mut limits = Limits::default();
             limits.max_alloc = Some(MOST_PIXELS * 8);
             reader.limits(limits);
-            reader.set_format(image::ImageFormat::Png);
-            Ok(png_numbers(reader.decode().map_err(|error| refused(&error))?))
+            Ok(png_numbers(reader.decode().map_err(|error| refused(one_line(&error)))?))
         }
         ImageKind::Exr => {
-            let meta = MetaData::read_from_file(path, false).map_err(|error| refused(&error))?;
-            let first = meta.headers.first().map_or((0, 0).into(), |header| header.layer_size);
-            if first.0 as u64 * first.1 as u64 > MOST_PIXELS {
-                return Err(refused(&format!(
-                    "it says it has {} × {} pixels, more than {MOST_PIXELS}",
-                    first.0, first.1
-                )));
-            }
-            exr_numbers(path).map_err(|error| refused(&error))
+            let texels = read_exr(reader).map_err(refused)?;
+            let pixels = texels.rgb.iter().map(|pixel| pixel.map(f64::from)).collect();
+            Ok(Numbers { size: [texels.width as u32, texels.height as u32], pixels, white: None })
         }
     }
 }
@@ -80,25 +94,4 @@ fn png_numbers(image: DynamicImage) -> Numbers {
         image.into_rgb8().pixels().map(|pixel| pixel.0.map(|part| f64::from(part) / 255.0)).collect()
     };
     Numbers { size, pixels, white: Some(1.0) }
-}
-
-fn exr_numbers(path: &Path) -> exr::error::Result<Numbers> {
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size, _| Numbers {
-                size: [size.0 as u32, size.1 as u32],
-                pixels: vec![[0.0; 3]; size.area()],
-                white: None,
-            },
-            |numbers: &mut Numbers, at, (r, g, b): (f32, f32, f32)| {
-                numbers.pixels[at.1 * numbers.size[0] as usize + at.0] = [r, g, b].map(f64::from);
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_file(path)?;
-    Ok(image.layer_data.channel_data.pixels)
 }

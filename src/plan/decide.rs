@@ -1,5 +1,5 @@
 use super::{ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
-use crate::scene::{Statistics, View};
+use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -229,7 +229,7 @@ fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     names.retain(|name| !name.ends_with(" rows"));
     let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && column.is_viewed());
     found.copied().ok_or_else(|| PlanError::NoSuchView {
-        asked: asked.into(),
+        asked: printable(asked, 40),
         why: format!("the columns on offer are {} and lists of rows", names.join(", ")),
     })
 }

@@ -1,7 +1,86 @@
+use crate::extract::{FilterTable, ImageShape, LayerTable, adaptive_of};
+use crate::film::{FilmLayers, FilmMoments};
+use crate::follow::Splats;
+use crate::plan::{Column, Plan, Table};
+use crate::scene::{Filter, LayerKind, Refusal, TooLittleMemory, called, check_memory};
+use bevy_ecs::prelude::*;
+
 /// The most memory this process has held at once, in bytes; none where the system does not say.
 pub fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kibibytes * 1024)
+}
+
+/// Bytes that a render of a scene takes for each pixel of its film, and at its end for the layers of a file.
+pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, Refusal> {
+    const THREE: u64 = 3 * size_of::<f64>() as u64;
+    const COUNT: u64 = size_of::<u32>() as u64;
+    let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
+    let mut film = THREE + COUNT;
+    if matches!(FilterTable::extract(scene)?.filter, Filter::Mitchell { .. }) {
+        film += THREE + COUNT;
+    }
+    if keeps(FilmMoments::NAME) {
+        film += THREE;
+    }
+    if keeps(Splats::NAME) {
+        film += THREE;
+    }
+    let mut written = 0;
+    if keeps(FilmLayers::NAME) {
+        let channels = |kinds: &[LayerKind]| kinds.iter().map(|kind| kind.channels().len() as u64).sum::<u64>();
+        let kinds = LayerTable::kinds_of(scene);
+        let means: Vec<LayerKind> = kinds.iter().copied().filter(|kind| kind.is_mean()).collect();
+        film += 3 * COUNT + channels(&means) * size_of::<f64>() as u64;
+        written = (3 + channels(&kinds)) * size_of::<f32>() as u64;
+    }
+    if adaptive_of(scene)?.is_some() {
+        // The pilot's film stands beside the next one, and each pixel has a number of samples.
+        film = 2 * film + COUNT;
+    }
+    Ok(film + written)
+}
+
+/// Checks that the film of a render can be had, before any of it is asked for.
+///
+/// Errors: the resolution, what it needs, what there is, and about which resolution fits.
+pub fn check_film_fits(scene: &World, plan: &Plan) -> Result<(), Refusal> {
+    let image = ImageShape::extract(scene)?;
+    let (width, height) = (image.width, image.height);
+    let a_pixel = film_bytes_a_pixel(scene, plan)?;
+    let pixels = u64::from(width) * u64::from(height);
+    check_memory(pixels * a_pixel).map_err(|too_little| {
+        let who = crate::extract::camera_entity(scene)
+            .map_or("camera".into(), |own| format!("camera {}", called(scene, own)));
+        let accepted = format!("such a film {too_little}; {}", fitting([width, height], a_pixel, too_little));
+        Refusal::new(who, "resolution", format!("{width} × {height}"), accepted)
+    })
+}
+
+/// About which resolution of the same shape fits, in two digits.
+fn fitting(size: [u32; 2], a_pixel: u64, too_little: TooLittleMemory) -> String {
+    let pixels = size.iter().map(|&side| f64::from(side)).product::<f64>();
+    let scale = (too_little.usable() as f64 / a_pixel as f64 / pixels).sqrt();
+    let [width, height] = size.map(|side| {
+        let side = (f64::from(side) * scale) as u32;
+        let digit = 10_u32.pow(side.max(10).ilog10() - 1);
+        (side / digit * digit).max(1)
+    });
+    format!("at most about {width} × {height} fits")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_resolution_that_fits_has_the_same_shape_and_fits() {
+        let too_little = TooLittleMemory { needed: 0, free: 8 << 30 };
+        let told = fitting([32_768, 32_768], 28, too_little);
+        assert_eq!(told, "at most about 16000 × 16000 fits");
+        assert!(16_000_u64 * 16_000 * 28 <= too_little.usable());
+        assert_eq!(fitting([65_536, 16], 28, TooLittleMemory { needed: 0, free: 0 }), "at most about 1 × 1 fits");
+    }
 }

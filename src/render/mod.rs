@@ -26,7 +26,7 @@ pub use inspect::{
     Inspection, first_leg_only, inspect, inspect_pixel, inspect_stages, look_at_pieces, usual_tile_side,
 };
 pub use key::film_key;
-pub use memory::peak_memory;
+pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};
 pub use passes::{Limits, Outcome, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use rendered::{Rendered, render};

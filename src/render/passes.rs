@@ -1,7 +1,7 @@
 use super::adaptive::{Achieved, achieved, planned_samples};
 use super::steps::{WHOLE, samples_after, steps_of};
 use super::{RenderUnderWay, Watch};
-use crate::film::{Film, FilmMoments, FilmSplats, FilmTile};
+use crate::film::Film;
 use crate::scene::Adaptive;
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
@@ -214,30 +214,5 @@ impl Film {
             self.planned.iter().flatten().map(|&planned| u64::from(planned.saturating_sub(1)).min(cap)).sum()
         };
         of_first(to) - of_first(from) + of_pixels(to) - of_pixels(from)
-    }
-
-    /// Whether another film has the same shape and keeps the same of each pixel.
-    pub fn is_like(&self, other: &Self) -> bool {
-        let kinds = |film: &Self| film.layers.first().map(|layers| layers.kinds.clone());
-        let size = |film: &Self| [film.width, film.height];
-        size(self) == size(other)
-            && self.moments.is_empty() == other.moments.is_empty()
-            && kinds(self) == kinds(other)
-            && self.splats.is_some() == other.splats.is_some()
-    }
-
-    /// The same film with no samples in it.
-    pub fn emptied(&self) -> Self {
-        let mut film = Self::new(self.width, self.height, self.tile_side);
-        let rows = |tile: &FilmTile| tile.tile.rows();
-        if !self.moments.is_empty() {
-            film.moments = film.tiles.iter().map(|tile| FilmMoments::new(rows(tile))).collect();
-        }
-        film.splats = self.splats.as_ref().map(|_| FilmSplats::new(self.width, self.height));
-        if let Some(layers) = self.layers.first() {
-            film.layers =
-                film.tiles.iter().map(|tile| crate::film::FilmLayers::new(rows(tile), &layers.kinds)).collect();
-        }
-        film
     }
 }

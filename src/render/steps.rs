@@ -14,7 +14,7 @@ pub fn steps_of(samples: u32) -> u32 {
 
 /// How many samples every pixel has after so many steps; 0 before each has its first.
 pub fn samples_after(steps: u32) -> u32 {
-    (steps + 1).saturating_sub(WHOLE)
+    steps.saturating_sub(WHOLE - 1)
 }
 
 /// One run of the schedule over a tile: a sample's number, for pixels on some lattices or for all.
@@ -109,6 +109,8 @@ mod tests {
     fn steps_and_samples_lead_to_each_other() {
         assert_eq!([0, 3, 4, 5, 19].map(samples_after), [0, 0, 1, 2, 16]);
         assert_eq!([1, 2, 16].map(steps_of), [4, 5, 19]);
+        // No number of steps that a damaged checkpoint may hold is one of too few samples.
+        assert_eq!(samples_after(u32::MAX), u32::MAX - 3);
     }
 
     #[test]

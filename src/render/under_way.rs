@@ -1,5 +1,6 @@
 use super::clock::{Lap, StageClock};
 use super::light_pass::{LightPass, Means, batches};
+use super::memory::check_film_fits;
 use super::render_world::{RenderWorld, prepare};
 use super::steps::{WHOLE, runs, steps_of};
 use super::tile_side::tile_side;
@@ -53,6 +54,7 @@ impl RenderUnderWay {
     pub fn begin(scene: &World, offer: &[Stage], execution: &Execution) -> Result<Self> {
         let (plan, tables) = prepare(scene, offer)?;
         let image = ImageShape::extract(scene)?;
+        check_film_fits(scene, &plan)?;
         let execution = Execution { tile_side: tile_side(scene, &plan, execution.tile_side), ..execution.clone() };
         let film = film_for(scene, &plan, Film::new(image.width, image.height, execution.tile_side));
         let sampling = SamplingTable::extract(scene)?;

@@ -3,11 +3,13 @@
 use super::summary::Report;
 use crate::film::write_whole;
 use crate::measure::cost::made_from_these;
+use crate::scene::{FileKind, read_file};
 use crate::{Error, Result};
 use serde_json::Value;
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+const REPORT: FileKind = FileKind { name: "a report", most: 64 << 20 };
 
 /// The most bytes that a kept report may have.
 pub const LARGEST: usize = 20 * 1024;
@@ -73,9 +75,9 @@ fn round(value: &mut Value) {
 /// Errors: nothing is kept, or it is no report.
 pub fn kept(chapter: &str) -> Result<Report> {
     let short = place(chapter);
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(&short));
+    let text = read_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(&short), REPORT);
     let make = format!("cargo run --release -- report {chapter} --write");
     let text = text.map_err(|_| Error::Usage(format!("no report of {chapter} is kept; `{make}` measures one")))?;
     let wrong = |_| Error::Usage(format!("{} is no report of this version; `{make}` measures one", short.display()));
-    serde_json::from_str(&text).map_err(wrong)
+    serde_json::from_slice(&text).map_err(wrong)
 }

@@ -2,11 +2,14 @@
 
 use crate::film::{Film, write_whole};
 use crate::measure::image_error::Numbers;
+use crate::scene::{FileKind, read_file};
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+const RUN: FileKind = FileKind { name: "a kept run", most: 1 << 36 };
 
 /// The times of one run, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -74,14 +77,14 @@ impl Shelf {
 
     /// The run of this name, if it was made from the same.
     pub fn take(&self, name: &str) -> Option<Run> {
-        let bytes = fs::read(self.file(name)).ok()?;
+        let bytes = read_file(&self.file(name), RUN).ok()?;
         let end = bytes.iter().position(|byte| *byte == b'\n')?;
         let heading: Heading = serde_json::from_slice(&bytes[..end]).ok()?;
         let Heading { made_from, size, times, rejected } = heading;
         let values: Vec<f64> = (bytes[end + 1..].chunks_exact(8))
             .map(|chunk| f64::from_le_bytes([0, 1, 2, 3, 4, 5, 6, 7].map(|byte| chunk[byte])))
             .collect();
-        let whole = values.len() == 3 * size[0] as usize * size[1] as usize;
+        let whole = values.len() as u64 == 3_u64.saturating_mul(u64::from(size[0]) * u64::from(size[1]));
         let pixels = values.chunks_exact(3).map(|parts| [parts[0], parts[1], parts[2]]).collect();
         let run = Run { image: Numbers { size, pixels, white: None }, times, rejected };
         (whole && made_from == self.made_from).then_some(run)

@@ -3,12 +3,13 @@ use crate::chapter::{Asked, Chapter};
 use crate::film::{Curve, byte_from_linear, png_bytes_by};
 use crate::plan::Stage;
 use crate::render::{Execution, prepare, render};
-use crate::scene::Resolution;
+use crate::scene::{self, FileKind, Resolution};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use image::{ImageFormat, RgbImage};
-use std::fs;
 use std::path::{Path, PathBuf};
+
+const SNAPSHOT: FileKind = FileKind { name: "a snapshot", most: 64 << 20 };
 
 /// The size of a snapshot's picture.
 pub const SNAPSHOT_SIZE: Resolution = Resolution { width: 96, height: 54 };
@@ -58,13 +59,13 @@ impl Snapshots {
 
     /// What a folder of snapshots keeps; empty where there is no file.
     pub fn kept(folder: &Path) -> Self {
-        Self::read(|file| fs::read(folder.join(file)).ok())
+        Self::read(|file| read_file(&folder.join(file)).ok())
     }
 
     /// What a folder of snapshots would keep if all that is pending were accepted.
     pub fn pending(folder: &Path) -> Self {
         let pending = |file: &str| folder.join(file.replacen(".snap", ".snap.new", 1));
-        Self::read(|file| fs::read(pending(file)).or_else(|_| fs::read(folder.join(file))).ok())
+        Self::read(|file| read_file(&pending(file)).or_else(|_| read_file(&folder.join(file))).ok())
     }
 
     fn read(read: impl Fn(&str) -> Option<Vec<u8>>) -> Self {
@@ -132,7 +133,7 @@ pub fn snapshot_folder(chapters: &Path, chapter: &str) -> PathBuf {
 ///
 /// Errors: the file and what the system said.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
-    fs::read(path).map_err(|error| Error::Usage(format!("cannot read {}: {error}", path.display())))
+    scene::read_file(path, SNAPSHOT).map_err(|error| Error::Usage(error.to_string()))
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
-use super::{TextureBy, Wrap};
+use super::{FileKind, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
+
+/// A file that a texture or an environment names.
+pub const IMAGE_FILE: FileKind = FileKind { name: "an image", most: 1 << 30 };
 
 /// On a material: the colours of an image file, in place of the material's own colour.
 ///

@@ -1,9 +1,24 @@
+use super::printable;
 use bevy_ecs::prelude::*;
+
+/// The most letters of a name that a message shows.
+const LONGEST: usize = 100;
+/// The most entities that a message names.
+const MOST: usize = 4;
 
 /// How a message calls an entity: its name in quotes, or its number where it has none.
 pub fn called(world: &World, entity: Entity) -> String {
     match world.get::<Name>(entity) {
-        Some(name) => format!("\"{name}\""),
+        Some(name) => format!("\"{}\"", printable(name, LONGEST)),
         None => format!("(unnamed, entity {})", entity.index()),
+    }
+}
+
+/// How a message calls several entities: the first few, and how many more there are.
+pub fn some_of(world: &World, entities: &[Entity], between: &str) -> String {
+    let names: Vec<String> = entities.iter().take(MOST).map(|&entity| called(world, entity)).collect();
+    match entities.len().checked_sub(MOST) {
+        None | Some(0) => names.join(between),
+        Some(more) => format!("{} and {more} more", names.join(", ")),
     }
 }

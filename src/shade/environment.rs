@@ -220,8 +220,8 @@ mod tests {
     fn a_turn_goes_by_the_right_hand() {
         let image = image(64, 32, smooth);
         let (sine, cosine) = libm::sincos(PI / 2.0);
-        let straight = EnvironmentTable { image: image.clone(), turn: [0.0, 1.0] };
-        let turned = EnvironmentTable { image, turn: [sine, cosine] };
+        let straight = EnvironmentTable { image: image.clone().into(), turn: [0.0, 1.0] };
+        let turned = EnvironmentTable { image: image.into(), turn: [sine, cosine] };
         for (there, here) in [(DVec3::NEG_Z, DVec3::NEG_X), (DVec3::NEG_X, DVec3::Z), (DVec3::X, DVec3::NEG_Z)] {
             let (expected, told) = (environment_radiance(&straight, there), environment_radiance(&turned, here));
             for (expected, told) in expected.into_iter().zip(told) {

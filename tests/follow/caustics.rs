@@ -265,7 +265,7 @@ fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
                     if number > 0 && step < steps_of(5) {
                         let path = folder.path().join("checkpoint");
                         write_checkpoint(&under_way.film, 27, &path).expect("written");
-                        let kept = read_checkpoint(27, &path).expect("read");
+                        let kept = read_checkpoint(27, &under_way.film, false, &path).expect("read");
                         assert!(kept == under_way.film, "a checkpoint holds all of a film");
                         under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
                         under_way.take(kept);

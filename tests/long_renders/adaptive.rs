@@ -162,7 +162,7 @@ fn a_pilot_and_its_plan_are_continued_to_the_same_bits() {
         };
         let stopped = render_in_passes(&mut under_way, &limits, &(), &mut keep).is_err();
         let mut next = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
-        next.take(read_checkpoint(1, &path).expect("read"));
+        next.take(read_checkpoint(1, &next.film, true, &path).expect("read"));
         render_in_passes(&mut next, &limits, &(), &mut |_| Ok(())).expect("renders");
         FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped at writing {stop}"));
         assert!(next.film.moments == whole.moments && next.film.planned == whole.planned);

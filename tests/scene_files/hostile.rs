@@ -1,297 +1,199 @@
-//! Scene files, images and checkpoints that were damaged at random, given to the program's own commands.
+//! Files that are made to hang, to fill the memory, or to speak to the terminal.
 
-use crate::{chapters, fuzz};
-use cpu_time::ProcessTime;
-use fuzz::Dice;
-use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
-use pinhole::command;
-use pinhole::render::peak_memory;
-use std::fmt;
+use crate::{parsed, typed};
+use bevy_ecs::prelude::*;
+use pinhole::extract::ImageTable;
+use pinhole::plan::Table;
+use pinhole::scene::{ImageTexture, Matte, Name, PerspectiveCamera, Resolution, Sphere};
 use std::fs;
-use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-/// A command that takes more of the processor is slow.
-const SLOW: Duration = Duration::from_secs(2);
-/// A command that holds more memory at once is large, in bytes.
-const LARGE: u64 = 1 << 30;
+const CAMERA: &str =
+    "(name: \"eye\", perspective_camera: (), resolution: (width: 8, height: 4), sampling: (samples: 2))";
+const CARD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/chapters/16_textures/card.png");
 
-/// What is damaged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Scene,
-    Texture,
-    Compared,
-    Checkpoint,
-}
-
-/// Whole files, to be damaged in copies.
-pub struct Bases {
-    folder: PathBuf,
-    scenes: Vec<String>,
-    images: Vec<(&'static str, Vec<u8>)>,
-    checkpoint: Vec<u8>,
-    chapters: Vec<pinhole::Chapter>,
-}
-
-/// How many commands ran, how they ended, and what must not have happened.
-#[derive(Default)]
-pub struct Counts {
-    files: u64,
-    commands: u64,
-    refused: u64,
-    pub panics: Vec<String>,
-    pub slow: Vec<String>,
-    pub large: Vec<String>,
-    slowest: Duration,
-    largest: u64,
-}
-
-impl fmt::Display for Counts {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} files, {} commands, {} of them refused; {} panics {:?}, {} over {SLOW:?} {:?}, {} over 1 GiB {:?}; the slowest \
-             took {:?} of the processor, the largest {} MiB",
-            self.files,
-            self.commands,
-            self.refused,
-            self.panics.len(),
-            self.panics,
-            self.slow.len(),
-            self.slow,
-            self.large.len(),
-            self.large,
-            self.slowest,
-            self.largest >> 20
-        )
-    }
-}
-
-impl Counts {
-    /// Whether nothing happened that must not.
-    pub fn hold(&self) -> bool {
-        self.panics.is_empty() && self.slow.is_empty() && self.large.is_empty()
-    }
-}
-
-impl Bases {
-    /// Exported chapters, images of every format that is read, and a checkpoint; all in a folder that is there.
-    pub fn in_folder(folder: &Path) -> Self {
-        let mut bases = Self {
-            folder: folder.into(),
-            scenes: fuzz::bases(),
-            images: images(),
-            checkpoint: Vec::new(),
-            chapters: chapters::all(),
-        };
-        for (name, bytes) in &bases.images {
-            fs::write(bases.folder.join(name), bytes).expect("written");
+/// Runs the program in a folder with so much address space, in KiB; how it ended, and what it said on stderr.
+///
+/// It is killed where it does not end by itself.
+pub fn run_within(folder: &Path, kibibytes: &str, words: &[&str]) -> (Option<i32>, String) {
+    let mut child = Command::new("sh")
+        .args(["-c", &format!("ulimit -v {kibibytes} && exec \"$@\""), "sh", env!("CARGO_BIN_EXE_pinhole")])
+        .args(words)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(fs::File::create(folder.join("said")).expect("a file"))
+        .spawn()
+        .expect("the program starts");
+    let began = Instant::now();
+    let ended = loop {
+        if let Some(status) = child.try_wait().expect("it can be asked") {
+            break status.code();
         }
-        fs::write(bases.folder.join("sampled.ron"), SAMPLED).expect("written");
-        let words = bases.render("sampled.ron", &["--write-every", "1ms"]);
-        bases.run(&words).expect("the undamaged scene renders");
-        bases.checkpoint = fs::read(bases.folder.join("out.checkpoint")).expect("a checkpoint");
-        bases
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.folder.join(name).display().to_string()
-    }
-
-    fn render(&self, scene: &str, more: &[&str]) -> Vec<String> {
-        let (scene, out) = (self.path(scene), self.path("out.exr"));
-        let mut words: Vec<String> = ["render", &scene, "--size", "16x9", "-q", "-o", &out].map(String::from).into();
-        words.extend(more.iter().map(|&word| word.into()));
-        words
-    }
-
-    fn run(&self, words: &[String]) -> pinhole::Result {
-        command::run(&self.chapters, words, &mut std::io::sink())
-    }
-
-    /// Damages a file as this seed says and gives it to every command that reads its kind.
-    pub fn try_seed(&self, seed: u64, counts: &mut Counts) {
-        let mut dice = Dice(seed ^ 0x5EED);
-        let (kind, commands) = match seed % 8 {
-            0..=3 => (Kind::Scene, self.damage_scene(seed)),
-            4 => (Kind::Texture, self.damage_texture(&mut dice)),
-            5 | 6 => (Kind::Compared, self.damage_compared(&mut dice)),
-            _ => (Kind::Checkpoint, self.damage_checkpoint(&mut dice)),
-        };
-        counts.files += 1;
-        for words in commands {
-            self.try_command(&format!("{seed} {kind:?} {}", words[0]), &words, counts);
+        if began.elapsed() > Duration::from_secs(30) {
+            child.kill().expect("killed");
+            child.wait().expect("it ends");
+            break None;
         }
-    }
-
-    fn try_command(&self, what: &str, words: &[String], counts: &mut Counts) {
-        forget_peak();
-        let started = ProcessTime::now();
-        let ended = catch_unwind(AssertUnwindSafe(|| self.run(words)));
-        let (time, memory) = (started.elapsed(), peak_memory().unwrap_or(0));
-        counts.commands += 1;
-        match ended {
-            Err(_) => counts.panics.push(what.into()),
-            Ok(Err(refused)) => {
-                counts.refused += 1;
-                let told = refused.to_string();
-                assert!(!told.is_empty() && told.chars().count() <= 2200, "{what}: {told}");
-                assert!(!told.chars().any(|letter| letter.is_control() && letter != '\n'), "{what}: {told:?}");
-            }
-            Ok(Ok(())) => {}
-        }
-        if time > SLOW {
-            counts.slow.push(format!("{what} {time:?}"));
-        }
-        if memory > LARGE {
-            counts.large.push(format!("{what} {} MiB", memory >> 20));
-        }
-        counts.slowest = counts.slowest.max(time);
-        counts.largest = counts.largest.max(memory);
-    }
-
-    fn damage_scene(&self, seed: u64) -> Vec<Vec<String>> {
-        fs::write(self.folder.join("damaged.ron"), fuzz::case(&self.scenes, seed)).expect("written");
-        let scene = self.path("damaged.ron");
-        let words = |words: &[&str]| -> Vec<String> { words.iter().map(|&word| word.into()).collect() };
-        vec![
-            words(&["plan", &scene]),
-            self.render("damaged.ron", &["--samples", "1", "--time", "1s"]),
-            words(&["trace", &scene, "--size", "16x9", "--pixel", "8,4"]),
-            words(&["preflight", &scene, "--size", "16x9"]),
-        ]
-    }
-
-    fn damage_texture(&self, dice: &mut Dice) -> Vec<Vec<String>> {
-        let name = self.damage_image(dice);
-        let scene = if dice.below(2) == 0 || name.ends_with("png") {
-            format!(
-                "[(perspective_camera: (), placement: (position: (0, 0, 4))), (sphere: (), matte: (), image_texture: \
-                 (file: \"{name}\")), (point_light: (), placement: (position: (2, 3, 4)))]"
-            )
-        } else {
-            format!("[(perspective_camera: (), placement: (position: (0, 0, 4))), (environment: (file: \"{name}\"))]")
-        };
-        fs::write(self.folder.join("textured.ron"), scene).expect("written");
-        vec![self.render("textured.ron", &[])]
-    }
-
-    fn damage_compared(&self, dice: &mut Dice) -> Vec<Vec<String>> {
-        let name = self.damage_image(dice);
-        let whole = if name.ends_with("png") { self.images[0].0 } else { "scan.exr" };
-        let (damaged, whole) = (self.path(&name), self.path(whole));
-        vec![vec!["compare".into(), whole, damaged]]
-    }
-
-    fn damage_checkpoint(&self, dice: &mut Dice) -> Vec<Vec<String>> {
-        let mut bytes = self.checkpoint.clone();
-        damage(dice, &mut bytes);
-        fs::write(self.folder.join("out.checkpoint"), bytes).expect("written");
-        vec![self.render("sampled.ron", &["--resume"])]
-    }
-
-    /// Writes a damaged copy of one of the images, and says what it is called.
-    fn damage_image(&self, dice: &mut Dice) -> String {
-        let (name, whole) = &self.images[dice.below(self.images.len())];
-        let mut bytes = whole.clone();
-        damage(dice, &mut bytes);
-        if name.ends_with("png") && dice.below(4) > 0 {
-            mend_sums(&mut bytes);
-        }
-        let ending = name.rsplit('.').next().unwrap_or(name);
-        let name = format!("damaged.{ending}");
-        fs::write(self.folder.join(&name), bytes).expect("written");
-        name
-    }
-}
-
-/// Four samples a pixel, so that there is something to keep.
-const SAMPLED: &str = "[(perspective_camera: (), sampling: (samples: 4), placement: (position: (0, 0, 4))), \
-    (sphere: (), matte: ()), (point_light: (), placement: (position: (2, 3, 4)))]";
-
-/// From here on the most memory that the process holds is counted anew, where the system can do that.
-fn forget_peak() {
-    let _ = fs::write("/proc/self/clear_refs", "5");
-}
-
-/// An image of each kind that is read: PNG of 8 and 16 bits, HDR, EXR of scan lines and of tiles.
-fn images() -> Vec<(&'static str, Vec<u8>)> {
-    let [width, height] = [24, 16];
-    let shade = |x: u32, y: u32| [x as f32 / width as f32, y as f32 / height as f32, 0.3];
-    let light = ImageBuffer::from_fn(width, height, |x, y| Rgb(shade(x, y)));
-    let deep = ImageBuffer::from_fn(width, height, |x, y| Rgb(shade(x, y).map(|part| (part * 65_535.0) as u16)));
-    let plain = ImageBuffer::from_fn(width, height, |x, y| Rgb(shade(x, y).map(|part| (part * 255.0) as u8)));
-    let encoded = |image: DynamicImage, format| {
-        let mut bytes = Cursor::new(Vec::new());
-        image.write_to(&mut bytes, format).expect("encodes");
-        bytes.into_inner()
+        std::thread::sleep(Duration::from_millis(10));
     };
-    let exr = |encoding: exr::prelude::Encoding| {
-        use exr::prelude::{Image, SpecificChannels, WritableImage};
-        let channels = SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| {
-            let [r, g, b] = shade(at.0 as u32, at.1 as u32);
-            (r, g, b)
-        });
-        let size = (width as usize, height as usize);
-        let attributes = exr::prelude::LayerAttributes::named("light");
-        let image = Image::from_layer(exr::prelude::Layer::new(size, attributes, encoding, channels));
-        let mut bytes = Cursor::new(Vec::new());
-        image.write().non_parallel().to_buffered(&mut bytes).expect("encodes");
-        bytes.into_inner()
+    (ended, fs::read_to_string(folder.join("said")).expect("text"))
+}
+
+fn one_line(said: &str) {
+    assert!(said.lines().count() == 1 && said.chars().count() <= 600, "{said}");
+    assert!(!said.trim_end().contains(|letter: char| letter.is_control()), "{said:?}");
+}
+
+/// The key of a checkpoint once read every file that a scene names, those of disabled entities too, which nobody checks.
+#[cfg(unix)]
+#[test]
+fn what_a_disabled_entity_names_is_not_opened() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let made = Command::new("mkfifo").arg(folder.path().join("pipe.png")).status().expect("mkfifo");
+    assert!(made.success());
+    for file in ["pipe.png", "/dev/zero"] {
+        let scene = format!("[{CAMERA}, (disabled: true, image_texture: (file: \"{file}\"))]");
+        fs::write(folder.path().join("scene.ron"), scene).expect("written");
+        let ended = run_within(folder.path(), "4000000", &["render", "scene.ron", "-q", "-o", "a.png"]);
+        assert_eq!(ended, (Some(0), String::new()), "{file}");
+    }
+}
+
+#[test]
+fn long_words_and_names_are_told_shortly_and_soon() {
+    let word = format!("[({}: ())]", "x".repeat(8 << 20));
+    let unclosed = format!("[({})]", "x".repeat(8 << 20));
+    let names: Vec<String> = (0..20_000).map(|number| format!("(name: \"{}{number:05}\")", "n".repeat(90))).collect();
+    let parent = format!("[{}, (parent: \"{}\")]", names.join(","), "n".repeat(4 << 20));
+    for text in [word, unclosed, parent] {
+        let began = Instant::now();
+        let said = parsed(&text).err().expect("refused").to_string();
+        one_line(&said);
+        assert!(began.elapsed() < Duration::from_secs(10), "{:?}: {said}", began.elapsed());
+    }
+}
+
+#[test]
+fn a_file_of_too_many_entities_or_cameras_is_refused_in_a_sentence() {
+    let said = parsed(&format!("[{}]", "(),".repeat((1 << 20) + 1))).err().expect("refused").to_string();
+    assert!(said.contains("at most 1048576"), "{said}");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = folder.path().join("scene.ron").display().to_string();
+    fs::write(
+        &scene,
+        format!("[{}]", format!("(name: \"{}\", perspective_camera: ()),", "c".repeat(100)).repeat(1000)),
+    )
+    .expect("written");
+    let said = typed(&["plan", &scene]).expect_err("refused").to_string();
+    assert!(said.contains("given 1000 times") && said.contains("and 996 more"), "{said}");
+    assert!(said.chars().count() < 1000, "{said}");
+}
+
+#[test]
+fn text_of_a_file_never_speaks_to_the_terminal() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.ron").display().to_string();
+    let scenes = [
+        format!("[(name: \"c\", perspective_camera: (), view: (column: \"\\u{{1b}}[2J\\n{}\"))]", "v".repeat(1 << 20)),
+        "[(name: \"a\u{202e}b\", perspective_camera: (fov: 500.0))]".into(),
+        "[(name: \"c\", perspective_camera: ()), (sphere: (), matte: (), image_texture: (file: \"a\u{202e}\\n.png\"))]"
+            .into(),
+        "[(name: \"a\u{202e}b\", perspective_camera: ()), (parent: \"c\u{202e}\")]".into(),
+    ];
+    for scene in scenes {
+        fs::write(&path, scene).expect("written");
+        let said = typed(&["plan", &path]).expect_err("refused").to_string();
+        one_line(&said);
+        assert!(!said.contains('\u{202e}') && said.contains(r"\u{"), "{said}");
+    }
+    fs::write(&path, "[(name: \"a\u{202e}b\", perspective_camera: ()), (name: \"\u{2066}\", sphere: ())]")
+        .expect("written");
+    let plan = typed(&["plan", &path]).expect("planned");
+    assert!(!plan.contains(['\u{202e}', '\u{2066}']) && plan.contains(r"\u{2066}"), "{plan}");
+}
+
+/// The same image, whoever asks for it and however often, all through a render: one that was decoded again would lie
+/// elsewhere in memory.
+#[test]
+fn an_image_that_many_name_is_decoded_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let card = folder.path().join("card.png");
+    fs::copy(CARD, &card).expect("copied");
+    let file = card.display().to_string();
+    let mut world = World::new();
+    world.spawn((Name::new("eye"), PerspectiveCamera::default(), Resolution { width: 8, height: 4 }));
+    for _ in 0..24 {
+        world.spawn((
+            Sphere::default(),
+            Matte::default(),
+            ImageTexture { file: file.clone(), ..ImageTexture::default() },
+        ));
+    }
+    let before = ImageTable::extract(&world).expect("extracted");
+    let scene = folder.path().join("scene.ron");
+    fs::write(&scene, pinhole::scene::scene_text(&world).expect("text")).expect("written");
+    let [scene, picture] = [scene, folder.path().join("a.png")].map(|path| path.display().to_string());
+    typed(&["render", &scene, "-o", &picture]).expect("rendered");
+    let after = ImageTable::extract(&world).expect("extracted");
+    assert_eq!((before.pyramid.len(), after.pyramid.len()), (24, 24));
+    for image in before.pyramid.iter().chain(&after.pyramid) {
+        assert!(Arc::ptr_eq(image, &before.pyramid[0]));
+    }
+    assert!(before.bytes() < 2 * before.pyramid[0].bytes(), "told once");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_film_that_does_not_fit_is_refused_before_it_is_asked_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = "[(name: \"camera\", perspective_camera: ()), (sphere: (), matte: ()), (point_light: ())]";
+    fs::write(folder.path().join("one.ron"), scene).expect("written");
+    let large = ["one.ron", "--size", "32768x32768"];
+    for command in [&["render"][..], &["render", "-q", "--samples", "4"], &["preflight"]] {
+        let words: Vec<&str> = command[..1].iter().chain(&large).chain(&command[1..]).copied().collect();
+        let (ended, said) = run_within(folder.path(), "3000000", &words);
+        one_line(&said);
+        assert_eq!(ended, Some(1), "{words:?}: {said}");
+        assert!(said.contains("camera \"camera\": resolution is 32768 × 32768"), "{said}");
+        assert!(said.contains("needs 28.0 GiB") && said.contains("are free; at most about"), "{said}");
+    }
+    let (ended, said) = run_within(folder.path(), "3000000", &["plan", "one.ron", "--size", "32768x32768"]);
+    assert_eq!((ended, said.as_str()), (Some(0), ""), "a plan has no film");
+}
+
+/// A picture of 4 bytes of deflate for every 4,000 texels, as many as an image may have.
+#[cfg(target_os = "linux")]
+#[test]
+fn textures_that_do_not_fit_are_refused_before_they_are_decoded() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    black_png(&folder.path().join("a.png"), 4096);
+    let names: Vec<String> = (0..4).map(|number| format!("{number}.png")).collect();
+    names.iter().for_each(|name| _ = fs::copy(folder.path().join("a.png"), folder.path().join(name)).expect("copied"));
+    let of = |file: &str| format!("(sphere: (), matte: (), image_texture: (file: \"{file}\"))");
+    let scene = |files: &[String]| {
+        let entities: Vec<String> = files.iter().map(|file| of(file)).collect();
+        fs::write(folder.path().join("scene.ron"), format!("[{CAMERA}, {}]", entities.join(", "))).expect("written");
     };
-    use exr::prelude::Encoding;
-    vec![
-        ("plain.png", encoded(plain.into(), ImageFormat::Png)),
-        ("deep.png", encoded(deep.into(), ImageFormat::Png)),
-        ("light.hdr", encoded(light.into(), ImageFormat::Hdr)),
-        ("scan.exr", exr(Encoding::FAST_LOSSLESS)),
-        ("zip.exr", exr(Encoding::SMALL_LOSSLESS)),
-        ("piz.exr", exr(Encoding::SMALL_FAST_LOSSLESS)),
-        ("plain.exr", exr(Encoding::UNCOMPRESSED)),
-    ]
+    let render = ["render", "scene.ron", "-q", "-o", "a.exr"];
+    scene(&names);
+    let (ended, said) = run_within(folder.path(), "1100000", &render);
+    one_line(&said);
+    assert!(ended == Some(1) && said.contains("image textures is 4 files") && said.contains("needs 1.0 GiB"), "{said}");
+    scene(&names[..1]);
+    let (ended, said) = run_within(folder.path(), "500000", &render);
+    one_line(&said);
+    assert!(ended == Some(1) && said.contains("4096 × 4096 texels"), "{said}");
 }
 
-/// Damages a file in one to three places.
-fn damage(dice: &mut Dice, bytes: &mut Vec<u8>) {
-    for _ in 0..1 + dice.below(3) {
-        // Headers are short, and most of what can go wrong stands in them.
-        let within = if dice.below(2) == 0 { bytes.len().min(400) } else { bytes.len() };
-        let at = dice.below(within + 1);
-        let end = (at + dice.below(24)).min(bytes.len());
-        let number = [0, 1, u32::MAX, i32::MAX as u32, 0x8000_0000, 0x4000_0000, 65_536, dice.roll() as u32]
-            [dice.below(8)];
-        let number = if dice.below(2) == 0 { number.to_le_bytes() } else { number.to_be_bytes() };
-        match dice.below(8) {
-            0 => bytes.truncate(at),
-            1 => drop(bytes.drain(at..end)),
-            2 => {
-                let piece = bytes[at..end].to_vec();
-                let to = dice.below(bytes.len() + 1);
-                bytes.splice(to..to, piece);
-            }
-            3 | 4 if at + 4 <= bytes.len() => bytes[at..at + 4].copy_from_slice(&number),
-            5 if at < bytes.len() => bytes[at] = dice.roll() as u8,
-            6 => bytes.extend((0..dice.below(64)).map(|_| dice.roll() as u8)),
-            _ if at < bytes.len() => bytes[at] ^= 1 << dice.below(8),
-            _ => {}
-        }
-    }
-}
-
-/// Gives the chunks of a PNG the check sums that they ought to have, so that what stands in them is read.
-fn mend_sums(png: &mut [u8]) {
-    let mut at = 8;
-    while let Some(head) = png.get(at..at + 4) {
-        let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
-        let Some(end) = at.checked_add(8).and_then(|start| start.checked_add(length)) else { return };
-        if end + 4 > png.len() {
-            return;
-        }
-        let sum = crc32fast::hash(&png[at + 4..end]);
-        png[end..end + 4].copy_from_slice(&sum.to_be_bytes());
-        at = end + 4;
-    }
+/// A black PNG of one bit a pixel.
+pub fn black_png(path: &Path, side: u32) {
+    let mut encoder = png::Encoder::new(fs::File::create(path).expect("made"), side, side);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    let pixels = vec![0; (side.div_ceil(8) * side) as usize];
+    encoder.write_header().expect("a head").write_image_data(&pixels).expect("pixels");
 }

@@ -1,9 +1,11 @@
 //! Which sources a measurement was made from.
 
-use crate::scene::{FNV_BASIS, fnv};
+use crate::scene::{FNV_BASIS, FileKind, fnv, printable_path, read_file};
 use crate::{Error, Result};
 use std::fs;
 use std::path::{Path, PathBuf};
+
+const SOURCE: FileKind = FileKind { name: "a source", most: 16 << 20 };
 
 /// The folders whose code decides what a stage costs.
 const FOLDERS: [&str; 9] = ["plan", "extract", "sample", "rays", "intersect", "shade", "follow", "film", "render"];
@@ -30,7 +32,8 @@ pub fn made_from_these(chapter: &str, beside: &[&str]) -> Result<String> {
     files.extend(beside.iter().map(|file| root.join(file)));
     let mut hash = FNV_BASIS;
     for file in files {
-        let text = fs::read_to_string(&file).map_err(|_| missing(&file))?;
+        let text = read_file(&file, SOURCE).map_err(|_| missing(&file))?;
+        let text = String::from_utf8_lossy(&text);
         let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
         hash = fnv(hash, name.as_bytes());
         hash = fnv(hash, text.replace("\r\n", "\n").as_bytes());
@@ -53,7 +56,7 @@ fn list(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
 }
 
 fn missing(path: &Path) -> Error {
-    Error::Usage(format!("the sources that this was built from are not here ({} cannot be read)", path.display()))
+    Error::Usage(format!("the sources that this was built from are not here ({} cannot be read)", printable_path(path)))
 }
 
 /// The same hash of any bytes.

@@ -9,6 +9,7 @@
 
 mod fingerprint;
 mod found;
+mod nearest;
 mod open;
 mod problem;
 mod read;

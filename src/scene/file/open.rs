@@ -1,10 +1,8 @@
 use super::{FileProblem, SceneFile};
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use crate::scene::{FileError, FileKind, Unopened, read_file};
 use std::path::Path;
 
-/// The largest scene file, in bytes.
-const LARGEST: u64 = 16 << 20;
+const SCENE_FILE: FileKind = FileKind { name: "a scene file", most: 16 << 20 };
 
 impl SceneFile {
     /// Reads a scene from a file.
@@ -12,22 +10,7 @@ impl SceneFile {
     /// Errors: it cannot be read, is no text, is larger than 16 MiB, or holds a slip; with line and column where there
     /// is a place to be told.
     pub fn open(path: &Path) -> Result<Self, FileProblem> {
-        let problem = |what: String| FileProblem::of(path, what);
-        let metadata = fs::metadata(path).map_err(|refused| problem(unreadable(&refused)))?;
-        if metadata.is_dir() {
-            return Err(problem("this is a folder, but a scene file is a text file".into()));
-        }
-        if !metadata.is_file() {
-            return Err(problem("this is no ordinary file, but a scene file is a text file".into()));
-        }
-        let mut bytes = Vec::new();
-        let file = File::open(path).map_err(|refused| problem(unreadable(&refused)))?;
-        file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|refused| problem(unreadable(&refused)))?;
-        if bytes.len() as u64 > LARGEST {
-            let size = metadata.len().max(bytes.len() as u64);
-            let what = format!("the file has {size} bytes, but a scene file has at most {LARGEST}");
-            return Err(problem(what));
-        }
+        let bytes = read_file(path, SCENE_FILE).map_err(|refused| FileProblem::of(path, told(refused)))?;
         Self::parse_bytes(path, bytes)
     }
 
@@ -47,9 +30,14 @@ impl SceneFile {
     }
 }
 
-fn unreadable(refused: &std::io::Error) -> String {
-    match refused.kind() {
-        ErrorKind::NotFound => "there is no such file".into(),
-        _ => format!("the file cannot be read: {refused}"),
+/// Why a scene file was not read, where the file has been named before.
+fn told(refused: FileError) -> String {
+    let FileKind { name, most } = refused.kind;
+    match refused.why {
+        Unopened::Missing => "there is no such file".into(),
+        Unopened::Folder => format!("this is a folder, but {name} is a text file"),
+        Unopened::NotRegular => format!("this is no ordinary file, but {name} is a text file"),
+        Unopened::TooLong(bytes) => format!("the file has {bytes} bytes, but {name} has at most {most}"),
+        Unopened::System(said) => format!("the file cannot be read: {said}"),
     }
 }

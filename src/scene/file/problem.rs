@@ -1,3 +1,4 @@
+use crate::scene::printable_path;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +31,7 @@ impl FileProblem {
 
 impl fmt::Display for FileProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.path.display())?;
+        write!(f, "{}:", printable_path(&self.path))?;
         if let Some(PlaceInFile { line, column }) = self.place {
             write!(f, "{line}:{column}:")?;
         }

@@ -1,9 +1,11 @@
 //! The words of one entity → its components.
 
 use super::found::{found, shown};
+use super::nearest::nearest;
 use super::scan::{EntityText, Part, check_fields, fields};
 use super::slip::{Slip, byte_at};
 use super::word::{Put, RELATIONS, Word, words};
+use crate::scene::printable;
 use ron::error::{Error, SpannedError};
 use std::ops::Range;
 
@@ -58,7 +60,7 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Sl
     if let Some(part) = entity.parts.iter().find(|part| part.word == "name") {
         read.name = Some(read_name(text, part)?);
     }
-    let who = read.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""));
+    let who = read.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| quoted(name));
     for part in &entity.parts {
         if read.parts.iter().any(|earlier| earlier.word == part.word) {
             let what = format!("{who} is given `{}` twice, but an entity has one of a kind", part.word);
@@ -77,6 +79,11 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Sl
         read.parts.push(FilePart { word: part.word.into(), at: part.at, value: part.value.clone() });
     }
     Ok(read)
+}
+
+/// A name as a message calls it.
+pub fn quoted(name: &str) -> String {
+    format!("\"{}\"", printable(name, LONGEST_NAME))
 }
 
 fn read_name(text: &str, part: &Part<'_>) -> Result<String, Slip> {
@@ -98,9 +105,7 @@ pub fn read_simply<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, 
 }
 
 fn unknown_word(unknown: &str, who: &str) -> String {
-    let known = words().chain(RELATIONS);
-    let likeness = |word: &&str| (strsim::jaro_winkler(word, &snake_case(unknown)) * 1e6) as u64;
-    let nearest = known.max_by_key(likeness).unwrap_or("sphere");
+    let nearest = nearest(words().chain(RELATIONS), &snake_case(unknown)).unwrap_or("sphere");
     format!("{who} has a component `{}`, but there is none of that name; the nearest is `{nearest}`", shown(unknown))
 }
 

@@ -1,7 +1,8 @@
 //! Names → the entities that are meant.
 
 use super::found::shown;
-use super::read::{FileEntity, FilePart, read_simply};
+use super::nearest::nearest;
+use super::read::{FileEntity, FilePart, quoted, read_simply};
 use super::scan::Part;
 use super::slip::{Slip, place_of};
 use std::collections::HashMap;
@@ -53,11 +54,8 @@ fn find(
             format!("{who}: {} is {}, but {is_called}", part.word, shown(&format!("\"{name}\"")))
         }
         [] => {
-            let likeness = |other: &&String| (strsim::jaro_winkler(other, &name) * 1e6) as u64;
-            let mut others: Vec<&String> = named.keys().collect();
-            others.sort();
-            let nearest = others.into_iter().max_by_key(likeness);
-            let nearest = nearest.map_or(String::new(), |nearest| format!("; the nearest is \"{nearest}\""));
+            let nearest = nearest(named.keys().map(String::as_str), &name);
+            let nearest = nearest.map_or(String::new(), |nearest| format!("; the nearest is {}", quoted(nearest)));
             let missing = format!("no entity has that name{nearest}");
             format!("{who}: {} is {}, but {missing}", part.word, shown(&format!("\"{name}\"")))
         }
@@ -91,5 +89,5 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
 }
 
 fn who(entity: &FileEntity) -> String {
-    entity.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| format!("\"{name}\""))
+    entity.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| quoted(name))
 }

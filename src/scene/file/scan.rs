@@ -3,12 +3,15 @@
 //! What is inside a value is left to `ron`; only its brackets are matched here, so that a place can be told for
 //! everything, in one pass over the text and without recursion.
 
-use super::found::found;
+use super::found::{found, shown};
 use super::slip::{Slip, place_of};
 use std::ops::Range;
 
 /// The deepest brackets within a value; components need three.
 const DEEPEST: usize = 16;
+
+/// The most entities of a file; each takes some hundreds of bytes, however few it has in the file.
+const MOST_ENTITIES: usize = 1 << 20;
 
 /// A word, and the text that stands after its colon.
 #[derive(Clone, Debug)]
@@ -46,6 +49,9 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Slip> {
     cursor.skip_space()?;
     while !cursor.take(']') {
         let at = cursor.at;
+        if entities.len() == MOST_ENTITIES {
+            return Err(Slip::new(at, format!("one more entity begins here, but a file has at most {MOST_ENTITIES}")));
+        }
         if !cursor.take('(') {
             return Err(cursor.expected("an entity, which begins with `(`, or the `]` that ends the list"));
         }
@@ -178,7 +184,7 @@ impl<'t> Cursor<'t> {
             }
             self.skip_space()?;
             if !self.take(':') {
-                return Err(self.expected(&format!("a `:` after `{word}`")));
+                return Err(self.expected(&format!("a `:` after `{}`", shown(word))));
             }
             let value = self.value()?;
             parts.push(Part { word, at, value });

@@ -7,8 +7,9 @@ use crate::scene::{ChildOf, Disabled, Name, Refusal, SceneFolder, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Stands around the number of an entity that is called by it; no name in a file may hold it.
-const MARK: char = '\u{1}';
+/// Stands around the number of an entity that is called by it: Unicode keeps it for such uses, and messages show it as it
+/// is.
+const MARK: char = '\u{fdd0}';
 
 /// A scene that was read from a file, and where in the file each part of it stands.
 pub struct SceneFile {

@@ -1,6 +1,6 @@
 use super::read::LONGEST_NAME;
 use super::word::Word;
-use crate::scene::{ChildOf, Disabled, Name, Refusal, UsedByShapes, UsesMaterial, called};
+use crate::scene::{ChildOf, Disabled, Name, Refusal, UsedByShapes, UsesMaterial, called, printable};
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -49,7 +49,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
     let mut parts = Vec::new();
     if let Some(name) = entity.get::<Name>() {
         if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
-            let value = format!("{:?}", name.as_str());
+            let value = format!("\"{}\"", printable(name, LONGEST_NAME));
             let accepted = format!("in a scene file a name is one line of at most {LONGEST_NAME} letters");
             return Err(Refusal::new("an entity", "name", value, accepted));
         }

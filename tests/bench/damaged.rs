@@ -1,4 +1,4 @@
-//! A hundred thousand damaged files given to the program's commands: `cargo bench --bench hostile [-- how many [the first]]`.
+//! A hundred thousand damaged files given to the program's commands: `cargo bench --bench damaged [-- how many [the first]]`.
 //!
 //! Scene files through `plan`, `render`, `trace` and `preflight`; textures through `render`; images through `compare`;
 //! checkpoints through `render --resume`.
@@ -9,8 +9,8 @@ mod chapters;
 #[path = "../scene_files/fuzz.rs"]
 #[expect(dead_code, reason = "the bench `fuzz` and the tests use the rest")]
 mod fuzz;
-#[path = "../scene_files/hostile.rs"]
-mod hostile;
+#[path = "../scene_files/damaged.rs"]
+mod damaged;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
@@ -21,8 +21,8 @@ fn main() {
     let count = numbers.first().copied().unwrap_or(100_000);
     let first = numbers.get(1).copied().unwrap_or(0);
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let bases = hostile::Bases::in_folder(folder.path());
-    let mut counts = hostile::Counts::default();
+    let bases = damaged::Bases::in_folder(folder.path());
+    let mut counts = damaged::Counts::default();
     let started = Instant::now();
     for seed in first..first + count {
         bases.try_seed(seed, &mut counts);

@@ -1,0 +1,120 @@
+//! How much memory there is, asked before much of it is taken: a process that is refused memory half way dies, and takes
+//! with it what it had.
+
+use std::fmt;
+use std::fs;
+
+/// Less than this is not asked about.
+const SMALL: u64 = 64 << 20;
+
+/// Memory that is needed and is not there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLittleMemory {
+    /// Bytes that are needed.
+    pub needed: u64,
+    /// Bytes that are free.
+    pub free: u64,
+}
+
+impl TooLittleMemory {
+    /// The bytes that may be taken: the rest of the program, and whoever works beside it, need some too.
+    pub fn usable(&self) -> u64 {
+        self.free - self.free / 8
+    }
+}
+
+impl fmt::Display for TooLittleMemory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "needs {}, but {} are free", in_words(self.needed), in_words(self.usable()))
+    }
+}
+
+/// Whether so many bytes can be had.
+///
+/// Errors: what is needed, and what there is.
+pub fn check_memory(needed: u64) -> Result<(), TooLittleMemory> {
+    if needed < SMALL {
+        return Ok(());
+    }
+    free_memory().map_or(Ok(()), |free| within(needed, free))
+}
+
+fn within(needed: u64, free: u64) -> Result<(), TooLittleMemory> {
+    let answer = TooLittleMemory { needed, free };
+    if needed <= answer.usable() { Ok(()) } else { Err(answer) }
+}
+
+/// Bytes that this process can still have: what the machine has available, or what a limit on the process or on its
+/// control group leaves, whichever is least; none where the system says nothing.
+fn free_memory() -> Option<u64> {
+    [available(), address_space_left(), group_left()].into_iter().flatten().min()
+}
+
+fn available() -> Option<u64> {
+    field(&fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:").map(|kibibytes| kibibytes * 1024)
+}
+
+fn address_space_left() -> Option<u64> {
+    let limit = field(&fs::read_to_string("/proc/self/limits").ok()?, "Max address space")?;
+    let used = field(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")? * 1024;
+    Some(limit.saturating_sub(used))
+}
+
+/// What the control group at the root, which in a container is the container's, leaves; the page cache does not count,
+/// for it is given back when memory is asked for.
+fn group_left() -> Option<u64> {
+    let number = |file: &str| fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?.trim().parse::<u64>().ok();
+    let cached = |file: &str, name: &str| {
+        fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok().and_then(|text| field(&text, name)).unwrap_or(0)
+    };
+    let (limit, used, cached) = match number("memory.max") {
+        Some(limit) => (limit, number("memory.current")?, cached("memory.stat", "inactive_file ")),
+        None => (
+            number("memory/memory.limit_in_bytes")?,
+            number("memory/memory.usage_in_bytes")?,
+            cached("memory/memory.stat", "total_inactive_file "),
+        ),
+    };
+    Some(limit.saturating_sub(used.saturating_sub(cached)))
+}
+
+/// The number after a name at the beginning of a line.
+fn field(text: &str, name: &str) -> Option<u64> {
+    text.lines().find_map(|line| line.strip_prefix(name))?.split_whitespace().next()?.parse().ok()
+}
+
+/// A number of bytes as a person would say it.
+pub fn in_words(bytes: u64) -> String {
+    let mebibytes = bytes as f64 / f64::from(1 << 20);
+    if mebibytes < 1024.0 { format!("{mebibytes:.0} MiB") } else { format!("{:.1} GiB", mebibytes / 1024.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_eighth_of_what_is_free_stays_free() {
+        assert_eq!(within(7 << 30, 8 << 30), Ok(()));
+        let refused = within((7 << 30) + 1, 8 << 30).expect_err("refused");
+        assert_eq!(refused.to_string(), "needs 7.0 GiB, but 7.0 GiB are free");
+        assert_eq!(check_memory(SMALL - 1), Ok(()));
+    }
+
+    #[test]
+    fn numbers_are_found_by_their_names() {
+        let limits = "Limit    Soft Limit\nMax address space         6144000000           unlimited            bytes\n";
+        assert_eq!(field(limits, "Max address space"), Some(6_144_000_000));
+        assert_eq!(field("Max address space         unlimited  unlimited  bytes", "Max address space"), None);
+        assert_eq!(field("MemTotal: 3 kB\nMemAvailable:   21420840 kB", "MemAvailable:"), Some(21_420_840));
+        assert_eq!(field("", "MemAvailable:"), None);
+    }
+
+    #[test]
+    fn this_machine_says_how_much_it_has() {
+        if cfg!(target_os = "linux") {
+            assert!(free_memory().is_some_and(|free| free > 1 << 20));
+        }
+        assert!(check_memory(1 << 62).is_err() || free_memory().is_none());
+    }
+}

@@ -1,0 +1,66 @@
+use std::path::Path;
+
+/// The most letters of a path that a message shows.
+const LONGEST_PATH: usize = 160;
+
+/// Text from a file or a command line as a message may show it: on one line, with nothing that a terminal would obey or
+/// that changes how other letters are shown, and at most so many letters of it, the middle of a longer one left out.
+pub fn printable(text: &str, most: usize) -> String {
+    // A letter has four bytes at most, so that a long text need not be counted to its end.
+    let is_long = text.len() > most && text.chars().nth(most).is_some();
+    if !is_long {
+        return escaped(text.chars());
+    }
+    let after = most.saturating_sub(1) / 3;
+    let before = most.saturating_sub(1) - after;
+    let end: Vec<char> = text.chars().rev().take(after).collect();
+    format!("{}…{}", escaped(text.chars().take(before)), escaped(end.into_iter().rev()))
+}
+
+/// A path as a message may show it.
+pub fn printable_path(path: &Path) -> String {
+    printable(&path.to_string_lossy(), LONGEST_PATH)
+}
+
+fn escaped(letters: impl Iterator<Item = char>) -> String {
+    let mut line = String::new();
+    for letter in letters {
+        if letter.is_control() || is_invisible(letter) {
+            line.extend(letter.escape_unicode());
+        } else {
+            line.push(letter);
+        }
+    }
+    line
+}
+
+/// Letters that are not seen and change how others are shown: the controls of direction, line ends and joints.
+fn is_invisible(letter: char) -> bool {
+    matches!(
+        letter,
+        '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}'
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_would_obey_is_escaped() {
+        let text = "a\u{1b}[2Jb\nc\u{7}\u{9b}31m";
+        assert_eq!(printable(text, 80), r"a\u{1b}[2Jb\u{a}c\u{7}\u{9b}31m");
+        for letter in ['\u{200e}', '\u{200f}', '\u{61c}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}', '\u{7f}'] {
+            assert_eq!(printable(&letter.to_string(), 80), letter.escape_unicode().to_string());
+        }
+        assert_eq!(printable("Tür, 球, שלום", 80), "Tür, 球, שלום", "ordinary letters stay");
+    }
+
+    #[test]
+    fn long_text_loses_its_middle() {
+        assert_eq!(printable("0123456789", 10), "0123456789");
+        assert_eq!(printable("0123456789a", 10), "012345…89a");
+        assert_eq!(printable(&"ü".repeat(1 << 20), 7), "üüüü…üü");
+        assert_eq!(printable("ab", 0), "…");
+    }
+}
