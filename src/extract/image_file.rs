@@ -1,11 +1,12 @@
 //! Image files → texels in linear light.
 
 use super::linear_from_srgb;
-use crate::scene::{Refusal, SceneFolder};
+use crate::scene::{EmbeddedFiles, Refusal, SceneFolder};
 use bevy_ecs::prelude::*;
 use exr::prelude::{MetaData, ReadChannels, ReadLayers, read};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 
 /// The most texels of one image; with its smaller copies they take 16 bytes each.
@@ -72,7 +73,14 @@ pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers
     if !endings.contains(&ending.as_str()) {
         return Err(refused(accepted.into()));
     }
-    let texels = decoded(&path, &ending).map_err(refused)?;
+    let texels = match EmbeddedFiles::find(scene, file) {
+        Some(bytes) => decoded(bytes, &ending),
+        None => read_file(&path).and_then(|bytes| {
+            let shown = shortened(&path.display().to_string());
+            decoded(&bytes, &ending).map_err(|problem| format!("{shown} cannot be read: {problem}"))
+        }),
+    };
+    let texels = texels.map_err(refused)?;
     let wrong = |texel: &[f32; 3]| !texel.iter().all(|&part| numbers.accepts(part));
     if let Some(first) = texels.rgb.iter().position(wrong) {
         let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
@@ -84,7 +92,7 @@ pub(super) fn read_texels(scene: &World, who: &str, file: &str, numbers: Numbers
     Ok(texels)
 }
 
-fn decoded(path: &Path, ending: &str) -> Result<Texels, String> {
+fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     let shown = shortened(&path.display().to_string());
     let metadata = fs::metadata(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => format!("there is no file {shown}"),
@@ -93,12 +101,15 @@ fn decoded(path: &Path, ending: &str) -> Result<Texels, String> {
     if !metadata.is_file() {
         return Err(format!("{shown} is no ordinary file"));
     }
-    let read = match ending {
-        "exr" => read_exr(path),
-        "hdr" => read_by_image(path, ImageFormat::Hdr),
-        _ => read_by_image(path, ImageFormat::Png),
-    };
-    read.map_err(|problem| format!("{shown} cannot be read: {problem}"))
+    fs::read(path).map_err(|error| format!("{shown} cannot be read: {}", one_line(&error)))
+}
+
+fn decoded(bytes: &[u8], ending: &str) -> Result<Texels, String> {
+    match ending {
+        "exr" => read_exr(bytes),
+        "hdr" => read_by_image(bytes, ImageFormat::Hdr),
+        _ => read_by_image(bytes, ImageFormat::Png),
+    }
 }
 
 /// What a library says, as a part of one sentence.
@@ -126,15 +137,11 @@ fn check_size(width: u64, height: u64) -> Result<(), String> {
     }
 }
 
-fn read_by_image(path: &Path, format: ImageFormat) -> Result<Texels, String> {
-    let reader = |path: &Path| -> Result<_, String> {
-        let mut reader = ImageReader::open(path).map_err(|error| one_line(&error))?;
-        reader.set_format(format);
-        Ok(reader)
-    };
-    let (width, height) = reader(path)?.into_dimensions().map_err(|error| one_line(&error))?;
+fn read_by_image(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
+    let reader = || ImageReader::with_format(Cursor::new(bytes), format);
+    let (width, height) = reader().into_dimensions().map_err(|error| one_line(&error))?;
     check_size(width.into(), height.into())?;
-    let mut reader = reader(path)?;
+    let mut reader = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_TEXELS * 16);
     reader.limits(limits);
@@ -158,8 +165,8 @@ fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
     }
 }
 
-fn read_exr(path: &Path) -> Result<Texels, String> {
-    let meta = MetaData::read_from_file(path, false).map_err(|error| one_line(&error))?;
+fn read_exr(bytes: &[u8]) -> Result<Texels, String> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| one_line(&error))?;
     for header in &meta.headers {
         check_size(header.layer_size.0 as u64, header.layer_size.1 as u64)?;
     }
@@ -176,7 +183,7 @@ fn read_exr(path: &Path) -> Result<Texels, String> {
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_file(path)
+        .from_buffered(Cursor::new(bytes))
         .map_err(|error| one_line(&error))?;
     Ok(image.layer_data.channel_data.pixels)
 }

@@ -1,6 +1,7 @@
 use super::word::Word;
 use crate::scene::{
-    ChildOf, Disabled, Environment, ImageTexture, Name, Sampler, Sampling, SceneFolder, Statistics, UsesMaterial,
+    ChildOf, Disabled, EmbeddedFiles, Environment, ImageTexture, Name, Sampler, Sampling, SceneFolder, Statistics,
+    UsesMaterial,
 };
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -36,8 +37,9 @@ pub fn fingerprint(scene: &World) -> String {
         let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
         let environment = entity.get::<Environment>().map(|environment| &environment.file);
         for file in texture.into_iter().chain(environment) {
-            let held = std::fs::read(SceneFolder::path_of(scene, file)).map(|bytes| fnv(FNV_BASIS, &bytes));
-            text += &format!(" {:?}", held.ok());
+            let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
+            let read = || std::fs::read(SceneFolder::path_of(scene, file)).ok().map(|bytes| hash(&bytes));
+            text += &format!(" {:?}", EmbeddedFiles::find(scene, file).map(hash).or_else(read));
         }
         if let Some(sampling) = entity.get::<Sampling>() {
             // A stratified pixel's grid is made for its number of samples.
