@@ -36,6 +36,15 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
+/// A chapter's images come with the program, so that it may be copied and started anywhere.
+#[test]
+fn a_chapter_with_images_renders_in_any_folder() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let done = run(folder.path(), &["render", "16", "--size", "16x9", "--quiet", "-o", "picture.png"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(names(folder.path()), ["picture.png"]);
+}
+
 /// The whole cover takes the optimised build half a minute; here it is stopped as soon as there is something to see.
 #[test]
 #[cfg(unix)]

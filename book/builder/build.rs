@@ -70,6 +70,7 @@ fn write_pictures(folder: &Path, pictures: &Pictures) -> Result<(), String> {
 #[cfg(test)]
 pub mod tests {
     use super::*;
+    use std::io::Write;
 
     const PAGE: &str = "# One\n\n$a^2$ and [two](02_two.md#b).\n\n{{#kit plan}}\n\n{{#figure render | A *box*}}\n\n\
                         {{#figure figure | A drawing}}\n\n```toml\n{{#include PATH}}\n```\n\n| a | b |\n|---|---|\n| 1 | 2 |\n";
@@ -96,15 +97,18 @@ pub mod tests {
 
     /// A kit that prints, paints and draws.
     pub fn little_kit() -> Rc<RefCell<Kit>> {
-        Kit::with(|words, out| {
-            let path = words.last().cloned().unwrap_or_default();
-            let done = match Path::new(&path).extension().and_then(|extension| extension.to_str()) {
-                Some("svg") => std::fs::write(path, SVG),
-                Some("png") => std::fs::write(path, PNG),
-                _ => writeln!(out, "kept"),
-            };
-            done.map_err(|error| error.to_string())
-        })
+        Kit::with(little_command)
+    }
+
+    /// Runs one command of that kit.
+    pub fn little_command(words: &[String], out: &mut dyn Write) -> Result<(), String> {
+        let path = words.last().cloned().unwrap_or_default();
+        let done = match Path::new(&path).extension().and_then(|extension| extension.to_str()) {
+            Some("svg") => std::fs::write(path, SVG),
+            Some("png") => std::fs::write(path, PNG),
+            _ => writeln!(out, "kept"),
+        };
+        done.map_err(|error| error.to_string())
     }
 
     fn files(folder: &Path) -> Vec<PathBuf> {

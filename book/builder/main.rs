@@ -9,6 +9,7 @@ mod build;
 mod check;
 mod edit;
 mod figure;
+mod http;
 mod kit;
 mod math;
 mod page;
@@ -19,19 +20,25 @@ mod watch;
 #[path = "../../chapters/mod.rs"]
 mod chapters;
 
+use clap::Parser;
 use std::io::Write;
 use std::process::ExitCode;
 use std::time::Instant;
 
-const USAGE: &str = "\
-cargo run -p book                        build the book into out/book/
-cargo run -p book -- --serve             show it at http://127.0.0.1:3000 and follow every change
-cargo run -p book -- --serve --port N    the same at another port";
+/// Builds the book into out/book/
+#[derive(Debug, Parser)]
+#[command(bin_name = "cargo run -p book --")]
+struct Arguments {
+    /// Shows the book in a browser on this machine, and follows every change
+    #[arg(long)]
+    serve: bool,
+    /// The port at which it is shown
+    #[arg(long, requires = "serve", default_value_t = 3000)]
+    port: u16,
+}
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let told = wish(&arguments).and_then(|wish| fulfil(&wish));
-    match told {
+    match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             say(&mut std::io::stderr(), &message);
@@ -45,71 +52,55 @@ fn say(out: &mut dyn Write, message: &str) {
     let _ = writeln!(out, "{message}");
 }
 
-#[derive(Debug, PartialEq, Eq)]
-enum Wish {
-    Help,
-    Build,
-    Serve { port: u16 },
-}
-
-fn wish(arguments: &[String]) -> Result<Wish, String> {
-    let (mut serve, mut port) = (false, None);
-    let mut arguments = arguments.iter().map(String::as_str);
-    while let Some(argument) = arguments.next() {
-        match argument {
-            "--help" | "-h" => return Ok(Wish::Help),
-            "--serve" => serve = true,
-            "--port" => {
-                let number = arguments.next().unwrap_or_default();
-                let wrong = |_| format!("--port takes a number from 0 to 65535, not `{number}`.");
-                port = Some(number.parse().map_err(wrong)?);
-            }
-            other => {
-                return Err(format!("`{other}` is not understood; accepted is:\n{USAGE}"));
-            }
-        }
-    }
-    match (serve, port) {
-        (true, port) => Ok(Wish::Serve { port: port.unwrap_or(3000) }),
-        (false, None) => Ok(Wish::Build),
-        (false, Some(_)) => Err("--port goes with --serve.".to_owned()),
-    }
-}
-
-fn fulfil(wish: &Wish) -> Result<(), String> {
+fn run(arguments: &Arguments) -> Result<(), String> {
     let book = build::Book::of_this_repository();
     // A command of the kit may name a file; a reader would type it from the top of the repository.
     std::env::set_current_dir(&book.repository)
         .map_err(|error| format!("{} cannot be entered: {error}.", book.repository.display()))?;
     let out = &mut std::io::stdout();
-    match wish {
-        Wish::Help => say(out, USAGE),
-        Wish::Build => {
-            let start = Instant::now();
-            build::build(&book, &kit::Kit::shared())?;
-            let index = book.out.join("index.html");
-            say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
-        }
-        Wish::Serve { port } => serve::serve(&book, &kit::Kit::shared(), *port, out)?,
+    if arguments.serve {
+        return serve::serve(&book, &kit::Kit::shared(), arguments.port, out);
     }
+    let start = Instant::now();
+    build::build(&book, &kit::Kit::shared())?;
+    let index = book.out.join("index.html");
+    say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::error::ErrorKind;
+    use std::ffi::OsStr;
 
-    fn asked(line: &str) -> Result<Wish, String> {
-        wish(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    fn asked(words: &[&OsStr]) -> Result<(bool, u16), (ErrorKind, i32)> {
+        let arguments = Arguments::try_parse_from([OsStr::new("book")].iter().chain(words));
+        arguments.map(|asked| (asked.serve, asked.port)).map_err(|error| (error.kind(), error.exit_code()))
+    }
+
+    fn typed(line: &str) -> Result<(bool, u16), (ErrorKind, i32)> {
+        asked(&line.split_whitespace().map(OsStr::new).collect::<Vec<_>>())
     }
 
     #[test]
     fn arguments_are_read() {
-        assert_eq!(asked(""), Ok(Wish::Build));
-        assert_eq!(asked("--serve"), Ok(Wish::Serve { port: 3000 }));
-        assert_eq!(asked("--port 80 --serve"), Ok(Wish::Serve { port: 80 }));
-        assert_eq!(asked("--port 80"), Err("--port goes with --serve.".to_owned()));
-        assert_eq!(asked("--serve --port x"), Err("--port takes a number from 0 to 65535, not `x`.".to_owned()));
-        assert!(asked("--open").is_err_and(|told| told.starts_with("`--open` is not understood; accepted is:\n")));
+        assert_eq!(typed(""), Ok((false, 3000)));
+        assert_eq!(typed("--serve"), Ok((true, 3000)));
+        assert_eq!(typed("--port 80 --serve"), Ok((true, 80)));
+        assert_eq!(typed("--port 80"), Err((ErrorKind::MissingRequiredArgument, 2)));
+        assert_eq!(typed("--serve --port x"), Err((ErrorKind::ValueValidation, 2)));
+        assert_eq!(typed("--serve --port 65536"), Err((ErrorKind::ValueValidation, 2)));
+        assert_eq!(typed("--open"), Err((ErrorKind::UnknownArgument, 2)));
+        assert_eq!(typed("--help"), Err((ErrorKind::DisplayHelp, 0)));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn words_that_are_not_utf8_are_refused() {
+        use std::os::unix::ffi::OsStrExt;
+        let [serve, port, odd] = [b"--serve".as_slice(), b"--port", b"caf\xe9"].map(OsStr::from_bytes);
+        assert_eq!(asked(&[serve, odd]).map_err(|refused| refused.1), Err(2));
+        assert_eq!(asked(&[serve, port, odd]).map_err(|refused| refused.1), Err(2));
     }
 }

@@ -1,49 +1,43 @@
 //! Shows the book to this machine only, builds it again when something changes, and tells the open pages.
-//!
-//! The standard library's listener and a thread for each connection: a browser opens six at once, and tiny_http 0.12
-//! was measured to leave some of six simultaneous connections without an answer.
 
 use crate::build::{Book, build};
+use crate::http::{PATIENCE, Shown, start};
 use crate::kit::Kit;
 use crate::say;
-use crate::site::{Answer, Site, answer, plain};
+use crate::site::Site;
 use crate::watch::Watch;
 use std::cell::RefCell;
-use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::io::{ErrorKind, Write};
+use std::net::TcpListener;
 use std::path::PathBuf;
 use std::rc::Rc;
-use std::sync::{Arc, PoisonError, RwLock};
 use std::time::{Duration, Instant};
 
 /// How often the files are looked at.
 const PACE: Duration = Duration::from_millis(300);
 
-/// A browser's request is far shorter.
-const LONGEST_REQUEST: u64 = 64 * 1024;
-
-/// How long a connection may stay silent.
-const PATIENCE: Duration = Duration::from_secs(10);
-
 /// Serves until the program is stopped.
 pub fn serve(book: &Book, kit: &Rc<RefCell<Kit>>, port: u16, out: &mut dyn Write) -> Result<(), String> {
     let listener = listen(port)?;
     let address = listener.local_addr().map_err(|error| error.to_string())?;
-    let site = Arc::new(RwLock::new(Site { out: book.out.clone(), revision: 0, told: None }));
+    let shown = Shown::default();
+    // What an earlier run has built is shown until this one's first build is done.
+    shown.replace(Site::read(&book.out, 0).unwrap_or_default());
+    let server = start(listener, shown.clone(), PATIENCE);
+    let server = server.map_err(|error| format!("the book cannot be shown at port {}: {error}.", address.port()))?;
     let watched = ["chapters", "src", "book/builder/book.css", "book/book.toml"];
     let watched = watched.iter().map(|place| book.repository.join(place));
     let mut watch = Watch::new(watched.chain([book.pages.clone()]).collect());
-    rebuild(book, kit, &site, out);
-    let shown = Arc::clone(&site);
-    std::thread::spawn(move || accept(&listener, &shown));
     say(out, &format!("http://{address} shows the book and follows every change; Ctrl-C ends it."));
-    loop {
+    rebuild(book, kit, &shown, out);
+    while !server.is_finished() {
         std::thread::sleep(PACE);
         let changed = watch.changed();
         if !changed.is_empty() {
-            follow(book, kit, &site, &changed, out);
+            follow(book, kit, &shown, &changed, out);
         }
     }
+    Err(format!("nothing answers at http://{address} any more: start again."))
 }
 
 fn listen(port: u16) -> Result<TcpListener, String> {
@@ -57,7 +51,7 @@ fn listen(port: u16) -> Result<TcpListener, String> {
 }
 
 /// Only a change outside the pages can change what the kit answers.
-fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, site: &RwLock<Site>, changed: &[PathBuf], out: &mut dyn Write) {
+fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, changed: &[PathBuf], out: &mut dyn Write) {
     if changed.iter().any(|path| !path.starts_with(&book.pages)) {
         kit.borrow_mut().forget();
     }
@@ -68,101 +62,56 @@ fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, site: &RwLock<Site>, changed: &[P
             "source changed: listings follow; figures and output stay the compiled program's until you start again.",
         );
     }
-    rebuild(book, kit, site, out);
+    rebuild(book, kit, shown, out);
 }
 
-/// Requests wait while the site is half written.
-fn rebuild(book: &Book, kit: &Rc<RefCell<Kit>>, site: &RwLock<Site>, out: &mut dyn Write) {
+/// The site of before is shown until the new one is complete.
+fn rebuild(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, out: &mut dyn Write) {
     let start = Instant::now();
-    let mut site = site.write().unwrap_or_else(PoisonError::into_inner);
-    match build(book, kit) {
-        Ok(()) => {
-            site.revision += 1;
-            site.told = None;
+    let before = shown.now();
+    shown.replace(match build(book, kit).and_then(|()| before.next(&book.out)) {
+        Ok(site) => {
             say(out, &format!("built in {:.1} s", start.elapsed().as_secs_f64()));
+            site
         }
-        Err(told) => {
-            say(out, &told);
-            site.told = Some(told);
+        Err(error) => {
+            say(out, &error);
+            before.stopped(error)
         }
-    }
-}
-
-fn accept(listener: &TcpListener, site: &Arc<RwLock<Site>>) {
-    for stream in listener.incoming().flatten() {
-        let site = Arc::clone(site);
-        // A reader who leaves before the answer has come is no trouble.
-        std::thread::spawn(move || respond(&stream, &site).ok());
-    }
-}
-
-/// Reads one request and answers it; the connection then ends.
-fn respond(mut stream: &TcpStream, site: &RwLock<Site>) -> io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
-    let mut lines = BufReader::new(stream.take(LONGEST_REQUEST)).lines();
-    let request = lines.next().transpose()?.unwrap_or_default();
-    for line in lines {
-        if line?.is_empty() {
-            break;
-        }
-    }
-    let mut words = request.split(' ');
-    let (method, url) = (words.next(), words.next().unwrap_or_default());
-    let answer = match method {
-        Some("GET" | "HEAD") => answer(&site.read().unwrap_or_else(PoisonError::into_inner), url),
-        _ => plain(405, "only GET is answered here"),
-    };
-    stream.write_all(head(&answer).as_bytes())?;
-    if method != Some("HEAD") {
-        stream.write_all(&answer.body)?;
-    }
-    stream.flush()
-}
-
-fn head(answer: &Answer) -> String {
-    let reason = match answer.status {
-        200 => "OK",
-        404 => "Not Found",
-        _ => "Method Not Allowed",
-    };
-    format!(
-        "HTTP/1.1 {} {reason}\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n",
-        answer.status,
-        answer.kind,
-        answer.body.len()
-    )
+    });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::tests::{little_book, little_kit};
-
-    fn asked(port: u16, request: &str) -> String {
-        let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
-        write!(stream, "{request} HTTP/1.1\r\nHost: x\r\n\r\n").expect("asked");
-        let mut answer = String::new();
-        stream.read_to_string(&mut answer).expect("an answer");
-        answer
-    }
+    use crate::build::tests::{little_book, little_command, little_kit, write};
+    use crate::http::tests::{asked, served};
 
     #[test]
-    fn a_browser_gets_its_answers() {
+    fn the_site_of_before_is_shown_while_a_new_one_is_built() {
         let (_folder, book) = little_book();
-        build(&book, &little_kit()).expect("the little book builds");
-        let site = Site { out: book.out.clone(), revision: 1, told: None };
-        let listener = listen(0).expect("a free port");
-        let port = listener.local_addr().expect("an address").port();
-        let site = Arc::new(RwLock::new(site));
-        std::thread::spawn(move || accept(&listener, &site));
-        // Connections that say nothing must not keep the others waiting.
-        let silent: Vec<TcpStream> = (0..8).filter_map(|_| TcpStream::connect(("127.0.0.1", port)).ok()).collect();
-        assert!(asked(port, "GET /02_two.html").starts_with("HTTP/1.1 200 OK"));
-        assert!(asked(port, "HEAD /").ends_with("\r\n\r\n"));
-        assert!(asked(port, "GET /../Cargo.toml").starts_with("HTTP/1.1 404"));
-        assert!(asked(port, "POST /").starts_with("HTTP/1.1 405"));
-        assert_eq!(silent.len(), 8);
+        let shown = Shown::default();
+        let port = served(&shown, PATIENCE);
+        let page = || asked(port, "GET /02_two.html");
+        assert!(page().starts_with("HTTP/1.1 503"), "{}", page());
+        let mut out = Vec::new();
+        rebuild(&book, &little_kit(), &shown, &mut out);
+        assert!(page().contains("Back to") && page().contains("shown = \"1\""), "{}", page());
+        write(&book, "02_two.md", "# Two\n\n## B\n\nOn to [one](01_one.md).\n");
+        let meanwhile = Rc::new(RefCell::new(Vec::new()));
+        let asking = Rc::clone(&meanwhile);
+        let kit = Kit::with(move |words, out| {
+            asking.borrow_mut().push(asked(port, "GET /02_two.html"));
+            little_command(words, out)
+        });
+        rebuild(&book, &kit, &shown, &mut out);
+        assert!(!meanwhile.borrow().is_empty() && meanwhile.borrow().iter().all(|page| page.contains("Back to")));
+        assert!(page().contains("On to") && page().contains("shown = \"2\""), "{}", page());
+        write(&book, "02_two.md", "# Two\n\n## B\n\n$\\oops$\n");
+        rebuild(&book, &little_kit(), &shown, &mut out);
+        assert!(page().contains("On to"), "{}", page());
+        let revision = asked(port, "GET /__revision");
+        assert!(revision.contains("\r\n\r\n2\n") && revision.contains("oops"), "{revision}");
     }
 
     #[test]

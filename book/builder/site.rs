@@ -1,6 +1,11 @@
-//! What the served book answers: files below one folder and nothing else, and pages that reload themselves.
+//! What the served book answers: the files of one build, held in memory, and pages that reload themselves.
 
-use std::path::{Path, PathBuf};
+use hyper::body::Bytes;
+use hyper::{Request, StatusCode, header};
+use percent_encoding::percent_decode_str;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
 
 /// Where an open page asks which build it shows.
 pub const REVISION: &str = "/__revision";
@@ -26,81 +31,118 @@ const RELOAD: &str = r#"<script>
 </script>
 "#;
 
-/// What the server shows.
-#[derive(Debug)]
+/// One build of the book. What it holds is all that can be asked for, and the next build may write over its folder.
+#[derive(Debug, Default)]
 pub struct Site {
-    /// The folder of the built book.
-    pub out: PathBuf,
-    /// Grows with every build.
-    pub revision: u32,
-    /// What stopped the last build, if anything did.
-    pub told: Option<String>,
+    files: BTreeMap<String, (&'static str, Bytes)>,
+    revision: u32,
+    error: Option<String>,
 }
 
 /// What one address answers.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Answer {
     /// The HTTP status.
-    pub status: u16,
+    pub status: StatusCode,
     /// The media type.
     pub kind: &'static str,
     /// What is sent.
-    pub body: Vec<u8>,
+    pub body: Bytes,
 }
 
 /// A sentence instead of a page.
-pub fn plain(status: u16, text: &str) -> Answer {
-    Answer { status, kind: "text/plain; charset=utf-8", body: text.as_bytes().to_vec() }
+pub fn plain(status: StatusCode, text: String) -> Answer {
+    Answer { status, kind: "text/plain; charset=utf-8", body: text.into() }
 }
 
-/// What the site answers at an address.
-pub fn answer(site: &Site, url: &str) -> Answer {
-    let path = url.split(['?', '#']).next().unwrap_or_default();
-    if path == REVISION {
-        let told = site.told.as_ref().map(|told| format!("\n{told}")).unwrap_or_default();
-        return plain(200, &format!("{}{told}", site.revision));
+impl Site {
+    /// The book in a folder; the revision differs from build to build.
+    pub fn read(folder: &Path, revision: u32) -> io::Result<Self> {
+        let mut site = Self { revision, ..Self::default() };
+        site.add(folder, "")?;
+        Ok(site)
     }
-    let file = below(&site.out, path).map(|file| if file.is_dir() { file.join("index.html") } else { file });
-    let Some((file, body)) = file.and_then(|file| Some((file.clone(), std::fs::read(file).ok()?))) else {
-        return plain(404, "there is no such page in the book");
-    };
-    let kind = kind_of(&file);
-    if kind.starts_with("text/html") {
-        let script = RELOAD.replace("REVISION", &site.revision.to_string());
-        let page = String::from_utf8_lossy(&body).replace("</body>", &format!("{script}</body>"));
-        return Answer { status: 200, kind, body: page.into_bytes() };
-    }
-    Answer { status: 200, kind, body }
-}
 
-/// The file an address means, never one outside the folder.
-fn below(folder: &Path, path: &str) -> Option<PathBuf> {
-    let mut file = folder.to_path_buf();
-    for part in decoded(path)?.split('/').filter(|part| !part.is_empty() && *part != ".") {
-        if part == ".." || part.contains(['\\', ':', '\0']) {
-            return None;
+    /// Adds the files in a folder, each under its path as an address has it; links could lead elsewhere and are left out.
+    fn add(&mut self, folder: &Path, above: &str) -> io::Result<()> {
+        for entry in folder.read_dir()? {
+            let entry = entry?;
+            let (path, kind) = (entry.path(), entry.file_type()?);
+            let name = format!("{above}/{}", entry.file_name().to_string_lossy());
+            if kind.is_dir() {
+                self.add(&path, &name)?;
+            } else if kind.is_file() {
+                let media = media_type(&path);
+                let bytes = std::fs::read(path)?;
+                let bytes = if media.starts_with("text/html") { self.reloading(&bytes) } else { bytes.into() };
+                self.files.insert(name, (media, bytes));
+            }
         }
-        file.push(part);
+        Ok(())
     }
-    // A link inside the folder could still lead out of it.
-    let (file, folder) = (file.canonicalize().ok()?, folder.canonicalize().ok()?);
-    file.starts_with(folder).then_some(file)
+
+    fn reloading(&self, page: &[u8]) -> Bytes {
+        let script = RELOAD.replace("REVISION", &self.revision.to_string());
+        String::from_utf8_lossy(page).replace("</body>", &format!("{script}</body>")).into()
+    }
+
+    /// The build that follows this one.
+    pub fn next(&self, folder: &Path) -> Result<Self, String> {
+        let failed = |error| format!("{} cannot be read: {error}.", folder.display());
+        Self::read(folder, self.revision + 1).map_err(failed)
+    }
+
+    /// The same build, with what stopped the one that should have followed it.
+    pub fn stopped(&self, error: String) -> Self {
+        Self { files: self.files.clone(), error: Some(error), ..*self }
+    }
+
+    /// The answer to a request, which must be for this machine by name.
+    pub fn answer<B>(&self, request: &Request<B>) -> Answer {
+        let hosts = request.headers().get_all(header::HOST).iter().map(|host| host.to_str().unwrap_or_default());
+        let hosts: Vec<&str> = hosts.chain(request.uri().authority().map(|authority| authority.as_str())).collect();
+        if hosts.is_empty() || !hosts.iter().all(|host| is_this_machine(host)) {
+            let told = "the book is shown at 127.0.0.1 and at localhost, and under no other name";
+            return plain(StatusCode::FORBIDDEN, told.to_owned());
+        }
+        if !["GET", "HEAD"].contains(&request.method().as_str()) {
+            return plain(StatusCode::METHOD_NOT_ALLOWED, "only GET and HEAD are answered here".to_owned());
+        }
+        self.at(request.uri().path())
+    }
+
+    fn at(&self, path: &str) -> Answer {
+        if path == REVISION {
+            let error = self.error.as_ref().map(|error| format!("\n{error}")).unwrap_or_default();
+            return plain(StatusCode::OK, format!("{}{error}", self.revision));
+        }
+        let path = percent_decode_str(path).decode_utf8_lossy();
+        let parts = path.split('/').filter(|part| !part.is_empty() && *part != ".");
+        let file: String = parts.flat_map(|part| ["/", part]).collect();
+        if let Some((kind, body)) = self.files.get(&file).or_else(|| self.files.get(&(file + "/index.html"))) {
+            return Answer { status: StatusCode::OK, kind, body: body.clone() };
+        }
+        if self.files.is_empty() {
+            let body = self.reloading(b"<!doctype html><body>The book is being built.</body>");
+            return Answer { status: StatusCode::SERVICE_UNAVAILABLE, kind: HTML, body };
+        }
+        plain(StatusCode::NOT_FOUND, "there is no such page in the book".to_owned())
+    }
 }
 
-fn decoded(path: &str) -> Option<String> {
-    let mut parts = path.split('%');
-    let mut bytes = parts.next()?.as_bytes().to_vec();
-    for part in parts {
-        let (code, rest) = part.split_at_checked(2)?;
-        bytes.push(u8::from_str_radix(code, 16).ok()?);
-        bytes.extend_from_slice(rest.as_bytes());
-    }
-    String::from_utf8(bytes).ok()
+/// Whether a Host header names this machine. Another name that leads here would let the page of a stranger, which the
+/// browser takes to be of the same site, read the book.
+fn is_this_machine(host: &str) -> bool {
+    let port = |(_, port): &(&str, &str)| port.parse::<u16>().is_ok();
+    let name = host.rsplit_once(':').filter(port).map_or(host, |(name, _)| name);
+    ["127.0.0.1", "localhost", "[::1]"].iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
-fn kind_of(file: &Path) -> &'static str {
+const HTML: &str = "text/html; charset=utf-8";
+
+fn media_type(file: &Path) -> &'static str {
     match file.extension().and_then(|extension| extension.to_str()).unwrap_or_default() {
-        "html" => "text/html; charset=utf-8",
+        "html" => HTML,
         "css" => "text/css; charset=utf-8",
         "js" => "text/javascript; charset=utf-8",
         "json" => "application/json",
@@ -122,15 +164,58 @@ mod tests {
     fn pages_are_served_and_nothing_else() {
         let (_folder, book) = little_book();
         build(&book, &little_kit()).expect("the little book builds");
-        let site = Site { out: book.out.clone(), revision: 7, told: Some("a slip".to_owned()) };
-        let status = |url: &str| answer(&site, url).status;
-        assert_eq!([status("/"), status("/01_one.html?x#y"), status("/figures/render.png")], [200; 3]);
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(&book.pages, book.out.join("link")).expect("a link");
+        let site = Site::read(&book.out, 7).expect("a site").stopped("a mistake".to_owned());
+        let status = |url: &str| site.at(url).status.as_u16();
+        assert_eq!([status("/"), status("/01_one.html"), status("/figures/render%2epng")], [200; 3]);
         assert_eq!([status("/none.html"), status("/../src/01_one.md"), status("/%2e%2e/src/01_one.md")], [404; 3]);
         assert_eq!([status("/figures/..%2f..%2fsrc/01_one.md"), status("/..\\src"), status("/%zz")], [404; 3]);
-        assert_eq!(answer(&site, REVISION), plain(200, "7\na slip"));
-        let page = String::from_utf8(answer(&site, "/02_two.html").body).expect("text");
+        assert_eq!([status("/link/01_one.md"), status("//etc/passwd"), status("/01_one.html%00")], [404; 3]);
+        assert_eq!(site.at(REVISION), plain(StatusCode::OK, "7\na mistake".to_owned()));
+        let page = String::from_utf8(site.at("/02_two.html").body.into()).expect("text");
         assert!(page.contains("const shown = \"7\""));
         let written = std::fs::read_to_string(book.out.join("02_two.html")).expect("a page");
         assert!(!written.contains(REVISION), "the built page knows nothing of the server");
+    }
+
+    #[test]
+    fn only_this_machine_is_answered_by_name() {
+        let status = |request: hyper::http::request::Builder| {
+            Site::default().answer(&request.body(()).expect("a request")).status.as_u16()
+        };
+        let by = |host: &str| status(Request::get("/").header(header::HOST, host));
+        for host in ["127.0.0.1", "127.0.0.1:3000", "localhost:3000", "LocalHost", "[::1]:3000", "[::1]"] {
+            assert_eq!(by(host), 503, "{host}");
+        }
+        for host in [
+            "evil.example",
+            "evil.example:3000",
+            "localhost.evil.example",
+            "127.0.0.1.evil.example",
+            "",
+            "localhost@evil.example",
+            "192.168.0.1",
+            "0.0.0.0",
+            "::1",
+            "localhost:70000",
+            "localhost:3000:80",
+        ] {
+            assert_eq!(by(host), 403, "{host}");
+        }
+        assert_eq!(status(Request::get("/")), 403, "without a Host");
+        assert_eq!(status(Request::get("http://evil.example/").header(header::HOST, "localhost")), 403);
+        assert_eq!(
+            status(Request::get("/").header(header::HOST, "localhost").header(header::HOST, "evil.example")),
+            403
+        );
+        assert_eq!(status(Request::post("/").header(header::HOST, "localhost")), 405);
+    }
+
+    #[test]
+    fn before_the_first_build_a_page_waits() {
+        let page = Site::default().at("/01_one.html");
+        assert!(String::from_utf8_lossy(&page.body).contains("being built") && page.status == 503, "{page:?}");
+        assert!(String::from_utf8_lossy(&page.body).contains("const shown = \"0\""), "{page:?}");
     }
 }

@@ -30,7 +30,7 @@ fn scene(world: &mut World) {
     let checker = Checker { first: Rgb::new(0.85, 0.8, 0.7), second: Rgb::new(0.12, 0.13, 0.2), ..Checker::default() };
     world.spawn((Name::new("floor"), Plane::default(), Matte::default(), checker));
 
-    let card = || ImageTexture { file: "chapters/16_textures/card.png".into(), ..ImageTexture::default() };
+    let card = || ImageTexture { file: "card.png".into(), ..ImageTexture::default() };
     let ball = (Sphere { radius: 0.9 }, Placement::at(-0.3, 0.9, 0.4));
     world.spawn((Name::new("ball"), ball, Matte::default(), card()));
     let upright = DQuat::from_xyzw(0.685, 0.175, -0.175, 0.685).normalize();
@@ -48,12 +48,18 @@ fn scene(world: &mut World) {
         Placement { orientation: DQuat::from_xyzw(0.0, 0.3, 0.0, 0.95).normalize(), ..Placement::at(2.1, 0.6, 0.0) };
     world.spawn((Name::new("block"), Cuboid { size: [1.2, 1.2, 1.2].into() }, block, Matte::default(), stripes));
 
-    let file = "chapters/16_textures/evening.hdr".into();
-    world.spawn((Name::new("evening"), Environment { file, turn: Degrees(-50.0), scale: 1.0 }));
+    let evening = Environment { file: "evening.hdr".into(), turn: Degrees(-50.0), scale: 1.0 };
+    world.spawn((Name::new("evening"), evening));
     let sun = DirectionalLight { irradiance: Rgb::new(2.6, 1.8, 1.1), ..DirectionalLight::default() };
     let from = LookAt { eye: [0.973, 0.4, 0.3].into(), target: [0.0; 3].into(), ..LookAt::default() };
     world.spawn((Name::new("sun"), sun, from));
     let sky = PointLight { intensity: Rgb::new(26.0, 30.0, 38.0), casts_shadows: false };
     world.spawn((Name::new("sky light"), sky, Placement::at(-3.0, 5.0, 5.0)));
+
+    // Compiled in, so that the program may be run from any folder and copied anywhere.
+    let files: &[(&str, &[u8])] =
+        &[("card.png", include_bytes!("card.png")), ("evening.hdr", include_bytes!("evening.hdr"))];
+    world.insert_resource(EmbeddedFiles(files));
+    world.insert_resource(SceneFolder::of_chapter("16_textures"));
 }
 // ANCHOR_END: scene

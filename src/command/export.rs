@@ -1,11 +1,11 @@
 use super::arguments::ExportScene;
+use super::export_images::{carry_images, name_images_whole};
 use super::find::is_scene_file;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
-use crate::scene::{Environment, ImageTexture, SceneFolder, scene_text};
+use crate::scene::scene_text;
 use crate::{Error, Result};
-use bevy_ecs::prelude::World;
 use std::io::Write;
 use std::path::Path;
 
@@ -13,8 +13,10 @@ use std::path::Path;
 ///
 /// A chapter that shows a column exports the `view` that asks for it, so that the file shows the same picture; a column
 /// of its own it leaves out, and says so.
+/// Images that lie elsewhere are copied beside the file, so that its folder can be moved.
 ///
-/// Errors: a file of that name is there already, for it may have been edited.
+/// Errors: a file of that name is there already, for it may have been edited; its name cannot stand in a comment; an image
+/// cannot be copied.
 pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Asked { sampling: asked.sampling.asked(), ..Asked::default() });
@@ -25,48 +27,39 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
         )
     });
     let Some(file) = &asked.output else {
-        write!(out, "{}{note}{}", head("scene.ron"), scene_text(&world)?)?;
+        let embedded: String = name_images_whole(&mut world)
+            .iter()
+            .map(|name| format!("// {name} is in the program only: -o FILE puts a copy beside the file.\n"))
+            .collect();
+        write!(out, "{}{note}{embedded}{}", head("scene.ron"), scene_text(&world)?)?;
         return Ok(());
     };
-    name_images_from(&mut world, file);
-    let scene = note + &scene_text(&world)?;
-    let shown = file.display();
-    if !is_scene_file(&shown.to_string()) {
-        return Err(Error::Usage(format!("cannot write {shown}: the name must end in .ron")));
+    let shown = file.to_string_lossy();
+    let refused = |what: &str| Err(Error::Usage(format!("cannot write {}: {what}", shown.escape_debug())));
+    if shown.contains(char::is_control) {
+        return refused("the file's first lines name it, so its path must be without control characters");
+    }
+    if !is_scene_file(&shown) {
+        return refused("the name must end in .ron");
     }
     if file.is_file() {
-        let what = "it is there already and may have been edited; move it away, or choose another name";
-        return Err(Error::Usage(format!("cannot write {shown}: {what}")));
+        return refused("it is there already and may have been edited; move it away, or choose another name");
     }
-    let text = format!("{}{scene}", head(&shown.to_string()));
+    // Whatever no file can hold is refused before anything is written.
+    scene_text(&world)?;
+    let images = carry_images(&mut world, file)?;
+    let text = format!("{}{note}{}", head(&shown), scene_text(&world)?);
     write_whole(file, |file| file.write_all(text.as_bytes()))?;
     writeln!(out, "wrote {shown}")?;
+    for image in images {
+        writeln!(out, "wrote {}, which it names", image.display())?;
+    }
     Ok(())
-}
-
-/// Names the scene's images by their whole paths where the file will lie in another folder than they are named from.
-fn name_images_from(world: &mut World, file: &Path) {
-    let here = SceneFolder::path_of(world, "");
-    let there = file.parent().unwrap_or(Path::new(""));
-    if here == there {
-        return;
-    }
-    let whole = |name: &str| {
-        let path = std::path::absolute(here.join(name)).unwrap_or_else(|_| name.into());
-        path.to_string_lossy().into_owned()
-    };
-    for mut image in world.query::<&mut ImageTexture>().iter_mut(world) {
-        image.file = whole(&image.file);
-    }
-    for mut environment in world.query::<&mut Environment>().iter_mut(world) {
-        environment.file = whole(&environment.file);
-    }
 }
 
 /// The comment at the head of a file: what it is, and how it is used.
 fn head(file: &str) -> String {
     let stem = Path::new(file).file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
-    let file: String = file.chars().filter(|letter| !letter.is_control()).collect();
     format!(
         "// A scene for pinhole: a list of entities, and of each what it is made of. What is left out has its default.\n\
          // cargo run --release -- render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\

@@ -11,6 +11,7 @@ mod conventions;
 mod cost;
 mod draw;
 mod export;
+mod export_images;
 mod extremes;
 mod figure;
 mod find;

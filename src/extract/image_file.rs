@@ -4,7 +4,8 @@ use super::image_head::{ImageHead, image_head, one_line};
 use super::image_store::{ImageStore, Undecoded};
 use super::{Pyramid, linear_from_srgb};
 use crate::scene::{
-    IMAGE_FILE, Refusal, SceneFolder, TooLittleMemory, check_memory, open_file, printable, printable_path,
+    EmbeddedFiles, IMAGE_FILE, Refusal, SceneFolder, TooLittleMemory, check_memory, open_file, printable,
+    printable_path,
 };
 use bevy_ecs::prelude::*;
 use exr::prelude::{ReadChannels, ReadLayers, read};
@@ -125,6 +126,9 @@ fn decoded<T>(
         check_numbers(&texels, numbers)?;
         Ok(prepared(texels))
     };
+    if let Some(bytes) = EmbeddedFiles::find(scene, file) {
+        return decode(bytes).map(|(image, _)| Arc::new(image)).map_err(refused);
+    }
     store.get(&path, decode).map_err(|why| match why {
         Undecoded::File(error) => refused(error.to_string()),
         Undecoded::Image(problem) => refused(problem),

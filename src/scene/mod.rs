@@ -73,7 +73,7 @@ pub use equirectangular::EquirectangularCamera;
 pub use file::{FNV_BASIS, FileProblem, PlaceInFile, SceneFile, fingerprint, fnv, scene_text, words};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
-pub use folder::SceneFolder;
+pub use folder::{EmbeddedFiles, SceneFolder};
 pub use glam::DQuat;
 pub use glass::Glass;
 pub use gradient::Gradient;

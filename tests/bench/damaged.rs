@@ -6,11 +6,11 @@
 
 #[path = "../../chapters/mod.rs"]
 mod chapters;
+#[path = "../scene_files/damaged.rs"]
+mod damaged;
 #[path = "../scene_files/fuzz.rs"]
 #[expect(dead_code, reason = "the bench `fuzz` and the tests use the rest")]
 mod fuzz;
-#[path = "../scene_files/damaged.rs"]
-mod damaged;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 

@@ -261,8 +261,8 @@ fn damage(dice: &mut Dice, bytes: &mut Vec<u8>) {
         let within = if dice.below(2) == 0 { bytes.len().min(400) } else { bytes.len() };
         let at = dice.below(within + 1);
         let end = (at + dice.below(24)).min(bytes.len());
-        let number = [0, 1, u32::MAX, i32::MAX as u32, 0x8000_0000, 0x4000_0000, 65_536, dice.roll() as u32]
-            [dice.below(8)];
+        let number =
+            [0, 1, u32::MAX, i32::MAX as u32, 0x8000_0000, 0x4000_0000, 65_536, dice.roll() as u32][dice.below(8)];
         let number = if dice.below(2) == 0 { number.to_le_bytes() } else { number.to_be_bytes() };
         match dice.below(8) {
             0 => bytes.truncate(at),

@@ -7,6 +7,7 @@ use glam::DVec3;
 use pinhole::scene::*;
 use pinhole::{Asked, review};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn every_chapter_comes_back_from_its_file_bit_for_bit() {
@@ -15,7 +16,10 @@ fn every_chapter_comes_back_from_its_file_bit_for_bit() {
         let mut before = chapter.world(&asked);
         own_view_left_out(&mut before);
         let text = scene_text(&before).expect("a chapter's scene can be exported");
-        let after = parsed(&text).unwrap_or_else(|problem| panic!("{}: {problem}\n{text}", chapter.name)).world();
+        // As if the file stood in the chapter's folder, where its images are.
+        let beside = Path::new("chapters").join(chapter.name).join("scene.ron");
+        let after = SceneFile::parse(&beside, text.clone());
+        let after = after.unwrap_or_else(|problem| panic!("{}: {problem}\n{text}", chapter.name)).world();
         assert_eq!(scene_text(&after).expect("exported again"), text, "{}", chapter.name);
         let films = [(&before, chapter.stages()), (&after, scenes::offer())]
             .map(|(scene, offer)| scenes::film_by(scene, &offer, &Default::default()).expect("renders"));
@@ -129,15 +133,17 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
         let printed = typed(&["export", chapter.name]).expect("exported");
         ron::from_str::<ron::Value>(&printed).unwrap_or_else(|error| panic!("{}: {error}", chapter.name));
         let _ = fs::remove_file(&file);
-        assert_eq!(typed(&["export", chapter.name, "-o", &file]).expect("exported"), format!("wrote {file}\n"));
+        let wrote = typed(&["export", chapter.name, "-o", &file]).expect("exported");
+        assert_eq!(wrote.lines().next(), Some(format!("wrote {file}").as_str()));
         let text = fs::read_to_string(&file).expect("written");
-        // Images are named from the current folder, and by their whole path in a file that lies elsewhere.
-        let here = std::env::current_dir().expect("a folder").display().to_string();
-        let printed = printed.replace("\"chapters/", &format!("\"{here}/chapters/"));
+        // Images are named by their whole path where they are printed, and stand beside the file that is written.
+        let own_folder = format!("{}/chapters/{}/", env!("CARGO_MANIFEST_DIR"), chapter.name);
+        let printed = printed.replace(&own_folder, "");
         assert_eq!(unfolded(&text.replace(&file, "scene.ron")), unfolded(&printed), "the same but for the file's name");
         let own = |line: &&str| !line.contains(", a column of its own");
         let without = printed.lines().filter(own).collect::<Vec<_>>().join("\n");
         let again = typed(&["export", &file]).expect("exported again");
+        let again = again.replace(&format!("{}/", folder.path().display()), "");
         assert_eq!(unfolded(&again), unfolded(&without), "exported from the file");
         let plans = [chapter.name, &file].map(|name| typed(&["plan", name]).expect("planned"));
         let [of_chapter, of_file] = plans.map(|plan| plan.lines().nth(1).map(String::from));
@@ -147,6 +153,85 @@ fn an_exported_file_is_ron_and_its_commands_work_as_typed() {
     assert!(traced.contains("240,162"), "{traced}");
     let told = typed(&["export", "5", "-o", &file]).expect_err("it is there").to_string();
     assert!(told.ends_with("it is there already and may have been edited; move it away, or choose another name"));
+}
+
+/// What a scene's picture is, to the bit.
+fn rendered(scene: &str, folder: &Path) -> Vec<u8> {
+    let picture = folder.join("picture.exr");
+    let words = ["render", scene, "--size", "32x18", "--quiet", "-o", picture.to_str().expect("text")];
+    typed(&words).unwrap_or_else(|error| panic!("{scene}: {error}"));
+    fs::read(&picture).expect("written")
+}
+
+#[test]
+fn an_exported_scene_takes_its_images_along() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let names = |below: &str| {
+        let entries = fs::read_dir(folder.path().join(below)).expect("a folder").map(|entry| entry.expect("listed"));
+        let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    };
+    let picture = rendered("16", folder.path());
+    let [first, moved] = [path("first/s.ron"), path("moved/s.ron")];
+    let wrote = typed(&["export", "16", "-o", &first]).expect("exported");
+    assert_eq!(wrote.lines().count(), 3, "{wrote}");
+    fs::rename(path("first"), path("moved")).expect("moved");
+    assert!(rendered(&moved, folder.path()) == picture, "another picture from its own folder");
+    assert_eq!(names("moved"), ["card.png", "evening.hdr", "s.ron"]);
+
+    // What lies beside or below the file already keeps its place, by a name that moves with the folder.
+    typed(&["export", &moved, "-o", &path("moved/again.ron")]).expect("exported");
+    assert_eq!(names("moved"), ["again.ron", "card.png", "evening.hdr", "s.ron"]);
+    let scene = |name: &str| {
+        let text = fs::read_to_string(path(name)).expect("read");
+        text.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(scene("moved/again.ron"), scene("moved/s.ron"));
+    typed(&["export", &moved, "-o", &path("above.ron")]).expect("exported");
+    assert!(scene("above.ron").contains("file: \"moved/card.png\""), "{}", scene("above.ron"));
+    assert!(rendered(&path("above.ron"), folder.path()) == picture);
+
+    // Two images of one name, and a file in the way, all stay what they are.
+    fs::create_dir(path("other")).expect("a folder");
+    fs::write(path("other/card.png"), "mine").expect("written");
+    fs::rename(path("moved/evening.hdr"), path("moved/card-2.hdr")).expect("renamed");
+    fs::rename(path("moved/card.png"), path("moved/card-2.png")).expect("renamed");
+    let text = fs::read_to_string(&moved).expect("read").replace("card.png", "card-2.png");
+    fs::write(&moved, text.replace("evening.hdr", "card-2.hdr")).expect("written");
+    fs::write(path("other/card-2.png"), "mine too").expect("written");
+    let wrote = typed(&["export", &moved, "-o", &path("other/s.ron")]).expect("exported");
+    assert!(wrote.contains("other/card-2-2.png, which it names\n"), "{wrote}");
+    assert_eq!(names("other"), ["card-2-2.png", "card-2.hdr", "card-2.png", "card.png", "s.ron"]);
+    assert_eq!(fs::read(path("other/card-2.png")).expect("read"), b"mine too");
+    fs::remove_dir_all(path("moved")).expect("removed");
+    assert!(rendered(&path("other/s.ron"), folder.path()) == picture, "its images are its own");
+
+    // Printed, it may be saved anywhere.
+    let printed = typed(&["export", &path("other/s.ron")]).expect("printed");
+    fs::create_dir(path("away")).expect("a folder");
+    fs::write(path("away/s.ron"), printed).expect("written");
+    assert!(rendered(&path("away/s.ron"), folder.path()) == picture);
+    fs::write(path("away/s.ron"), typed(&["export", "16"]).expect("printed")).expect("written");
+    assert!(rendered(&path("away/s.ron"), folder.path()) == picture);
+
+    fs::remove_file(path("other/card-2.hdr")).expect("removed");
+    let told = typed(&["export", &path("other/s.ron"), "-o", &path("new/s.ron")]).expect_err("refused").to_string();
+    assert!(told.contains("the image \"card-2.hdr\" cannot be copied beside it: "), "{told}");
+    assert!(!Path::new(&path("new/s.ron")).exists());
+}
+
+#[test]
+fn a_name_that_a_comment_cannot_hold_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in ["a\nb.ron", "a\r.ron", "\u{1b}[2J.ron", "a\u{85}b.ron", "a\nb/s.ron"] {
+        let file = folder.path().join(name).display().to_string();
+        let told = typed(&["export", "5", "-o", &file]).expect_err("refused").to_string();
+        assert!(told.ends_with("its path must be without control characters"), "{told}");
+        assert!(!told.contains(char::is_control), "{told:?}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use super::word::Word;
 use crate::scene::{
-    ChildOf, Disabled, Environment, IMAGE_FILE, ImageTexture, Name, Sampler, Sampling, SceneFolder, Statistics,
-    UsesMaterial, read_file,
+    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, Name, Sampler, Sampling, SceneFolder,
+    Statistics, UsesMaterial, read_file,
 };
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -42,10 +42,11 @@ pub fn fingerprint(scene: &World) -> String {
         let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
         let environment = entity.get::<Environment>().map(|environment| &environment.file);
         for file in texture.into_iter().chain(environment).filter(|_| !entity.contains::<Disabled>()) {
-            let path = SceneFolder::path_of(scene, file);
-            let held = images
-                .entry(path)
-                .or_insert_with_key(|path| read_file(path, IMAGE_FILE).ok().map(|bytes| fnv(FNV_BASIS, &bytes)));
+            let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
+            let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
+            let held = EmbeddedFiles::find(scene, file)
+                .map(hash)
+                .or_else(|| *images.entry(SceneFolder::path_of(scene, file)).or_insert_with_key(read));
             text += &format!(" {held:?}");
         }
         if let Some(sampling) = entity.get::<Sampling>() {

@@ -1,0 +1,100 @@
+//! The images of a scene that is exported: carried along beside the file, or named by their whole paths.
+
+use crate::film::write_whole;
+use crate::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, SceneFolder, read_file};
+use crate::{Error, Result};
+use bevy_ecs::prelude::World;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Puts a copy of every image beside the file that will name it, unless it lies there or below already.
+///
+/// Returns the copies that were made. A file of the same name that holds something else stays, and the copy gets a number.
+/// Errors: an image cannot be read, or its copy cannot be written.
+pub fn carry_images(world: &mut World, file: &Path) -> Result<Vec<PathBuf>> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (mut made, mut new_names) = (Vec::new(), BTreeMap::new());
+    for name in named_images(world) {
+        let path = SceneFolder::path_of(world, &name);
+        let embedded = EmbeddedFiles::find(world, &name);
+        let kept = if embedded.is_none() { name_below(folder, &path) } else { None };
+        let new_name = match kept {
+            Some(kept) => kept,
+            None => {
+                let bytes = embedded.map_or_else(|| read_file(&path, IMAGE_FILE), |bytes| Ok(bytes.to_vec()));
+                let bytes = bytes.map_err(|why| refused(file, &name, &why))?;
+                let (free, is_new) = place_beside(folder, &path, &bytes)
+                    .ok_or_else(|| refused(file, &name, &"its folder already holds many other files of this name"))?;
+                if is_new {
+                    write_whole(&folder.join(&free), |file| file.write_all(&bytes))?;
+                    made.push(folder.join(&free));
+                }
+                free
+            }
+        };
+        new_names.insert(name, new_name);
+    }
+    rename(world, &new_names);
+    Ok(made)
+}
+
+/// Names every image by its whole path, for a scene that is printed may be saved anywhere.
+///
+/// Returns the images that have none, for they are in the program only.
+pub fn name_images_whole(world: &mut World) -> Vec<String> {
+    let (mut without, mut new_names) = (Vec::new(), BTreeMap::new());
+    for name in named_images(world) {
+        let path = SceneFolder::path_of(world, &name);
+        if EmbeddedFiles::find(world, &name).is_some() && !path.is_file() {
+            without.push(name);
+        } else {
+            let whole = std::path::absolute(&path).unwrap_or(path);
+            new_names.insert(name, whole.to_string_lossy().into_owned());
+        }
+    }
+    rename(world, &new_names);
+    without
+}
+
+fn named_images(world: &mut World) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    names.extend(world.query::<&ImageTexture>().iter(world).map(|image| image.file.clone()));
+    names.extend(world.query::<&Environment>().iter(world).map(|environment| environment.file.clone()));
+    names
+}
+
+/// All at once, for one image's new name may be another's old one.
+fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
+    let renamed = |file: &mut String| new_names.get(file).into_iter().for_each(|new| file.clone_from(new));
+    world.query::<&mut ImageTexture>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
+    world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
+}
+
+/// What a file in this folder or below it is called from there.
+fn name_below(folder: &Path, path: &Path) -> Option<String> {
+    let (folder, path) = (folder.canonicalize().ok()?, path.canonicalize().ok()?);
+    path.strip_prefix(folder).ok()?.to_str().map(String::from)
+}
+
+/// The first name in the folder that is free or belongs to a file with these very bytes, and whether it is free.
+fn place_beside(folder: &Path, path: &Path, bytes: &[u8]) -> Option<(String, bool)> {
+    let text = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, ending) = (text(path.file_stem()), text(path.extension()));
+    for number in 1..1000 {
+        let name = if number == 1 { format!("{stem}.{ending}") } else { format!("{stem}-{number}.{ending}") };
+        let place = folder.join(&name);
+        if place.symlink_metadata().is_err() {
+            return Some((name, true));
+        }
+        if read_file(&place, IMAGE_FILE).is_ok_and(|there| there == bytes) {
+            return Some((name, false));
+        }
+    }
+    None
+}
+
+fn refused(file: &Path, name: &str, why: &dyn Display) -> Error {
+    Error::Usage(format!("cannot write {}: the image {name:?} cannot be copied beside it: {why}", file.display()))
+}
