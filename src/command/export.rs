@@ -1,11 +1,13 @@
 use super::arguments::ExportScene;
 use super::find::is_scene_file;
+use super::format::{Format, print_json, print_written};
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
 use crate::scene::{Environment, ImageTexture, SceneFolder, scene_text};
 use crate::{Error, Result};
 use bevy_ecs::prelude::World;
+use serde_json::json;
 use std::io::Write;
 use std::path::Path;
 
@@ -15,7 +17,7 @@ use std::path::Path;
 /// of its own it leaves out, and says so.
 ///
 /// Errors: a file of that name is there already, for it may have been edited.
-pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
+pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Asked { sampling: asked.sampling.asked(), ..Asked::default() });
     let note = subject.own_view(&mut world).map_or(String::new(), |column| {
@@ -25,7 +27,11 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
         )
     });
     let Some(file) = &asked.output else {
-        write!(out, "{}{note}{}", head("scene.ron"), scene_text(&world)?)?;
+        let text = format!("{}{note}{}", head("scene.ron"), scene_text(&world)?);
+        if format.is_json() {
+            return print_json(&json!({ "subject": subject.name(), "scene_file": text }), out);
+        }
+        write!(out, "{text}")?;
         return Ok(());
     };
     name_images_from(&mut world, file);
@@ -40,8 +46,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
     }
     let text = format!("{}{scene}", head(&shown.to_string()));
     write_whole(file, |file| file.write_all(text.as_bytes()))?;
-    writeln!(out, "wrote {shown}")?;
-    Ok(())
+    print_written(file, format, out)
 }
 
 /// Names the scene's images by their whole paths where the file will lie in another folder than they are named from.

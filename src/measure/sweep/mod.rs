@@ -16,6 +16,7 @@ use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use edit::has_children;
 use glam::{DQuat, DVec3};
+use serde::Serialize;
 use std::fmt;
 
 /// Pixels of a frame that is swept.
@@ -36,7 +37,7 @@ const ANGLES: [f64; 16] =
 const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 257], [257, 1], [1, 65_536], [65_536, 1], [33, 65]];
 
 /// One thing that was done to a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Line {
     /// What was done.
     pub done: String,
