@@ -14,6 +14,8 @@ mod bad_places;
 mod edits;
 #[path = "scene_files/fuzz.rs"]
 mod fuzz;
+#[path = "scene_files/json.rs"]
+mod json;
 #[path = "scene_files/list.rs"]
 mod list;
 #[path = "scene_files/round_trip.rs"]

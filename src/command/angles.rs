@@ -32,7 +32,7 @@ pub fn print_angles(chapter: &Chapter, options: &SceneOptions, format: Format, o
             json!({ "axis": axis, "half_heights": half_heights, "tan_half_angle": tan_half_angle, "degrees": degrees })
         });
         let told = json!({
-            "subject": chapter.name, "width": image.width, "height": image.height, "aspect": aspect,
+            "scene": chapter.name, "width": image.width, "height": image.height, "aspect": aspect,
             "asked": { "axis": word(axis), "degrees": fov.0 }, "axes": axes,
         });
         return print_json(&told, out);

@@ -94,7 +94,7 @@ fn as_json(asked: &CompareImages, kind: ImageKind, error: &ImageError, full: Opt
         "psnr_decibels": error.psnr().map(number_or_word),
         "psnr_peak": error.peak,
         "difference_full_white": full,
-        "written": asked.output.iter().map(|file| shown(file)).collect::<Vec<String>>(),
+        "files": asked.output.iter().map(|file| shown(file)).collect::<Vec<String>>(),
         "not_finite_or_negative": { "reference": odd(&error.oddities[0]), "image": odd(&error.oddities[1]) },
     })
 }

@@ -46,7 +46,7 @@ fn print_lines(chapter: &Chapter, camera: &PlacedCamera, format: Format, out: &m
 }
 
 /// The camera in numbers, and each program's lines as they are typed.
-fn as_json(subject: &str, camera: &PlacedCamera) -> Value {
+fn as_json(scene: &str, camera: &PlacedCamera) -> Value {
     let program = |program: Program| {
         let [field_of_view, placement] = back(program);
         let back = json!({ "field_of_view": field_of_view, "placement": placement });
@@ -54,7 +54,7 @@ fn as_json(subject: &str, camera: &PlacedCamera) -> Value {
     };
     let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| point.to_array());
     json!({
-        "subject": subject, "width": camera.image.width, "height": camera.image.height,
+        "scene": scene, "width": camera.image.width, "height": camera.image.height,
         "eye": eye, "target": target, "up": up,
         "vertical_fov_degrees": angle_of_tan_half(camera.tan_half_vertical).0,
         "programs": Program::ALL.map(program),
@@ -101,7 +101,7 @@ fn render_mistake(
     write_png(&rendered.film, rendered.curve(), &file)?;
     if format.is_json() {
         let (mistake, made_by) = (mistake.to_string(), mistake.made_by());
-        return print_json(&json!({ "mistake": mistake, "made_by": made_by, "written": [shown(&file)] }), out);
+        return print_json(&json!({ "mistake": mistake, "made_by": made_by, "files": [shown(&file)] }), out);
     }
     writeln!(out, "{mistake}: {}", mistake.made_by())?;
     writeln!(out, "wrote {}", file.display())?;

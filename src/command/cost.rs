@@ -102,14 +102,14 @@ impl Measured {
             json!({ "stage": cost.stage, "rows": cost.rows, "nanoseconds_per_row": times, "error": error })
         };
         json!({
-            "subject": self.chapter, "width": self.size.width, "height": self.size.height,
+            "scene": self.chapter, "width": self.size.width, "height": self.size.height,
             "samples_per_pixel": self.samples, "threads": 1, "renders": RENDERS - 1,
             "pixels_probed_for_errors": PROBES[0] * PROBES[1],
             "stages": self.cost.stages.iter().map(stage).collect::<Vec<Value>>(),
             "machine": {
                 "processor": self.processor, "threads": self.threads, "compiler": self.compiler, "load": self.load,
             },
-            "built_for_release": !cfg!(debug_assertions), "made_from": self.made_from, "written": written,
+            "built_for_release": !cfg!(debug_assertions), "made_from": self.made_from, "files": written,
         })
     }
 }

@@ -29,7 +29,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     let Some(file) = &asked.output else {
         let text = format!("{}{note}{}", head("scene.ron"), scene_text(&world)?);
         if format.is_json() {
-            return print_json(&json!({ "subject": subject.name(), "scene_file": text }), out);
+            return print_json(&json!({ "scene": subject.name(), "scene_file": text }), out);
         }
         write!(out, "{text}")?;
         return Ok(());

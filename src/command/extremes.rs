@@ -49,7 +49,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
             held,
             unbroken_methods: unbroken(&cases),
             cases: cases.iter().map(ToldCase::of).collect(),
-            written: asked.page.iter().map(|file| shown(file)).collect(),
+            files: asked.page.iter().map(|file| shown(file)).collect(),
         };
         print_json(&told, out)?;
     } else {
@@ -80,7 +80,7 @@ struct Told<'c> {
     held: usize,
     unbroken_methods: Vec<&'static str>,
     cases: Vec<ToldCase<'c>>,
-    written: Vec<String>,
+    files: Vec<String>,
 }
 
 #[derive(Serialize)]

@@ -35,7 +35,7 @@ pub fn print_json(value: &impl Serialize, out: &mut dyn Write) -> Result {
 /// Says which file was written: in JSON, or in a sentence.
 pub fn print_written(file: &Path, format: Format, out: &mut dyn Write) -> Result {
     match format {
-        Format::Json => print_json(&json!({ "written": [shown(file)] }), out),
+        Format::Json => print_json(&json!({ "files": [shown(file)] }), out),
         Format::Text => Ok(writeln!(out, "wrote {}", file.display())?),
     }
 }

@@ -21,7 +21,7 @@ pub fn print_plan(subject: &Subject<'_>, options: &SceneOptions, format: Format,
     let (plan, tables) = prepare(&world, &stages).map_err(placed)?;
     let columns: Vec<PlannedColumn> = plan.columns.iter().map(PlannedColumn::of).collect();
     let planned = Planned {
-        subject: subject.name(),
+        scene: subject.name(),
         title: subject.title(),
         passes: &plan.passes,
         stages: &plan.rows,
@@ -37,7 +37,7 @@ pub fn print_plan(subject: &Subject<'_>, options: &SceneOptions, format: Format,
 
 #[derive(Serialize)]
 struct Planned<'a> {
-    subject: &'a str,
+    scene: &'a str,
     title: &'a str,
     passes: &'a [Pass],
     stages: &'a [PlanRow],

@@ -36,7 +36,7 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, format: 
             let difference = told(&compared);
             let file = keep_page(asked, &page(&heading, intro, &[compared])?)?;
             let (bug, slip) = (planted.name, planted.slip);
-            let planted = json!({ "bug": bug, "slip": slip, "difference": difference, "written": [shown(&file)] });
+            let planted = json!({ "bug": bug, "slip": slip, "difference": difference, "files": [shown(&file)] });
             return print_json(&planted, out);
         }
         writeln!(out, "{}: {}", compared.name, compared.headline())?;

@@ -19,7 +19,7 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
         let wanted = asked.options.asked(false);
         let told = said(&subject.world(&wanted), &subject.stages()).map_err(|error| subject.placed(error, &wanted))?;
         return match format {
-            Format::Json => print_json(&json!({ "subject": subject.name(), "warnings": told }), out),
+            Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), out),
             Format::Text => print_lines(&told, "", out),
         };
     }

@@ -42,7 +42,7 @@ pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &
         let variants = variants(&subject, &[], size(&subject, asked.size)?)?;
         let pitfalls = pitfalls(&variants[0])?;
         if format.is_json() {
-            return print_json(&json!({ "subject": subject.name(), "measurements": pitfalls }), out);
+            return print_json(&json!({ "scene": subject.name(), "measurements": pitfalls }), out);
         }
         write!(out, "{}", pitfalls_table(&pitfalls))?;
         return Ok(());
@@ -66,7 +66,7 @@ pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &
 struct Measured {
     #[serde(flatten)]
     report: Report,
-    written: Vec<String>,
+    files: Vec<String>,
 }
 
 /// Whether a chapter's report is kept beside it: from the first on that takes many samples.
@@ -79,7 +79,7 @@ fn show_kept(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &m
     let report = kept(super::find::chapter(chapters, &asked.subject)?.name)?;
     if asked.output.is_none() {
         if format.is_json() {
-            return print_json(&Measured { report, written: Vec::new() }, out);
+            return print_json(&Measured { report, files: Vec::new() }, out);
         }
         write!(out, "{report}")?;
         return Ok(());
@@ -160,7 +160,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     if !format.is_json() {
         writeln!(out, "wrote {}", files.map(|file| file.display().to_string()).join(", "))?;
     }
-    Ok(Measured { report, written })
+    Ok(Measured { report, files: written })
 }
 
 /// What the first variant is compared with.

@@ -41,7 +41,7 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, format: Fo
     }
     if waiting.is_empty() {
         return match format {
-            Format::Json => print_json(&json!({ "waiting": [], "written": [] }), out),
+            Format::Json => print_json(&json!({ "waiting": [], "files": [] }), out),
             Format::Text => nothing_waits(asked.chapter.as_deref(), out),
         };
     }
@@ -56,7 +56,7 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, format: Fo
         let file = keep_page(asked, &page)?;
         let told = |(compared, pending): (&Compared, &Pending)| json!({ "difference": told(compared), "folder": shown(&pending.folder), "files": pending.files });
         let waiting: Vec<Value> = compared.iter().zip(&waiting).map(told).collect();
-        return print_json(&json!({ "waiting": waiting, "written": [shown(&file)] }), out);
+        return print_json(&json!({ "waiting": waiting, "files": [shown(&file)] }), out);
     }
     for chapter in &compared {
         writeln!(out, "{}: {}", chapter.name, chapter.headline())?;

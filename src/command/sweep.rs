@@ -20,10 +20,7 @@ pub fn print_sweep(subject: &Subject<'_>, format: Format, out: &mut dyn Write) -
     match format {
         Format::Json => {
             let [width, height] = SIZE;
-            print_json(
-                &Swept { subject: subject.name(), width, height, tried: lines.len(), held, lines: &lines },
-                out,
-            )?;
+            print_json(&Swept { scene: subject.name(), width, height, tried: lines.len(), held, lines: &lines }, out)?;
         }
         Format::Text => {
             writeln!(out, "{}, {} x {} pixels where no other size is named", subject.name(), SIZE[0], SIZE[1])?;
@@ -44,7 +41,7 @@ pub fn print_sweep(subject: &Subject<'_>, format: Format, out: &mut dyn Write) -
 
 #[derive(Serialize)]
 struct Swept<'a> {
-    subject: &'a str,
+    scene: &'a str,
     width: u32,
     height: u32,
     tried: usize,

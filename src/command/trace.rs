@@ -30,7 +30,7 @@ pub fn print_trace(
 
 #[derive(Serialize)]
 struct Traced<'t> {
-    subject: &'t str,
+    scene: &'t str,
     pixel: [u32; 2],
     sample: u32,
     /// What every stage wrote, in order: of a column that several write, the last is what light goes on with.
@@ -56,7 +56,7 @@ enum Number<'t> {
 }
 
 impl<'t> Traced<'t> {
-    fn of(subject: &'t str, trace: &'t Trace) -> Self {
+    fn of(scene: &'t str, trace: &'t Trace) -> Self {
         let lane = |&(name, number): &(&'static str, LaneNumber)| match name {
             "path" => None,
             "shape" => Some((name, Number::Shape(trace.shape_name(number)))),
@@ -71,6 +71,6 @@ impl<'t> Traced<'t> {
             rows: recorded.rows.iter().map(|lanes| lanes.iter().filter_map(lane).collect()).collect(),
         };
         let stages = trace.stages.iter().map(wrote).collect();
-        Self { subject, pixel: [trace.pixel.x, trace.pixel.y], sample: trace.sample, stages }
+        Self { scene, pixel: [trace.pixel.x, trace.pixel.y], sample: trace.sample, stages }
     }
 }
