@@ -1,4 +1,4 @@
-use super::format::{Format, print_json};
+use super::format::{Format, number_or_word, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
 use crate::Result;
@@ -6,6 +6,7 @@ use crate::look::{self, Trace};
 use crate::plan::LaneNumber;
 use crate::scene::TracePixel;
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Write;
 
@@ -34,33 +35,43 @@ struct Traced<'t> {
     pixel: [u32; 2],
     sample: u32,
     /// What every stage wrote, in order: of a column that several write, the last is what light goes on with.
-    stages: Vec<Wrote<'t>>,
+    stages: Vec<Wrote>,
 }
 
 #[derive(Serialize)]
-struct Wrote<'t> {
+struct Wrote {
     stage: &'static str,
     bounce: u32,
     column: &'static str,
     space: &'static str,
     unit: &'static str,
-    rows: Vec<BTreeMap<&'static str, Number<'t>>>,
+    rows: Vec<BTreeMap<&'static str, Number>>,
 }
 
-/// What a lane holds: a number, or a shape by its name.
+/// What a lane holds: a number with all its digits, or a word: a shape's name, or that the number is infinite.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Number<'t> {
+enum Number {
     Number(LaneNumber),
-    Shape(Option<&'t str>),
+    Word(Value),
+}
+
+impl Number {
+    fn of(number: LaneNumber) -> Self {
+        match number {
+            LaneNumber::F64(value) if value.is_infinite() => Self::Word(number_or_word(value)),
+            LaneNumber::F32(value) if value.is_infinite() => Self::Word(number_or_word(value.into())),
+            number => Self::Number(number),
+        }
+    }
 }
 
 impl<'t> Traced<'t> {
     fn of(scene: &'t str, trace: &'t Trace) -> Self {
         let lane = |&(name, number): &(&'static str, LaneNumber)| match name {
             "path" => None,
-            "shape" => Some((name, Number::Shape(trace.shape_name(number)))),
-            _ => Some((name, Number::Number(number))),
+            "shape" => Some((name, Number::Word(json!(trace.shape_name(number))))),
+            _ => Some((name, Number::of(number))),
         };
         let wrote = |recorded: &'t look::Recorded| Wrote {
             stage: recorded.stage,
