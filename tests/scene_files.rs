@@ -18,6 +18,8 @@ mod edits;
 mod fuzz;
 #[path = "scene_files/hostile.rs"]
 mod hostile;
+#[path = "scene_files/json.rs"]
+mod json;
 #[path = "scene_files/list.rs"]
 mod list;
 #[path = "scene_files/round_trip.rs"]

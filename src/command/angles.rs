@@ -1,15 +1,17 @@
+use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use crate::chapter::Chapter;
 use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
 use crate::plan::Table;
 use crate::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
+use serde_json::json;
 use std::io::Write;
 
 /// What a chapter's perspective camera sees, measured across each axis: a row is another way to ask for the same lens.
 ///
 /// Errors: a refused scene, or a camera without an angle.
-pub fn print_angles(chapter: &Chapter, options: &SceneOptions, out: &mut dyn Write) -> Result {
+pub fn print_angles(chapter: &Chapter, options: &SceneOptions, format: Format, out: &mut dyn Write) -> Result {
     let scene = chapter.world(&options.asked(false));
     validate(&scene)?;
     let camera = camera_entity(&scene)?;
@@ -21,14 +23,25 @@ pub fn print_angles(chapter: &Chapter, options: &SceneOptions, out: &mut dyn Wri
     };
     let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
     let aspect = image.aspect();
-    let asked = format!("{axis:?}").to_lowercase();
+    let word = |axis: FovAxis| format!("{axis:?}").to_lowercase();
+    let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
+    let rows = axes.map(|axis| (word(axis), half_extent(axis, aspect), angle_across(&lens, axis, aspect).0));
+    if format.is_json() {
+        let axes = rows.map(|(axis, half_heights, degrees)| {
+            let tan_half_angle = half_heights * lens.tan_half_vertical;
+            json!({ "axis": axis, "half_heights": half_heights, "tan_half_angle": tan_half_angle, "degrees": degrees })
+        });
+        let told = json!({
+            "scene": chapter.name, "width": image.width, "height": image.height, "aspect": aspect,
+            "asked": { "axis": word(axis), "degrees": fov.0 }, "axes": axes,
+        });
+        return print_json(&told, out);
+    }
     writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", chapter.name, image.width, image.height)?;
-    writeln!(out, "asked for: {}° across {asked}", fov.0)?;
+    writeln!(out, "asked for: {}° across {}", fov.0, word(axis))?;
     writeln!(out, "{:<12}{:>14}{:>18}{:>13}", "across", "half heights", "tan(angle / 2)", "angle")?;
-    for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal] {
-        let (reach, angle) = (half_extent(axis, aspect), angle_across(&lens, axis, aspect));
-        let name = format!("{axis:?}").to_lowercase();
-        writeln!(out, "{name:<12}{reach:>14.6}{:>18.6}{:>12.4}°", reach * lens.tan_half_vertical, angle.0)?;
+    for (name, reach, degrees) in rows {
+        writeln!(out, "{name:<12}{reach:>14.6}{:>18.6}{degrees:>12.4}°", reach * lens.tan_half_vertical)?;
     }
     Ok(())
 }

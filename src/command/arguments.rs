@@ -131,8 +131,8 @@ pub struct CompareImages {
     /// Where to write a PNG of the difference
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Print the numbers as JSON, and nothing else
-    #[arg(long)]
+    /// The same as --format json
+    #[arg(long, hide = true)]
     pub json: bool,
 }
 

@@ -1,7 +1,10 @@
 use super::find;
-use crate::Result;
+use super::format::{Format, number_or_word, print_json};
 use crate::chapter::Chapter;
-use crate::exercise::{list_exercises, take_turn};
+use crate::exercise::{Outcome, Progress, Turn, list_exercises, take_turn, turn};
+use crate::{Error, Result};
+use serde::Serialize;
+use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
 
@@ -11,9 +14,94 @@ const PROGRESS: &str = "out/check.json";
 /// Checks the reader's function of one chapter, or lists those of all.
 ///
 /// Errors: a wrong answer, in one sentence after the report; no such chapter, or none with an exercise.
-pub fn check(chapters: &[Chapter], asked: Option<&str>, out: &mut dyn Write) -> Result {
-    match asked {
-        None => list_exercises(chapters, Path::new(PROGRESS), out),
-        Some(asked) => take_turn(find::chapter(chapters, asked)?, Path::new(PROGRESS), out),
+pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mut dyn Write) -> Result {
+    let file = Path::new(PROGRESS);
+    match (asked, format) {
+        (None, Format::Text) => list_exercises(chapters, file, out),
+        (None, Format::Json) => print_json(&exercises(chapters, file), out),
+        (Some(asked), Format::Text) => take_turn(find::chapter(chapters, asked)?, file, out),
+        (Some(asked), Format::Json) => {
+            let chapter = find::chapter(chapters, asked)?;
+            let turn = turn(chapter, file)?;
+            print_json(&Told::of(chapter.name, &turn), out)?;
+            turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
+        }
+    }
+}
+
+fn exercises(chapters: &[Chapter], file: &Path) -> Value {
+    let (progress, remark) = Progress::read(file);
+    let told = |chapter: &Chapter| {
+        let function = chapter.exercise?.function();
+        let exercise = format!("chapters/{}/exercise.rs", chapter.name);
+        Some(json!({
+            "chapter": chapter.name, "function": function, "file": exercise, "tries": progress.of(chapter.name),
+        }))
+    };
+    let exercises: Vec<Value> = chapters.iter().filter_map(told).collect();
+    json!({ "exercises": exercises, "notes": remark.into_iter().collect::<Vec<String>>() })
+}
+
+#[derive(Serialize)]
+struct Told<'t> {
+    chapter: &'static str,
+    function: &'static str,
+    /// right, wrong, stub, panicked or late.
+    outcome: &'static str,
+    inputs: usize,
+    wrong_inputs: Option<usize>,
+    allowed_error: f64,
+    error_unit: &'static str,
+    /// The worst error of right answers, or the error of the first wrong one.
+    error: Option<Value>,
+    /// The input that was answered wrongly first, or not at all.
+    input: Option<Value>,
+    /// What came of that input: yours, expected, difference, looks_like; or a panic; or the patience in seconds.
+    answer: Option<Value>,
+    hints: &'static [&'static str],
+    hints_in_all: usize,
+    pinhole_has: Option<Value>,
+    tries: Value,
+    notes: &'t [String],
+}
+
+impl<'t> Told<'t> {
+    fn of(chapter: &'static str, turn: &'t Turn) -> Self {
+        let report = &turn.report;
+        let ((file, name), (allowed_error, error_unit)) = (report.kit_has, report.allowed);
+        let (outcome, error, asked, answer) = match &report.outcome {
+            Outcome::Right(worst) => ("right", Some(*worst), None, None),
+            Outcome::Wrong(found) => {
+                let word = if report.is_stub() { "stub" } else { "wrong" };
+                let answer = json!({
+                    "yours": found.yours, "expected": found.right, "difference": found.difference,
+                    "looks_like": found.looks_like,
+                });
+                (word, Some(found.apart), Some(&found.asked), Some(answer))
+            }
+            Outcome::Panicked(asked, words) => ("panicked", None, Some(asked), Some(json!({ "panic": words }))),
+            Outcome::Late(asked, patience) => {
+                let patience = json!({ "patience_seconds": patience.as_secs_f64() });
+                ("late", None, Some(asked), Some(patience))
+            }
+        };
+        let wrong = if let Outcome::Wrong(found) = &report.outcome { Some(found.wrong) } else { None };
+        Self {
+            chapter,
+            function: report.function,
+            outcome,
+            inputs: report.inputs,
+            wrong_inputs: wrong,
+            allowed_error,
+            error_unit,
+            error: error.map(number_or_word),
+            input: asked.map(|asked| json!({ "number": asked.number, "about": asked.about, "arguments": asked.input })),
+            answer,
+            hints: turn.hints(),
+            hints_in_all: report.hints.len(),
+            pinhole_has: (outcome == "right").then(|| json!({ "file": file, "name": name })),
+            tries: json!(turn.tries),
+            notes: &turn.notes,
+        }
     }
 }

@@ -1,43 +1,90 @@
 use super::arguments::TryClosedForms;
+use super::format::{Format, number_or_word, print_json};
 use super::interrupt::interrupted;
-use crate::measure::closed_form::{ClosedForm, closed_forms};
+use crate::measure::closed_form::{ClosedForm, Measured, closed_forms};
 use crate::{Error, Result};
+use serde::Serialize;
+use serde_json::{Value, json};
 use std::io::Write;
 
 /// A line a closed form: what was measured, its standard error, the truth, how many standard errors lie between.
 ///
 /// Where nothing is left to chance, what rounding may do stands in for the standard error.
 /// Errors: one that lies more than four standard errors from the truth.
-pub fn print_closed_forms(asked: &TryClosedForms, out: &mut dyn Write) -> Result {
-    writeln!(
-        out,
-        "{:<46}{:>10}{:>11}{:>13}{:>10}   formula",
-        "measured by whole renders", "truth", "measured", "error", "off by"
-    )?;
-    let mut missed = None;
-    let mut found = false;
+pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn Write) -> Result {
+    if !format.is_json() {
+        writeln!(
+            out,
+            "{:<46}{:>10}{:>11}{:>13}{:>10}   formula",
+            "measured by whole renders", "truth", "measured", "error", "off by"
+        )?;
+    }
+    let mut told = Vec::new();
     for form in closed_forms().filter(|form| form.name.contains(&asked.case)) {
         if interrupted() {
             return Err(Error::Interrupted);
         }
-        let truth = (form.truth)();
         let measured = form.measure(form.few.saturating_mul(asked.times), asked.seed)?;
-        let (mean, off) = (measured.mean, measured.deviation(truth));
-        let (error, unit) = if measured.is_exact(truth) {
-            ("rounding".into(), "r ")
-        } else {
-            (format!("± {:.3} %", 100.0 * measured.standard_error / truth), "SE")
-        };
-        let ClosedForm { name, formula, .. } = form;
-        writeln!(out, "{name:<46}{truth:>10.5}{mean:>11.5}{error:>13}{off:>+7.1} {unit}   {formula}")?;
-        found = true;
-        if off.abs() > 4.0 {
-            missed = missed.or(Some(form.name));
+        if !format.is_json() {
+            writeln!(out, "{}", line(form, &measured))?;
+        }
+        told.push(Told::of(form, &measured));
+    }
+    if told.is_empty() {
+        return Err(Error::Usage(format!("no closed form's name holds \"{}\"", asked.case)));
+    }
+    if format.is_json() {
+        let held = told.iter().filter(|told| told.held).count();
+        print_json(&json!({ "tried": told.len(), "held": held, "closed_forms": told }), out)?;
+    }
+    match told.iter().find(|told| !told.held) {
+        None => Ok(()),
+        Some(Told { name, .. }) => {
+            Err(Error::Usage(format!("\"{name}\" lies more than 4 standard errors from the truth")))
         }
     }
-    match missed {
-        _ if !found => Err(Error::Usage(format!("no closed form's name holds \"{}\"", asked.case))),
-        None => Ok(()),
-        Some(name) => Err(Error::Usage(format!("\"{name}\" lies more than 4 standard errors from the truth"))),
+}
+
+fn line(form: &ClosedForm, measured: &Measured) -> String {
+    let ClosedForm { name, formula, .. } = form;
+    let truth = (form.truth)();
+    let (mean, off) = (measured.mean, measured.deviation(truth));
+    let (error, unit) = if measured.is_exact(truth) {
+        ("rounding".into(), "r ")
+    } else {
+        (format!("± {:.3} %", 100.0 * measured.standard_error / truth), "SE")
+    };
+    format!("{name:<46}{truth:>10.5}{mean:>11.5}{error:>13}{off:>+7.1} {unit}   {formula}")
+}
+
+#[derive(Serialize)]
+struct Told {
+    name: &'static str,
+    formula: &'static str,
+    truth: f64,
+    measured: f64,
+    standard_error: f64,
+    samples: u64,
+    off_by: Value,
+    /// What `off_by` is counted in: standard errors, or what rounding may do, where nothing is left to chance.
+    off_by_unit: &'static str,
+    held: bool,
+}
+
+impl Told {
+    fn of(form: &ClosedForm, measured: &Measured) -> Self {
+        let truth = (form.truth)();
+        let off = measured.deviation(truth);
+        Self {
+            name: form.name,
+            formula: form.formula,
+            truth,
+            measured: measured.mean,
+            standard_error: measured.standard_error,
+            samples: measured.count,
+            off_by: number_or_word(off),
+            off_by_unit: if measured.is_exact(truth) { "rounding_bounds" } else { "standard_errors" },
+            held: off.abs() <= 4.0,
+        }
     }
 }

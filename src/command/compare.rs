@@ -1,4 +1,5 @@
 use super::arguments::CompareImages;
+use super::format::{Format, number_or_word, print_json, shown};
 use crate::film::write_whole;
 use crate::measure::image_error::{ImageError, Numbers, Oddities, RELATIVE_FLOOR, image_error};
 use crate::measure::image_file::{ImageKind, read_numbers};
@@ -11,7 +12,7 @@ use std::path::Path;
 /// How far an image is from a reference, and a picture of it if asked for.
 ///
 /// Errors: files that cannot be read or are not of one kind and size; nothing is written then.
-pub fn compare(asked: &CompareImages, out: &mut dyn Write) -> Result {
+pub fn compare(asked: &CompareImages, format: Format, out: &mut dyn Write) -> Result {
     let [reference, image] = [&asked.reference, &asked.image];
     let (kind, other) = (kind_of(reference)?, kind_of(image)?);
     if kind != other {
@@ -27,10 +28,8 @@ pub fn compare(asked: &CompareImages, out: &mut dyn Write) -> Result {
         Some(file) => Some((file, write_difference(&reference, &image, &error, file)?)),
         None => None,
     };
-    if asked.json {
-        let json = serde_json::to_string_pretty(&as_json(asked, &error, scale.map(|(_, full)| full)));
-        writeln!(out, "{}", json.map_err(std::io::Error::from)?)?;
-        return Ok(());
+    if asked.json || format.is_json() {
+        return print_json(&as_json(asked, kind, &error, scale.map(|(_, full)| full)), out);
     }
     writeln!(out, "reference r: {}", asked.reference.display())?;
     writeln!(out, "image x:     {}", asked.image.display())?;
@@ -67,7 +66,7 @@ fn write_difference(reference: &Numbers, image: &Numbers, error: &ImageError, fi
 }
 
 /// The same numbers for machines; what is not finite or does not exist is null, and an infinite PSNR is "infinite".
-fn as_json(asked: &CompareImages, error: &ImageError, full: Option<f64>) -> Value {
+fn as_json(asked: &CompareImages, kind: ImageKind, error: &ImageError, full: Option<f64>) -> Value {
     let odd = |odd: &Oddities| {
         json!({
             "nan": odd.nan, "plus_infinite": odd.plus_infinite, "minus_infinite": odd.minus_infinite,
@@ -75,10 +74,10 @@ fn as_json(asked: &CompareImages, error: &ImageError, full: Option<f64>) -> Valu
         })
     };
     let means = error.means.as_ref();
-    let psnr = error.psnr().map(|decibels| if decibels.is_finite() { json!(decibels) } else { json!("infinite") });
     json!({
-        "reference": asked.reference.display().to_string(),
-        "image": asked.image.display().to_string(),
+        "reference": shown(&asked.reference),
+        "image": shown(&asked.image),
+        "numbers": kind.numbers(),
         "width": error.size[0],
         "height": error.size[1],
         "pixels_differing": error.differing,
@@ -92,9 +91,10 @@ fn as_json(asked: &CompareImages, error: &ImageError, full: Option<f64>) -> Valu
         "mae": means.map(|means| means.mae),
         "max": means.map(|means| means.largest),
         "max_at": means.map(|means| means.worst),
-        "psnr_decibels": psnr,
+        "psnr_decibels": error.psnr().map(number_or_word),
         "psnr_peak": error.peak,
         "difference_full_white": full,
+        "files": asked.output.iter().map(|file| shown(file)).collect::<Vec<String>>(),
         "not_finite_or_negative": { "reference": odd(&error.oddities[0]), "image": odd(&error.oddities[1]) },
     })
 }

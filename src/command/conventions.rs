@@ -1,27 +1,38 @@
 use super::arguments::CompareConventions;
 use super::find;
+use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::Waiting;
 use crate::chapter::{Asked, Chapter};
+use crate::extract::angle_of_tan_half;
 use crate::film::{check_place, write_png};
 use crate::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
 use crate::render::{Execution, render};
 use crate::{Error, Result};
 use bevy_ecs::prelude::World;
+use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
 
 /// A chapter's camera in the words of other programs, a picture of a mistake, or how exact the words are.
-pub fn print_conventions(chapters: &[Chapter], asked: &CompareConventions, out: &mut dyn Write) -> Result {
+pub fn print_conventions(
+    chapters: &[Chapter],
+    asked: &CompareConventions,
+    format: Format,
+    out: &mut dyn Write,
+) -> Result {
     let chapter = find::chapter(chapters, &asked.chapter)?;
     let scene = chapter.world(&Asked { resolution: asked.size, ..Asked::default() });
     match (asked.mistake, asked.round_trips) {
-        (Some(mistake), _) => render_mistake(chapter, scene, mistake, asked, out),
-        (None, Some(cameras)) => print_round_trips(cameras, out),
-        (None, None) => print_lines(chapter, &PlacedCamera::of(&scene)?, out),
+        (Some(mistake), _) => render_mistake(chapter, scene, mistake, asked, format, out),
+        (None, Some(cameras)) => print_round_trips(cameras, format, out),
+        (None, None) => print_lines(chapter, &PlacedCamera::of(&scene)?, format, out),
     }
 }
 
-fn print_lines(chapter: &Chapter, camera: &PlacedCamera, out: &mut dyn Write) -> Result {
+fn print_lines(chapter: &Chapter, camera: &PlacedCamera, format: Format, out: &mut dyn Write) -> Result {
+    if format.is_json() {
+        return print_json(&as_json(chapter.name, camera), out);
+    }
     writeln!(out, "camera of {}, {} x {} pixels", chapter.name, camera.image.width, camera.image.height)?;
     for program in Program::ALL {
         writeln!(out, "\n{program}")?;
@@ -34,7 +45,33 @@ fn print_lines(chapter: &Chapter, camera: &PlacedCamera, out: &mut dyn Write) ->
     Ok(())
 }
 
-fn print_round_trips(cameras: u64, out: &mut dyn Write) -> Result {
+/// The camera in numbers, and each program's lines as they are typed.
+fn as_json(scene: &str, camera: &PlacedCamera) -> Value {
+    let program = |program: Program| {
+        let [field_of_view, placement] = back(program);
+        let back = json!({ "field_of_view": field_of_view, "placement": placement });
+        json!({ "program": program.to_string(), "lines": lines(program, camera), "back": back })
+    };
+    let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| point.to_array());
+    json!({
+        "scene": scene, "width": camera.image.width, "height": camera.image.height,
+        "eye": eye, "target": target, "up": up,
+        "vertical_fov_degrees": angle_of_tan_half(camera.tan_half_vertical).0,
+        "programs": Program::ALL.map(program),
+    })
+}
+
+fn print_round_trips(cameras: u64, format: Format, out: &mut dyn Write) -> Result {
+    if format.is_json() {
+        let told = |program: Program| {
+            let trip = round_trip(program, cameras);
+            json!({
+                "program": program.to_string(), "moved": trip.moved, "other_tangent": trip.widened,
+                "worst_tangent_error_epsilons": number_or_word(trip.worst),
+            })
+        };
+        return print_json(&json!({ "cameras": cameras, "programs": Program::ALL.map(told) }), out);
+    }
     writeln!(out, "{cameras} cameras there and back; ε = 2^-52")?;
     writeln!(out, "{:<32} {:>8} {:>14} {:>16}", "", "moved", "other tangent", "worst tangent")?;
     for program in Program::ALL {
@@ -50,6 +87,7 @@ fn render_mistake(
     mut scene: World,
     mistake: Mistake,
     asked: &CompareConventions,
+    format: Format,
     out: &mut dyn Write,
 ) -> Result {
     let in_out = || Path::new("out").join(format!("{}_{mistake}.png", chapter.name));
@@ -61,6 +99,10 @@ fn render_mistake(
     mistake.commit(&mut scene)?;
     let rendered = render(&scene, &chapter.stages(), &Execution::default(), &Waiting::new(0, true))?;
     write_png(&rendered.film, rendered.curve(), &file)?;
+    if format.is_json() {
+        let (mistake, made_by) = (mistake.to_string(), mistake.made_by());
+        return print_json(&json!({ "mistake": mistake, "made_by": made_by, "files": [shown(&file)] }), out);
+    }
     writeln!(out, "{mistake}: {}", mistake.made_by())?;
     writeln!(out, "wrote {}", file.display())?;
     Ok(())

@@ -1,16 +1,18 @@
 use super::arguments::CostOfChapter;
 use super::find;
+use super::format::{Format, print_json, shown};
 use super::interrupt::Waiting;
 use crate::Result;
 use crate::chapter::{Asked, Chapter};
 use crate::extract::SamplingTable;
 use crate::film::write_whole;
-use crate::measure::cost::{PROBES, RENDERS, made_from, measure};
+use crate::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure};
 use crate::plan::Table;
 use crate::render::Execution;
 use crate::report::provenance::{compiler, load, processor};
 use crate::scene::Resolution;
-use std::fmt::Write as _;
+use serde_json::{Value, json};
+use std::fmt;
 use std::io::Write;
 use std::path::Path;
 
@@ -18,56 +20,119 @@ use std::path::Path;
 const SIZE: Resolution = Resolution { width: 960, height: 540 };
 
 /// What a chapter's stages cost, or those of all chapters; kept beside the chapter if asked for.
-pub fn print_cost(chapters: &[Chapter], asked: &CostOfChapter, out: &mut dyn Write) -> Result {
-    let chosen = match asked.chapter.as_str() {
-        "all" => chapters.iter().collect(),
-        one => vec![find::chapter(chapters, one)?],
-    };
-    for chapter in chosen {
-        let report = report(chapter)?;
+pub fn print_cost(chapters: &[Chapter], asked: &CostOfChapter, format: Format, out: &mut dyn Write) -> Result {
+    if asked.chapter != "all" {
+        let (measured, written) = measure_one(find::chapter(chapters, &asked.chapter)?, asked, format, out)?;
+        return if format.is_json() { print_json(&measured.as_json(&written), out) } else { Ok(()) };
+    }
+    let mut all = Vec::new();
+    for chapter in chapters {
+        let (measured, written) = measure_one(chapter, asked, format, out)?;
+        all.push(measured.as_json(&written));
+    }
+    if format.is_json() { print_json(&all, out) } else { Ok(()) }
+}
+
+/// Measures a chapter and keeps the report where that is asked for; as text, prints it too.
+fn measure_one(
+    chapter: &Chapter,
+    asked: &CostOfChapter,
+    format: Format,
+    out: &mut dyn Write,
+) -> Result<(Measured, Vec<String>)> {
+    let measured = Measured::of(chapter)?;
+    let report = measured.to_string();
+    if !format.is_json() {
         out.write_all(report.as_bytes())?;
-        if asked.write {
-            let short = Path::new("chapters").join(chapter.name).join("costs.txt");
-            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(&short);
-            write_whole(&file, |file| file.write_all(report.as_bytes()))?;
-            writeln!(out, "wrote {}", short.display())?;
+    }
+    if !asked.write {
+        return Ok((measured, Vec::new()));
+    }
+    let short = Path::new("chapters").join(chapter.name).join("costs.txt");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(&short);
+    write_whole(&file, |file| file.write_all(report.as_bytes()))?;
+    if !format.is_json() {
+        writeln!(out, "wrote {}", short.display())?;
+    }
+    Ok((measured, vec![shown(&short)]))
+}
+
+/// What a chapter's stages cost, and where that was measured.
+struct Measured {
+    chapter: &'static str,
+    size: Resolution,
+    samples: u32,
+    cost: Cost,
+    processor: String,
+    threads: usize,
+    compiler: String,
+    load: Option<f64>,
+    made_from: String,
+}
+
+impl Measured {
+    fn of(chapter: &Chapter) -> Result<Self> {
+        let made_from = made_from(chapter.name)?;
+        let samples = SamplingTable::extract(&chapter.world(&Asked::default()))?.samples;
+        let smaller = samples.isqrt().max(1);
+        let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
+        let asked = Asked { resolution: Some(size), statistics: true, ..Asked::default() };
+        let side = Execution::default().tile_side;
+        let tiles = u64::from(size.width.div_ceil(side) * size.height.div_ceil(side) * samples.max(1));
+        let waiting = Waiting::new(tiles * RENDERS as u64, false);
+        let cost = measure(&chapter.world(&asked), &chapter.stages(), &waiting);
+        waiting.done();
+        Ok(Self {
+            chapter: chapter.name,
+            size,
+            samples,
+            cost: cost?,
+            processor: processor(),
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            compiler: compiler(),
+            load: load(),
+            made_from,
+        })
+    }
+
+    fn as_json(&self, written: &[String]) -> Value {
+        let stage = |cost: &StageCost| {
+            let times = cost.nanoseconds.map(|[low, median, high]| json!({ "p10": low, "p50": median, "p90": high }));
+            let error = Some(&cost.error).filter(|error| *error != "-");
+            json!({ "stage": cost.stage, "rows": cost.rows, "nanoseconds_per_row": times, "error": error })
+        };
+        json!({
+            "scene": self.chapter, "width": self.size.width, "height": self.size.height,
+            "samples_per_pixel": self.samples, "threads": 1, "renders": RENDERS - 1,
+            "pixels_probed_for_errors": PROBES[0] * PROBES[1],
+            "stages": self.cost.stages.iter().map(stage).collect::<Vec<Value>>(),
+            "machine": {
+                "processor": self.processor, "threads": self.threads, "compiler": self.compiler, "load": self.load,
+            },
+            "built_for_release": !cfg!(debug_assertions), "made_from": self.made_from, "files": written,
+        })
+    }
+}
+
+impl fmt::Display for Measured {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "cost of {}: {} x {} pixels of {} samples on one thread, {} renders after one to warm up\n\
+             errors: the worst of {} pixels, against exact arithmetic; u = 2^-24\n{}",
+            self.chapter,
+            self.size.width,
+            self.size.height,
+            self.samples,
+            RENDERS - 1,
+            PROBES[0] * PROBES[1],
+            self.cost
+        )?;
+        let load = self.load.map_or_else(|| "unknown".into(), |load| format!("{load:.2}"));
+        writeln!(f, "machine: {}, {} threads; {}; load {load}", self.processor, self.threads, self.compiler)?;
+        if cfg!(debug_assertions) {
+            writeln!(f, "built without --release: these times say nothing about the kit")?;
         }
+        writeln!(f, "made from {}", self.made_from)
     }
-    Ok(())
-}
-
-fn report(chapter: &Chapter) -> Result<String> {
-    let made_from = made_from(chapter.name)?;
-    let samples = SamplingTable::extract(&chapter.world(&Asked::default()))?.samples;
-    let smaller = samples.isqrt().max(1);
-    let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
-    let asked = Asked { resolution: Some(size), statistics: true, ..Asked::default() };
-    let side = Execution::default().tile_side;
-    let tiles = u64::from(size.width.div_ceil(side) * size.height.div_ceil(side) * samples.max(1));
-    let waiting = Waiting::new(tiles * RENDERS as u64, false);
-    let cost = measure(&chapter.world(&asked), &chapter.stages(), &waiting);
-    waiting.done();
-    let mut report = format!(
-        "cost of {}: {} x {} pixels of {samples} samples on one thread, {} renders after one to warm up\n\
-         errors: the worst of {} pixels, against exact arithmetic; u = 2^-24\n{}",
-        chapter.name,
-        size.width,
-        size.height,
-        RENDERS - 1,
-        PROBES[0] * PROBES[1],
-        cost?
-    );
-    let _ = writeln!(report, "machine: {}", machine());
-    if cfg!(debug_assertions) {
-        let _ = writeln!(report, "built without --release: these times say nothing about the kit");
-    }
-    let _ = writeln!(report, "made from {made_from}");
-    Ok(report)
-}
-
-/// The machine as far as it says: processor, threads, compiler, load.
-fn machine() -> String {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = load().map_or_else(|| "unknown".into(), |load| format!("{load:.2}"));
-    format!("{}, {threads} threads; {}; load {load}", processor(), compiler())
 }

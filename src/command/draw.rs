@@ -1,13 +1,20 @@
 use super::arguments::DrawImage;
-use crate::figure::DRAWN_IMAGES;
+use super::format::{Format, print_json, print_written};
+use crate::figure::{DRAWN_IMAGES, DrawnImage};
 use crate::film::write_whole;
 use crate::{Error, Result};
+use serde_json::json;
 use std::io::Write;
 use std::path::Path;
 
 /// Draws an image that a chapter reads from a file, or lists those there are.
-pub fn draw_image(asked: &DrawImage, out: &mut dyn Write) -> Result {
+pub fn draw_image(asked: &DrawImage, format: Format, out: &mut dyn Write) -> Result {
     let Some(name) = &asked.name else {
+        if format.is_json() {
+            let told =
+                |DrawnImage { file, about, folder, .. }| json!({ "name": file, "about": about, "folder": folder });
+            return print_json(&json!({ "images": DRAWN_IMAGES.map(told) }), out);
+        }
         for image in &DRAWN_IMAGES {
             writeln!(out, "{:<18} {}; kept in {}", image.file, image.about, image.folder)?;
         }
@@ -20,6 +27,5 @@ pub fn draw_image(asked: &DrawImage, out: &mut dyn Write) -> Result {
     let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join(image.file));
     let bytes = image.bytes()?;
     write_whole(&file, |file| file.write_all(&bytes))?;
-    writeln!(out, "wrote {}", file.display())?;
-    Ok(())
+    print_written(&file, format, out)
 }

@@ -1,11 +1,13 @@
 use super::arguments::ExportScene;
 use super::export_images::{carry_images, name_images_whole};
 use super::find::is_scene_file;
+use super::format::{Format, print_json, shown};
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
 use crate::scene::scene_text;
 use crate::{Error, Result};
+use serde_json::json;
 use std::io::Write;
 use std::path::Path;
 
@@ -17,7 +19,7 @@ use std::path::Path;
 ///
 /// Errors: a file of that name is there already, for it may have been edited; its name cannot stand in a comment; an image
 /// cannot be copied.
-pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) -> Result {
+pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
     let mut world = subject.world(&Asked { sampling: asked.sampling.asked(), ..Asked::default() });
     let note = subject.own_view(&mut world).map_or(String::new(), |column| {
@@ -31,7 +33,11 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
             .iter()
             .map(|name| format!("// {name} is in the program only: -o FILE puts a copy beside the file.\n"))
             .collect();
-        write!(out, "{}{note}{embedded}{}", head("scene.ron"), scene_text(&world)?)?;
+        let text = format!("{}{note}{embedded}{}", head("scene.ron"), scene_text(&world)?);
+        if format.is_json() {
+            return print_json(&json!({ "scene": subject.name(), "scene_file": text }), out);
+        }
+        write!(out, "{text}")?;
         return Ok(());
     };
     let shown = file.to_string_lossy();
@@ -50,6 +56,10 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
     let images = carry_images(&mut world, file)?;
     let text = format!("{}{note}{}", head(&shown), scene_text(&world)?);
     write_whole(file, |file| file.write_all(text.as_bytes()))?;
+    if format.is_json() {
+        let files: Vec<String> = std::iter::once(file).chain(images.iter()).map(|file| self::shown(file)).collect();
+        return print_json(&json!({ "files": files }), out);
+    }
     writeln!(out, "wrote {shown}")?;
     for image in images {
         writeln!(out, "wrote {}, which it names", image.display())?;

@@ -1,14 +1,21 @@
 use super::arguments::DrawFigure;
+use super::format::{Format, print_json, print_written};
 use crate::chapter::Chapter;
-use crate::figure::{draw, figures};
+use crate::figure::{Figure, draw, figures};
 use crate::film::write_whole;
 use crate::{Error, Result};
+use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Draws a figure, or lists those there are.
-pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, out: &mut dyn Write) -> Result {
+pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, format: Format, out: &mut dyn Write) -> Result {
     let Some(name) = &asked.name else {
+        if format.is_json() {
+            let told =
+                |Figure { name, chapter, about, .. }| json!({ "name": name, "chapter": chapter, "about": about });
+            return print_json(&json!({ "figures": figures().into_iter().map(told).collect::<Vec<Value>>() }), out);
+        }
         for figure in figures() {
             writeln!(out, "{:<18} {}", figure.name, figure.about)?;
         }
@@ -17,8 +24,7 @@ pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, out: &mut dyn Write
     let file = svg_place(asked.output.as_ref(), name)?;
     let drawing = draw(chapters, name)?;
     write_whole(&file, |file| file.write_all(drawing.text.as_bytes()))?;
-    writeln!(out, "wrote {}", file.display())?;
-    Ok(())
+    print_written(&file, format, out)
 }
 
 /// Where a drawing goes: where it was asked for, or to out/ under its name.

@@ -1,9 +1,15 @@
+use super::format::{Format, print_json};
 use crate::Result;
 use crate::chapter::Chapter;
+use serde_json::{Value, json};
 use std::io::Write;
 
 /// The chapters, a line each.
-pub fn list(chapters: &[Chapter], out: &mut dyn Write) -> Result {
+pub fn list(chapters: &[Chapter], format: Format, out: &mut dyn Write) -> Result {
+    if format.is_json() {
+        let told = |chapter: &Chapter| json!({ "name": chapter.name, "title": chapter.title });
+        return print_json(&json!({ "chapters": chapters.iter().map(told).collect::<Vec<Value>>() }), out);
+    }
     for chapter in chapters {
         writeln!(out, "{:<18} {}", chapter.name, chapter.title)?;
     }

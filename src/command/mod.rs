@@ -43,6 +43,7 @@ use crate::{Error, Result};
 use arguments::{Arguments, Command};
 use clap::Parser;
 use clap::error::ErrorKind;
+use format::Format;
 use options::ExampleArguments;
 use std::io::Write;
 use std::process::ExitCode;
@@ -54,34 +55,37 @@ use subject::Subject;
 pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> Result {
     let words = std::iter::once("pinhole").chain(arguments.iter().map(String::as_str));
     let Some(arguments) = parsed::<Arguments>(words, out)? else { return Ok(()) };
+    let format = arguments.format;
     match arguments.command {
         None => render::render_cover(chapters, out),
-        Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, out),
-        Some(Command::Draw(asked)) => draw::draw_image(&asked, out),
-        Some(Command::List) => list::list(chapters, out),
+        Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, format, out),
+        Some(Command::Draw(asked)) => draw::draw_image(&asked, format, out),
+        Some(Command::List) => list::list(chapters, format, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
         Some(Command::Render(asked)) => {
             render::render_subject(&Subject::find(chapters, &asked.chapter)?, &asked.options, out)
         }
-        Some(Command::Plan(asked)) => plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, out),
-        Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, out),
+        Some(Command::Plan(asked)) => {
+            plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, format, out)
+        }
+        Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, format, out),
         Some(Command::Angles(asked)) => {
-            angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, out)
+            angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, format, out)
         }
         Some(Command::Trace(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?;
-            trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, out)
+            trace::print_trace(&subject, asked.pixel, asked.sample, asked.all, &asked.options, format, out)
         }
-        Some(Command::Export(asked)) => export::export(chapters, &asked, out),
-        Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, out),
-        Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, out),
-        Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, out),
-        Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), out),
-        Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, out),
-        Some(Command::Report(asked)) => report::report(chapters, &asked, out),
-        Some(Command::Review(asked)) => review::review(chapters, &asked, out),
-        Some(Command::Compare(asked)) => compare::compare(&asked, out),
-        Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, out),
+        Some(Command::Export(asked)) => export::export(chapters, &asked, format, out),
+        Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
+        Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),
+        Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, format, out),
+        Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), format, out),
+        Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, format, out),
+        Some(Command::Report(asked)) => report::report(chapters, &asked, format, out),
+        Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
+        Some(Command::Compare(asked)) => compare::compare(&asked, format, out),
+        Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, format, out),
     }
 }
 
@@ -92,7 +96,7 @@ pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write)
     match arguments.trace {
         Some(pixel) => {
             let (subject, options) = (Subject::Chapter(chapter), &arguments.options.scene);
-            trace::print_trace(&subject, pixel, arguments.sample, false, options, out)
+            trace::print_trace(&subject, pixel, arguments.sample, false, options, Format::Text, out)
         }
         None => render::render_subject(&Subject::Chapter(chapter), &arguments.options, out),
     }

@@ -1,18 +1,20 @@
 use super::arguments::ReviewSnapshots;
 use super::find;
-use super::review::{picture, write_page};
+use super::format::{Format, print_json, print_written, shown};
+use super::review::{keep_page, picture, told, write_page};
 use crate::chapter::Chapter;
 use crate::film::png_url;
 use crate::film::write_whole;
 use crate::review::planted::{PLANTED, Planted};
 use crate::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
 use crate::{Error, Result};
+use serde_json::{Value, json};
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::fmt::Write as _;
 use std::io::Write;
 
 /// What a review shows with a bug planted: as a page, a picture, or, of all bugs, a table or a gallery.
-pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
     let all = name == "all";
     if (asked.gallery && !all) || (asked.picture.is_some() && all) {
         return Err(Error::Usage("--gallery goes with --plant all, and --picture with the name of one bug".into()));
@@ -26,12 +28,18 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
                 asked.output.clone().ok_or_else(|| Error::Usage("--picture needs a file: -o FILE.png".into()))?;
             let png = picture(&compared, which)?;
             write_whole(&file, |file| file.write_all(&png))?;
-            writeln!(out, "wrote {}", file.display())?;
-            return Ok(());
+            return print_written(&file, format, out);
         }
-        writeln!(out, "{}: {}", compared.name, compared.headline())?;
         let heading = format!("A bug planted on purpose: {}", planted.name);
         let intro = "The bug lives in this run only: no source and no snapshot has changed.";
+        if format.is_json() {
+            let difference = told(&compared);
+            let file = keep_page(asked, &page(&heading, intro, &[compared])?)?;
+            let (bug, slip) = (planted.name, planted.slip);
+            let planted = json!({ "bug": bug, "slip": slip, "difference": difference, "files": [shown(&file)] });
+            return print_json(&planted, out);
+        }
+        writeln!(out, "{}: {}", compared.name, compared.headline())?;
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
     let (mut bugs, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
@@ -47,10 +55,9 @@ pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, out: &mu
         let file = asked.output.clone().unwrap_or_else(|| "out/review/planted.svg".into());
         let gallery = gallery(&bugs)?;
         write_whole(&file, |file| file.write_all(gallery.as_bytes()))?;
-        writeln!(out, "wrote {}", file.display())?;
-        return Ok(());
+        return print_written(&file, format, out);
     }
-    table(&bugs, out)
+    table(&bugs, format, out)
 }
 
 fn compared(planted: &Planted, chapter: &Chapter, before: Snapshots) -> Result<Compared> {
@@ -64,16 +71,24 @@ fn compared(planted: &Planted, chapter: &Chapter, before: Snapshots) -> Result<C
 }
 
 /// A line a bug: its name, the slip, the stage that the review names, how many pixels show it.
-fn table(all: &[(&Planted, Compared)], out: &mut dyn Write) -> Result {
-    writeln!(out, "{:<22} {:<27} {:<32} pixels that differ", "bug", "slip", "stage named")?;
-    let mut right = 0;
-    for (planted, compared) in all {
-        let named =
-            compared.before.first_difference(&compared.now).map_or("none".into(), |difference| difference.stage);
+fn table(all: &[(&Planted, Compared)], format: Format, out: &mut dyn Write) -> Result {
+    let found = |(planted, compared): &(&Planted, Compared)| {
+        let named = compared.before.first_difference(&compared.now).map(|difference| difference.stage);
         let pixels = compare_pictures(&compared.before.picture, &compared.now.picture);
-        let pixels = pixels.map_or(0, |difference| difference.differing);
-        right += usize::from(named == planted.stage);
-        writeln!(out, "{:<22} {:<27} {named:<32} {pixels:>4}", planted.name, planted.slip)?;
+        let right = named.as_deref() == Some(planted.stage);
+        (planted.name, planted.slip, named, pixels.map_or(0, |difference| difference.differing), right)
+    };
+    let found: Vec<_> = all.iter().map(found).collect();
+    let right = found.iter().filter(|(.., right)| *right).count();
+    if format.is_json() {
+        let told = |(bug, slip, named, pixels, right): &_| json!({ "bug": bug, "slip": slip, "stage_named": named, "pixels_differing": pixels, "is_right": right });
+        let bugs: Vec<Value> = found.iter().map(told).collect();
+        return print_json(&json!({ "planted": all.len(), "named_right": right, "bugs": bugs }), out);
+    }
+    writeln!(out, "{:<22} {:<27} {:<32} pixels that differ", "bug", "slip", "stage named")?;
+    for (bug, slip, named, pixels, _) in found {
+        let named = named.unwrap_or_else(|| "none".into());
+        writeln!(out, "{bug:<22} {slip:<27} {named:<32} {pixels:>4}")?;
     }
     writeln!(out, "{right} of {} bugs named at the stage where they were planted", all.len())?;
     Ok(())

@@ -1,4 +1,5 @@
 use super::arguments::TryPreflight;
+use super::format::{Format, print_json};
 use super::subject::{Subject, every_stage};
 use crate::chapter::Chapter;
 use crate::look::{Preflight, SLIPS, preflight};
@@ -6,30 +7,43 @@ use crate::plan::Stage;
 use crate::render::{check_film_fits, prepare};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use serde_json::json;
 use std::io::Write;
 
 /// What would be said before a render, a line each; without a subject, of small scenes with something wrong.
 ///
 /// Errors: what the scene of a subject is refused for.
-pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, out: &mut dyn Write) -> Result {
+pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Format, out: &mut dyn Write) -> Result {
     if let Some(chapter) = &asked.chapter {
         let subject = Subject::find(chapters, chapter)?;
         let wanted = asked.options.asked(false);
         let told = said(&subject.world(&wanted), &subject.stages()).map_err(|error| subject.placed(error, &wanted))?;
-        return print_lines(&told, "", out);
+        return match format {
+            Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), out),
+            Format::Text => print_lines(&told, "", out),
+        };
     }
     let stages = every_stage().stages();
+    let mut scenes = Vec::new();
     for slip in SLIPS {
         let mut scene = World::new();
         (slip.scene)(&mut scene);
-        writeln!(out, "{}", slip.what)?;
-        match said(&scene, &stages) {
-            Ok(told) => print_lines(&told, "  ", out)?,
-            Err(Error::Refusal(refusal)) => writeln!(out, "  refused: {refusal}")?,
+        let (warnings, refused) = match said(&scene, &stages) {
+            Ok(told) => (told, None),
+            Err(Error::Refusal(refusal)) => (Vec::new(), Some(refusal.to_string())),
             Err(error) => return Err(error),
+        };
+        if format.is_json() {
+            scenes.push(json!({ "scene": slip.what, "warnings": warnings, "refused": refused }));
+            continue;
+        }
+        writeln!(out, "{}", slip.what)?;
+        match refused {
+            None => print_lines(&warnings, "  ", out)?,
+            Some(refused) => writeln!(out, "  refused: {refused}")?,
         }
     }
-    Ok(())
+    if format.is_json() { print_json(&json!({ "scenes": scenes }), out) } else { Ok(()) }
 }
 
 fn said(scene: &World, stages: &[Stage]) -> Result<Vec<String>> {

@@ -1,4 +1,5 @@
 use super::figure::svg_place;
+use super::format::{Format, print_json, print_written, shown};
 use super::interrupt::{EndsByItself, interrupted, stop_flag};
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
@@ -11,7 +12,7 @@ use crate::report::kept::{keep, kept, made_from};
 use crate::report::ladder::Ladder;
 use crate::report::page::page;
 use crate::report::pictures::pictures;
-use crate::report::pitfalls::pitfalls;
+use crate::report::pitfalls::{pitfalls, pitfalls_table};
 use crate::report::plot::{Against, plot};
 use crate::report::provenance::{Provenance, load};
 use crate::report::run::Shelf;
@@ -21,6 +22,8 @@ use crate::report::summary::Report;
 use crate::scene::{Filter, Integrator, LightSampling, Resolution, Sampler, Sampling, scene_text};
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+use serde_json::json;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -32,24 +35,40 @@ const PIXELS: f64 = 96.0 * 54.0;
 const FIRST_CHAPTER: u32 = 13;
 
 /// Measures error against run time, or shows what is kept of an earlier measurement.
-pub fn report(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+pub fn report(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result {
     if asked.kept {
-        return show_kept(chapters, asked, out);
+        return show_kept(chapters, asked, format, out);
     }
     if asked.naive {
         let subject = Subject::find(chapters, &asked.subject)?;
         let variants = variants(&subject, &[], size(&subject, asked.size)?)?;
-        return variants.iter().try_for_each(|variant| Ok(write!(out, "{}", pitfalls(variant)?)?));
+        let pitfalls = pitfalls(&variants[0])?;
+        if format.is_json() {
+            return print_json(&json!({ "scene": subject.name(), "measurements": pitfalls }), out);
+        }
+        write!(out, "{}", pitfalls_table(&pitfalls))?;
+        return Ok(());
     }
-    if asked.subject == "all" {
-        return chapters.iter().filter(|chapter| has_report(chapter)).try_for_each(|chapter| {
-            // What a chapter is compared with is what it was compared with last.
-            let against = kept(chapter.name).map_or_else(|_| asked.against.clone(), |report| report.against);
-            let asked = ReportErrors { subject: chapter.name.into(), against, ..asked.clone() };
-            measure_one(chapters, &asked, out)
-        });
+    if asked.subject != "all" {
+        let measured = measure_one(chapters, asked, format, out)?;
+        return if format.is_json() { print_json(&measured, out) } else { Ok(()) };
     }
-    measure_one(chapters, asked, out)
+    let mut all = Vec::new();
+    for chapter in chapters.iter().filter(|chapter| has_report(chapter)) {
+        // What a chapter is compared with is what it was compared with last.
+        let against = kept(chapter.name).map_or_else(|_| asked.against.clone(), |report| report.against);
+        let asked = ReportErrors { subject: chapter.name.into(), against, ..asked.clone() };
+        all.push(measure_one(chapters, &asked, format, out)?);
+    }
+    if format.is_json() { print_json(&all, out) } else { Ok(()) }
+}
+
+/// A report, and the files that it was written to.
+#[derive(Serialize)]
+struct Measured {
+    #[serde(flatten)]
+    report: Report,
+    files: Vec<String>,
 }
 
 /// Whether a chapter's report is kept beside it: from the first on that takes many samples.
@@ -58,20 +77,23 @@ pub fn has_report(chapter: &Chapter) -> bool {
     number.is_some_and(|number| number >= FIRST_CHAPTER)
 }
 
-fn show_kept(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+fn show_kept(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result {
     let report = kept(super::find::chapter(chapters, &asked.subject)?.name)?;
     if asked.output.is_none() {
+        if format.is_json() {
+            return print_json(&Measured { report, files: Vec::new() }, out);
+        }
         write!(out, "{report}")?;
         return Ok(());
     }
     let file = svg_place(asked.output.as_ref(), &report.name)?;
     let against = if asked.samples_axis { Against::Samples } else { Against::Render };
     write_whole(&file, |file| file.write_all(plot(&report, against).text.as_bytes()))?;
-    writeln!(out, "wrote {}", file.display())?;
-    Ok(())
+    print_written(&file, format, out)
 }
 
-fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) -> Result {
+/// Measures one subject, writes its report, and as text prints it too.
+fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: &mut dyn Write) -> Result<Measured> {
     let subject = Subject::find(chapters, &asked.subject)?;
     let name = file_stem(&subject, &asked.against);
     let files = ["html", "json", "csv"].map(|ending| Path::new("out/report").join(format!("{name}.{ending}")));
@@ -126,14 +148,23 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, out: &mut dyn Write) 
     for (file, text) in files.iter().zip(&texts) {
         write_whole(file, |file| file.write_all(text.as_bytes()))?;
     }
-    write!(out, "{report}")?;
+    let mut written: Vec<String> = files.iter().map(|file| shown(file)).collect();
+    if !format.is_json() {
+        write!(out, "{report}")?;
+    }
     if asked.write {
         keep(&report)?;
-        writeln!(out, "wrote {}", crate::report::kept::place(&report.name).display())?;
+        let kept = shown(&crate::report::kept::place(&report.name));
+        if !format.is_json() {
+            writeln!(out, "wrote {kept}")?;
+        }
+        written.push(kept);
     }
     shelf.clear()?;
-    writeln!(out, "wrote {}", files.map(|file| file.display().to_string()).join(", "))?;
-    Ok(())
+    if !format.is_json() {
+        writeln!(out, "wrote {}", files.map(|file| file.display().to_string()).join(", "))?;
+    }
+    Ok(Measured { report, files: written })
 }
 
 /// What the first variant is compared with.

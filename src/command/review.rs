@@ -1,10 +1,12 @@
 use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
 use super::find;
+use super::format::{Format, print_json, shown};
 use crate::chapter::Chapter;
 use crate::film::write_whole;
 use crate::review::{Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast};
 use crate::scene::Resolution;
 use crate::{Error, Result};
+use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -12,22 +14,22 @@ use std::path::{Path, PathBuf};
 const TYPED: &str = "cargo run --release --";
 
 /// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
-pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
     let folder = asked.chapters.clone().unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters"));
     match (&asked.action, &asked.plant) {
         (Some(ReviewAction::Accept { chapter }), _) => {
-            settle(chapters, &folder, chapter.as_deref(), "accepted", Pending::accept, out)
+            settle(chapters, &folder, chapter.as_deref(), "accepted", Pending::accept, format, out)
         }
         (Some(ReviewAction::Reject { chapter }), _) => {
-            settle(chapters, &folder, chapter.as_deref(), "rejected", Pending::reject, out)
+            settle(chapters, &folder, chapter.as_deref(), "rejected", Pending::reject, format, out)
         }
-        (None, Some(name)) => super::planted::plant(chapters, name, asked, out),
-        (None, None) => show(chapters, &folder, asked, out),
+        (None, Some(name)) => super::planted::plant(chapters, name, asked, format, out),
+        (None, None) => show(chapters, &folder, asked, format, out),
     }
 }
 
 /// The page of what waits.
-fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
+fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
     let mut waiting = pending(folder)?;
     if let Some(name) = &asked.chapter {
         let near = |word: &&str| strsim::jaro_winkler(word, name) > 0.85;
@@ -38,21 +40,39 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, out: &mut 
         waiting.retain(|pending| pending.chapter == chapter.name);
     }
     if waiting.is_empty() {
-        return nothing_waits(asked.chapter.as_deref(), out);
+        return match format {
+            Format::Json => print_json(&json!({ "waiting": [], "files": [] }), out),
+            Format::Text => nothing_waits(asked.chapter.as_deref(), out),
+        };
     }
     let compared: Vec<Compared> = waiting.iter().map(|pending| compared(chapters, pending)).collect();
-    for chapter in &compared {
-        writeln!(out, "{}: {}", chapter.name, chapter.headline())?;
-    }
     let heading = match &compared[..] {
         [one] => format!("One chapter's snapshots wait: {}", one.name),
         several => format!("The snapshots of {} chapters wait", several.len()),
     };
     let intro = "Before is what is kept; now is what the tests computed when they last ran.";
-    write_page(asked, &page(&heading, intro, &compared)?, out)?;
+    let page = page(&heading, intro, &compared)?;
+    if format.is_json() {
+        let file = keep_page(asked, &page)?;
+        let told = |(compared, pending): (&Compared, &Pending)| json!({ "difference": told(compared), "folder": shown(&pending.folder), "files": pending.files });
+        let waiting: Vec<Value> = compared.iter().zip(&waiting).map(told).collect();
+        return print_json(&json!({ "waiting": waiting, "files": [shown(&file)] }), out);
+    }
+    for chapter in &compared {
+        writeln!(out, "{}: {}", chapter.name, chapter.headline())?;
+    }
+    write_page(asked, &page, out)?;
     writeln!(out, "to keep      {TYPED} review accept CHAPTER   (or all)")?;
     writeln!(out, "to go back   {TYPED} review reject CHAPTER   (or all)")?;
     Ok(())
+}
+
+/// What differs first in a chapter.
+pub(super) fn told(compared: &Compared) -> Value {
+    let first = compared.before.first_difference(&compared.now);
+    json!({
+        "chapter": compared.name, "title": compared.title, "headline": compared.headline(), "first_difference": first,
+    })
 }
 
 fn nothing_waits(chapter: Option<&str>, out: &mut dyn Write) -> Result {
@@ -81,10 +101,16 @@ fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
     Compared { name: name.clone(), title: title.into(), before, now, commands }
 }
 
-/// Writes the page and says where it is.
-pub(super) fn write_page(asked: &ReviewSnapshots, page: &str, out: &mut dyn Write) -> Result {
+/// Writes the page where it was asked for.
+pub(super) fn keep_page(asked: &ReviewSnapshots, page: &str) -> Result<PathBuf> {
     let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join("review").join("index.html"));
     write_whole(&file, |file| file.write_all(page.as_bytes()))?;
+    Ok(file)
+}
+
+/// Writes the page and says where it is.
+pub(super) fn write_page(asked: &ReviewSnapshots, page: &str, out: &mut dyn Write) -> Result {
+    let file = keep_page(asked, page)?;
     writeln!(out, "wrote {}: open it in a browser", file.display())?;
     Ok(())
 }
@@ -108,6 +134,7 @@ fn settle(
     asked: Option<&str>,
     word: &str,
     settle: fn(&Pending) -> Result<Vec<PathBuf>>,
+    format: Format,
     out: &mut dyn Write,
 ) -> Result {
     let mut waiting = pending(folder)?;
@@ -126,6 +153,20 @@ fn settle(
             )));
         }
         None => {}
+    }
+    if format.is_json() {
+        // What was done before a file that could not be settled is done, and is told.
+        let (mut settled, mut ended) = (Vec::new(), Ok(()));
+        for pending in &waiting {
+            match settle(pending) {
+                Ok(_) => settled.push(json!({ "chapter": pending.chapter, "files": pending.files })),
+                Err(error) => {
+                    ended = Err(error);
+                    break;
+                }
+            }
+        }
+        return print_json(&json!({ word: settled }), out).and(ended);
     }
     if waiting.is_empty() {
         return nothing_waits(asked.filter(|asked| *asked != "all"), out);

@@ -43,7 +43,7 @@ mod turn;
 
 pub use judge::{Mismatch, Outcome, Report};
 pub use progress::{Progress, Tries};
-pub use turn::{list_exercises, take_turn};
+pub use turn::{Turn, list_exercises, take_turn, turn};
 
 use crate::attempt::Attempt;
 use std::time::Duration;

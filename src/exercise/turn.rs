@@ -1,20 +1,32 @@
-use super::judge::Outcome;
-use super::{PATIENCE, Progress, check};
+use super::judge::{Outcome, Report};
+use super::{PATIENCE, Progress, Tries, check};
 use crate::chapter::Chapter;
 use crate::{Error, Result};
 use std::io::Write;
 use std::path::Path;
 
-/// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
+/// One check of a reader's function, and what is remembered of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turn {
+    /// How the function did.
+    pub report: Report,
+    /// The tries so far, this one among them.
+    pub tries: Tries,
+    /// What is to be said of the file in which tries are remembered.
+    pub notes: Vec<String>,
+}
+
+/// Checks a chapter's exercise once, and remembers it in the file.
 ///
-/// Errors: a wrong answer, a panic or no answer in time, in one sentence; a chapter without an exercise; printing failed.
-pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result {
+/// Errors: a chapter without an exercise.
+pub fn turn(chapter: &Chapter, file: &Path) -> Result<Turn> {
     let name = chapter.name;
     let Some(attempt) = chapter.exercise else {
         let said = format!("{name} has no exercise to check; `cargo run --release -- check` lists those that have one");
         return Err(Error::Usage(said));
     };
     let (mut progress, remark) = Progress::read(file);
+    let mut notes: Vec<String> = remark.into_iter().collect();
     let report = check(attempt, PATIENCE);
     let mut tries = progress.of(name);
     if !report.is_stub() {
@@ -22,22 +34,36 @@ pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result 
         tries.tried = tries.tried.saturating_add(1);
         tries.wrong = if done { 0 } else { tries.wrong.saturating_add(1) };
         tries.done = done;
+        progress.0.insert(name.into(), tries);
+        if let Err(refused) = progress.write(file) {
+            notes.push(format!("this try will not be remembered: {refused}"));
+        }
     }
+    Ok(Turn { report, tries, notes })
+}
+
+impl Turn {
+    /// The hints that the reader has earned: one for each wrong try.
+    pub fn hints(&self) -> &'static [&'static str] {
+        let all = self.report.hints;
+        let earns = !matches!(self.report.outcome, Outcome::Right(_)) && !self.report.is_stub();
+        &all[..if earns { all.len().min(self.tries.wrong as usize) } else { 0 }]
+    }
+}
+
+/// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
+///
+/// Errors: a wrong answer, a panic or no answer in time, in one sentence; a chapter without an exercise; printing failed.
+pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result {
+    let name = chapter.name;
+    let Turn { report, tries, notes } = turn(chapter, file)?;
     report.print(tries.wrong as usize, out)?;
     let number = name.split('_').next().unwrap_or(name);
     match report.outcome {
         Outcome::Right(_) => writeln!(out, "next: cargo run --release -- check shows what is left")?,
         _ => writeln!(out, "edit chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?,
     }
-    if let Some(remark) = remark {
-        writeln!(out, "note: {remark}")?;
-    }
-    if !report.is_stub() {
-        progress.0.insert(name.into(), tries);
-        if let Err(refused) = progress.write(file) {
-            writeln!(out, "note: this try will not be remembered: {refused}")?;
-        }
-    }
+    notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
     report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
 }
 

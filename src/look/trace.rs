@@ -1,4 +1,4 @@
-use crate::plan::{Column, ColumnKind, Lifetime, Plan, Stage};
+use crate::plan::{Column, ColumnKind, LaneNumber, Lifetime, Plan, Stage};
 use crate::rays::{Leg, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_pixel};
 use crate::scene::{Refusal, TracePixel};
@@ -20,8 +20,8 @@ pub struct Recorded {
     pub leg: u32,
     /// The column that it wrote.
     pub column: ColumnKind,
-    /// One line of `lane value` pairs a row of the column; none where nothing is known of this pixel.
-    pub rows: Vec<Vec<(&'static str, String)>>,
+    /// The lanes of each row of the column; no rows where nothing is known of this pixel.
+    pub rows: Vec<Vec<(&'static str, LaneNumber)>>,
 }
 
 /// What recorders have written, in order.
@@ -96,7 +96,7 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
                 }
                 for &column in &columns {
                     let lanes = (column.lanes)(&tile);
-                    let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.show(row))).collect();
+                    let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.number(row))).collect();
                     let rows = rows_on_leg(&tile, column, path as u32).into_iter().map(show).collect();
                     recorded.push(Recorded { stage: name, sample, leg, column, rows });
                 }
@@ -169,11 +169,16 @@ impl Trace {
         if self.prints_all || legs <= first + last { 0..0 } else { first..legs - last }
     }
 
+    /// The name of the shape of this number; none where nothing was hit.
+    pub fn shape_name(&self, number: LaneNumber) -> Option<&str> {
+        let LaneNumber::U32(Some(number)) = number else { return None };
+        self.shapes.get(number as usize).map(String::as_str)
+    }
+
     /// Lanes of a row, vectors in brackets, a shape by its name.
-    fn show_row(&self, lanes: &[(&'static str, String)]) -> String {
-        let shape_name = |value: &str| value.parse().ok().and_then(|number: usize| self.shapes.get(number).cloned());
-        let word = |(name, value): &(&'static str, String)| match *name {
-            "shape" => format!("shape {}", shape_name(value).unwrap_or_else(|| "none".into())),
+    fn show_row(&self, lanes: &[(&'static str, LaneNumber)]) -> String {
+        let word = |&(name, value): &(&'static str, LaneNumber)| match name {
+            "shape" => format!("shape {}", self.shape_name(value).unwrap_or("none")),
             name => format!("{name} {value}"),
         };
         let words: Vec<String> = lanes.iter().filter(|(name, _)| *name != "path").map(word).collect();

@@ -1,8 +1,11 @@
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
+use serde::Serialize;
+use std::fmt;
 
 /// How long a row of a column stays true.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Lifetime {
     /// One sample of one pixel: written before the second leg and kept to the film.
     Pixel,
@@ -28,13 +31,12 @@ pub enum LaneValues<'a> {
 }
 
 impl LaneValues<'_> {
-    /// The value of a row as a person reads it: fixed decimals, so that two runs compare line by line.
-    pub fn show(&self, row: usize) -> String {
+    /// The number of a row.
+    pub fn number(&self, row: usize) -> LaneNumber {
         match self {
-            Self::F64(values) => show_float(values[row]),
-            Self::F32(values) => show_float(f64::from(values[row])),
-            Self::U32(values) if values[row] == u32::MAX => "none".into(),
-            Self::U32(values) => values[row].to_string(),
+            Self::F64(values) => LaneNumber::F64(values[row]),
+            Self::F32(values) => LaneNumber::F32(values[row]),
+            Self::U32(values) => LaneNumber::U32((values[row] != u32::MAX).then_some(values[row])),
         }
     }
 
@@ -56,12 +58,33 @@ impl LaneValues<'_> {
     }
 }
 
-fn show_float(value: f64) -> String {
-    let size = value.abs();
-    if value != 0.0 && size.is_finite() && !(1e-4..1e7).contains(&size) {
-        format!("{value:+.6e}")
-    } else {
-        format!("{value:+.6}")
+/// The number that one row of a lane holds; JSON has every digit of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum LaneNumber {
+    /// A 64-bit float.
+    F64(f64),
+    /// A 32-bit float.
+    F32(f32),
+    /// A count or an index, or none.
+    U32(Option<u32>),
+}
+
+/// As a person reads it: fixed decimals, so that two runs compare line by line.
+impl fmt::Display for LaneNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = match *self {
+            Self::F64(value) => value,
+            Self::F32(value) => f64::from(value),
+            Self::U32(None) => return f.write_str("none"),
+            Self::U32(Some(value)) => return write!(f, "{value}"),
+        };
+        let size = value.abs();
+        if value != 0.0 && size.is_finite() && !(1e-4..1e7).contains(&size) {
+            write!(f, "{value:+.6e}")
+        } else {
+            write!(f, "{value:+.6}")
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 use super::{ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
 use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
+use serde::Serialize;
 use std::collections::BTreeSet;
 use thiserror::Error;
 
@@ -41,7 +42,8 @@ pub enum PlanError {
 }
 
 /// What one row of a batch stands for in a pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RowKind {
     /// A pixel, seen from the camera.
     Pixel,
@@ -50,7 +52,7 @@ pub enum RowKind {
 }
 
 /// One run over all batches.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Pass {
     /// What it is called.
     pub name: &'static str,
@@ -61,7 +63,7 @@ pub struct Pass {
 }
 
 /// One stage on offer, kept or dropped, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlanRow {
     /// The stage's name.
     pub stage: &'static str,
@@ -70,6 +72,7 @@ pub struct PlanRow {
     /// Why, with the first entities that caused it.
     pub reason: String,
     /// How many reachable entities caused it.
+    #[serde(rename = "entities")]
     pub count: usize,
     /// The columns it will write.
     pub columns: Vec<&'static str>,

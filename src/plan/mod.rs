@@ -15,7 +15,7 @@ mod stage;
 mod systems;
 mod table;
 
-pub use column::{Column, ColumnKind, Lane, LaneValue, LaneValues, Lifetime, column};
+pub use column::{Column, ColumnKind, Lane, LaneNumber, LaneValue, LaneValues, Lifetime, column};
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
 pub use evidence::{Carried, Evidence, counted, entities};
 pub use stage::{Slot, Stage, StageKind};

@@ -1,9 +1,10 @@
 use super::BLOCK_SIDE;
+use serde::Serialize;
 use std::fmt;
 use std::ops::RangeInclusive;
 
 /// The first of what two texts of [`digests`](super::digests) differ in, in the order of the stages.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Difference {
     /// The stage, in words.
     pub stage: String,
@@ -14,7 +15,8 @@ pub struct Difference {
 }
 
 /// Where two runs part.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Place {
     /// A stage wrote other numbers.
     Block {

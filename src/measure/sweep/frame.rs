@@ -13,6 +13,7 @@ use crate::rays::{Tile, WorldRays};
 use crate::render::inspect;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use serde::Serialize;
 
 /// The side of a tile.
 const SIDE: u32 = 32;
@@ -129,7 +130,7 @@ fn on_line(tile: &EntityRef<'_>, line: u32) -> Vec<(u32, DVec3)> {
 }
 
 /// How two frames of one scene differ.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Difference {
     /// Pixels that meet something in one of them.
     pub hits: usize,
@@ -139,6 +140,7 @@ pub struct Difference {
     ///
     /// Along a ray that grazes it, a surface's distance says little; across, cos θ |Δt|, no more than the ray's own error
     /// remains.
+    #[serde(rename = "worst_relative_error")]
     pub worst: f64,
 }
 

@@ -16,6 +16,7 @@ use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use edit::has_children;
 use glam::{DQuat, DVec3};
+use serde::Serialize;
 use std::fmt;
 
 /// Pixels of a frame that is swept.
@@ -36,7 +37,7 @@ const ANGLES: [f64; 16] =
 const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 257], [257, 1], [1, 65_536], [65_536, 1], [33, 65]];
 
 /// One thing that was done to a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// What was done.
     pub done: String,
@@ -46,6 +47,8 @@ pub struct Line {
     pub came: String,
     /// Whether that is what is asked.
     pub held: bool,
+    /// The same in numbers, where hits are compared.
+    pub difference: Option<Difference>,
 }
 
 impl fmt::Display for Line {
@@ -100,7 +103,13 @@ fn scaled(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame, k: i32) -> R
         _ => format!("{hits} hits differ"),
     });
     let held = came == "every bit the same";
-    Ok(Line { done: format!("scaled by 2^{k}, lights by 4^{k}"), asked: "every bit the same".into(), came, held })
+    Ok(Line {
+        done: format!("scaled by 2^{k}, lights by 4^{k}"),
+        asked: "every bit the same".into(),
+        came,
+        held,
+        difference: None,
+    })
 }
 
 /// All powers in one line, or the first that does not hold.
@@ -113,19 +122,21 @@ fn all_scales(lines: Vec<Line>) -> Line {
             asked: "every bit the same".into(),
             came: format!("{count} scales, every bit the same"),
             held: true,
+            difference: None,
         },
     }
 }
 
 /// What is asked where nothing but rounding changed.
 fn nearly(done: String, plain: &Frame, other: &Frame) -> Line {
-    let Difference { hits, changed_hands, worst } = difference(plain, other);
+    let found = difference(plain, other);
+    let Difference { hits, changed_hands, worst } = found;
     let held = worst <= ACROSS && changed_hands * ONE_IN <= hits.max(ONE_IN);
     let came = match hits {
         0 => "nothing is met, before or after".into(),
         _ => format!("off by {worst:.1e} t; {changed_hands} of {hits} changed hands"),
     };
-    Line { done, asked: format!("{ACROSS:.0e} t, 1 in {ONE_IN}"), came, held }
+    Line { done, asked: format!("{ACROSS:.0e} t, 1 in {ONE_IN}"), came, held, difference: Some(found) }
 }
 
 fn moved(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame) -> Result<Vec<Line>> {
@@ -149,7 +160,7 @@ fn moved(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame) -> Result<Vec
         let differ = frame.film.difference(&on_grid.film);
         let held = differ.is_none() && frame.met == on_grid.met;
         let came = differ.unwrap_or_else(|| if held { "every bit the same" } else { "hits differ" }.into());
-        lines.push(Line { done, asked: "every bit the same".into(), came, held });
+        lines.push(Line { done, asked: "every bit the same".into(), came, held, difference: None });
     }
     for distance in [1e2, 1e4, 1e6] {
         let mut scene = make();
@@ -198,7 +209,7 @@ fn angles(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Vec<Line>> {
             }
         };
         let asked = "refused by name, or in order".into();
-        lines.push(Line { done: format!("field of view {degrees} degrees"), asked, came, held });
+        lines.push(Line { done: format!("field of view {degrees} degrees"), asked, came, held, difference: None });
     }
     Ok(lines)
 }
@@ -221,12 +232,12 @@ fn sized(make: &dyn Fn() -> World, offer: &[Stage], size: [u32; 2], watch: &dyn 
         Ok(rendered) => rendered.film,
         Err(Error::Refusal(refusal)) => {
             let held = refusal.field == "fov" && size[1] > SIZE[1];
-            return Ok(Line { done, asked, came: format!("refused: {}", refusal.field), held });
+            return Ok(Line { done, asked, came: format!("refused: {}", refusal.field), held, difference: None });
         }
         Err(error) => return Err(error),
     };
     let counts = || film.tiles.iter().flat_map(|tile| tile.count.iter());
     let (pixels, rejected) = (counts().count() as u64, film.rejected().0);
     let held = counts().all(|&count| count == 1) && rejected == 0 && pixels == u64::from(width) * u64::from(height);
-    Ok(Line { done, asked, came: format!("{pixels} samples, {rejected} rejected"), held })
+    Ok(Line { done, asked, came: format!("{pixels} samples, {rejected} rejected"), held, difference: None })
 }
