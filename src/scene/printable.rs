@@ -3,6 +3,9 @@ use std::path::Path;
 /// The most letters of a path that a message shows.
 const LONGEST_PATH: usize = 160;
 
+/// The most letters of a message.
+const LONGEST_MESSAGE: usize = 2000;
+
 /// Text from a file or a command line as a message may show it: on one line, with nothing that a terminal would obey or
 /// that changes how other letters are shown, and at most so many letters of it, the middle of a longer one left out.
 pub fn printable(text: &str, most: usize) -> String {
@@ -20,6 +23,11 @@ pub fn printable(text: &str, most: usize) -> String {
 /// A path as a message may show it.
 pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy(), LONGEST_PATH)
+}
+
+/// The last thing that a program says of an error, whatever went into it.
+pub fn printable_message(error: &impl std::fmt::Display) -> String {
+    printable(&error.to_string(), LONGEST_MESSAGE)
 }
 
 fn escaped(letters: impl Iterator<Item = char>) -> String {
