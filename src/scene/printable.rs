@@ -34,7 +34,7 @@ fn escaped(letters: impl Iterator<Item = char>) -> String {
     let mut line = String::new();
     for letter in letters {
         if letter.is_control() || is_invisible(letter) {
-            line.extend(letter.escape_unicode());
+            line.extend(letter.escape_default());
         } else {
             line.push(letter);
         }
@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn what_a_terminal_would_obey_is_escaped() {
         let text = "a\u{1b}[2Jb\nc\u{7}\u{9b}31m";
-        assert_eq!(printable(text, 80), r"a\u{1b}[2Jb\u{a}c\u{7}\u{9b}31m");
+        assert_eq!(printable(text, 80), r"a\u{1b}[2Jb\nc\u{7}\u{9b}31m");
         for letter in ['\u{200e}', '\u{200f}', '\u{61c}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}', '\u{7f}'] {
             assert_eq!(printable(&letter.to_string(), 80), letter.escape_unicode().to_string());
         }

@@ -110,7 +110,7 @@ fn text_of_a_file_never_speaks_to_the_terminal() {
         one_line(&said);
         assert!(!said.contains('\u{202e}') && said.contains(r"\u{"), "{said}");
     }
-    fs::write(&path, "[(name: \"a\u{202e}b\", perspective_camera: ()), (name: \"\u{2066}\", sphere: ())]")
+    fs::write(&path, "[(name: \"a\u{202e}b\", perspective_camera: ()), (name: \"\u{2066}\", sphere: (), matte: ())]")
         .expect("written");
     let plan = typed(&["plan", &path]).expect("planned");
     assert!(!plan.contains(['\u{202e}', '\u{2066}']) && plan.contains(r"\u{2066}"), "{plan}");
