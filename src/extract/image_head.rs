@@ -43,7 +43,8 @@ pub fn image_head(reader: impl BufRead + Seek, format: ImageFormat, length: u64)
             let least = match format {
                 // Every line of a Radiance file begins with four bytes.
                 ImageFormat::Hdr => 4 * head.height,
-                _ => head.pixels() * u64::from(decoder.original_color_type().bits_per_pixel()) / 8 / DEFLATE,
+                // A pixel of a PNG has one bit at least.
+                _ => head.pixels() / 8 / DEFLATE,
             };
             check_length(&head, least, length)?;
             head

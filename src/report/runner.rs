@@ -3,11 +3,11 @@
 use super::interval::{Interval, LEVEL, mean_of};
 use super::ladder::Ladder;
 use super::run::{Run, Shelf, Times, numbers};
-use crate::extract::camera_entity;
+use crate::extract::{ImageShape, camera_entity};
 use crate::measure::image_error::Numbers;
-use crate::plan::Stage;
+use crate::plan::{Stage, Table};
 use crate::render::{Execution, Lap, Rendered, Watch, render};
-use crate::scene::{Sampler, Sampling, Statistics};
+use crate::scene::{Sampler, Sampling, Statistics, check_memory};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
@@ -110,6 +110,7 @@ pub fn run_all(
     shelf: &Shelf,
     watch: &dyn Progress,
 ) -> Result<Runs> {
+    check_images_fit(variants, ladder)?;
     let execution = Execution { threads: Some(threads), ..Execution::default() };
     let references =
         (0..variants.len())
@@ -136,6 +137,20 @@ pub fn run_all(
     let stages = variants.iter().map(|variant| stages(variant, &execution, watch)).collect::<Result<Vec<_>>>()?;
     let timers = variants.first().map(|variant| timers(variant, &execution, watch)).transpose()?.flatten();
     Ok(Runs { references, levels, stages, timers })
+}
+
+/// All images of a report are in memory together at its end.
+fn check_images_fit(variants: &[Variant<'_>], ladder: &Ladder) -> Result {
+    let Some(variant) = variants.first() else { return Ok(()) };
+    let ImageShape { width, height } = ImageShape::extract(&variant.world(variant.sampling)?)?;
+    let references = variants.iter().enumerate().filter(|(own, variant)| variant.reference == *own).count();
+    let runs = variants.len() as u64 * ladder.samples.len() as u64 * u64::from(ladder.seeds);
+    let images = references as u64 * u64::from(ladder.pieces) + runs;
+    let pixels = u64::from(width) * u64::from(height);
+    check_memory(images * pixels * size_of::<[f64; 3]>() as u64).map_err(|too_little| {
+        let what = format!("its {images} images of {width} × {height} pixels");
+        Error::Usage(format!("cannot make this report: to keep {what} {too_little}; a smaller --size may fit"))
+    })
 }
 
 /// The pieces of a variant's reference: the same scene and filter with independent samples, on all cores.

@@ -25,7 +25,7 @@ impl TooLittleMemory {
 
 impl fmt::Display for TooLittleMemory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "needs {}, but {} are free", in_words(self.needed), in_words(self.usable()))
+        write!(f, "needs {}, and {} are free", in_words(self.needed), in_words(self.usable()))
     }
 }
 
@@ -97,7 +97,7 @@ mod tests {
     fn an_eighth_of_what_is_free_stays_free() {
         assert_eq!(within(7 << 30, 8 << 30), Ok(()));
         let refused = within((7 << 30) + 1, 8 << 30).expect_err("refused");
-        assert_eq!(refused.to_string(), "needs 7.0 GiB, but 7.0 GiB are free");
+        assert_eq!(refused.to_string(), "needs 7.0 GiB, and 7.0 GiB are free");
         assert_eq!(check_memory(SMALL - 1), Ok(()));
     }
 

@@ -3,6 +3,9 @@ use std::path::Path;
 /// The most letters of a path that a message shows.
 const LONGEST_PATH: usize = 160;
 
+/// The most letters of a message.
+const LONGEST_MESSAGE: usize = 2000;
+
 /// Text from a file or a command line as a message may show it: on one line, with nothing that a terminal would obey or
 /// that changes how other letters are shown, and at most so many letters of it, the middle of a longer one left out.
 pub fn printable(text: &str, most: usize) -> String {
@@ -22,11 +25,16 @@ pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy(), LONGEST_PATH)
 }
 
+/// The last thing that a program says of an error, whatever went into it.
+pub fn printable_message(error: &impl std::fmt::Display) -> String {
+    printable(&error.to_string(), LONGEST_MESSAGE)
+}
+
 fn escaped(letters: impl Iterator<Item = char>) -> String {
     let mut line = String::new();
     for letter in letters {
         if letter.is_control() || is_invisible(letter) {
-            line.extend(letter.escape_unicode());
+            line.extend(letter.escape_default());
         } else {
             line.push(letter);
         }
@@ -49,7 +57,7 @@ mod tests {
     #[test]
     fn what_a_terminal_would_obey_is_escaped() {
         let text = "a\u{1b}[2Jb\nc\u{7}\u{9b}31m";
-        assert_eq!(printable(text, 80), r"a\u{1b}[2Jb\u{a}c\u{7}\u{9b}31m");
+        assert_eq!(printable(text, 80), r"a\u{1b}[2Jb\nc\u{7}\u{9b}31m");
         for letter in ['\u{200e}', '\u{200f}', '\u{61c}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}', '\u{7f}'] {
             assert_eq!(printable(&letter.to_string(), 80), letter.escape_unicode().to_string());
         }

@@ -85,7 +85,7 @@ pub const TEXTURES: &[Case] = &[
     ("an image of another kind", &["\"ball\"", "file is \"Cargo.toml\"", ".png, .hdr or .exr"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = "Cargo.toml".into());
     }),
-    ("a file with a long name", &["\"ball\"", "file is …", "there is no file …"], |w| {
+    ("a file with a long name", &["\"ball\"", "file is \"long/", "there is no file long/", "…"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = format!("{}card.png", "long/".repeat(200)));
     }),
     ("an image too bright for a surface", &["\"ball\"", EVENING, "other texels", "from 0 to 1"], |w| {
