@@ -23,6 +23,7 @@ mod options;
 mod plan;
 mod planted;
 mod preflight;
+mod progress;
 mod refused;
 mod render;
 mod report;
@@ -35,6 +36,7 @@ mod trace;
 mod watch;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
+pub use progress::Progress;
 pub use report::has_report;
 
 use crate::chapter::Chapter;
