@@ -1,4 +1,5 @@
 use super::arguments::ExportScene;
+use super::called::{called, quoted};
 use super::find::is_scene_file;
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
@@ -66,11 +67,11 @@ fn name_images_from(world: &mut World, file: &Path) {
 /// The comment at the head of a file: what it is, and how it is used.
 fn head(file: &str) -> String {
     let stem = Path::new(file).file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
-    let file: String = file.chars().filter(|letter| !letter.is_control()).collect();
+    let (file, called) = (quoted(file), called(""));
     format!(
         "// A scene for pinhole: a list of entities, and of each what it is made of. What is left out has its default.\n\
-         // cargo run --release -- render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\
-         // cargo run --release -- render {file} --watch    renders it again at every save\n\
-         // cargo run --release -- plan {file}              says which stages it needs, and why\n"
+         // {called} render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\
+         // {called} render {file} --watch    renders it again at every save\n\
+         // {called} plan {file}              says which stages it needs, and why\n"
     )
 }

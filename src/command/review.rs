@@ -1,4 +1,5 @@
 use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
+use super::called::called;
 use super::find;
 use crate::chapter::Chapter;
 use crate::film::write_whole;
@@ -7,9 +8,6 @@ use crate::scene::Resolution;
 use crate::{Error, Result};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// What a reader types before a command.
-const TYPED: &str = "cargo run --release --";
 
 /// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
 pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, out: &mut dyn Write) -> Result {
@@ -50,8 +48,8 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, out: &mut 
     };
     let intro = "Before is what is kept; now is what the tests computed when they last ran.";
     write_page(asked, &page(&heading, intro, &compared)?, out)?;
-    writeln!(out, "to keep      {TYPED} review accept CHAPTER   (or all)")?;
-    writeln!(out, "to go back   {TYPED} review reject CHAPTER   (or all)")?;
+    writeln!(out, "to keep      {}   (or all)", called("review accept CHAPTER"))?;
+    writeln!(out, "to go back   {}   (or all)", called("review reject CHAPTER"))?;
     Ok(())
 }
 
@@ -70,12 +68,12 @@ fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
     let title = chapters.iter().find(|chapter| chapter.name == name).map_or("", |chapter| chapter.title);
     let (before, now) = (Snapshots::kept(&pending.folder), Snapshots::pending(&pending.folder));
     let mut commands = vec![
-        ("to keep what is new", format!("{TYPED} review accept {name}")),
-        ("to throw it away", format!("{TYPED} review reject {name}")),
+        ("to keep what is new", called(&format!("review accept {name}"))),
+        ("to throw it away", called(&format!("review reject {name}"))),
     ];
     if let Ok(difference) = compare_pictures(&before.picture, &now.picture).as_ref() {
         let ([x, y], Resolution { width, height }) = (difference.worst, SNAPSHOT_SIZE);
-        let command = format!("{TYPED} trace {name} --pixel {x},{y} --size {width}x{height}");
+        let command = called(&format!("trace {name} --pixel {x},{y} --size {width}x{height}"));
         commands.push(("to follow the worst pixel", command));
     }
     Compared { name: name.clone(), title: title.into(), before, now, commands }

@@ -11,7 +11,7 @@ use std::path::Path;
 pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result {
     let name = chapter.name;
     let Some(attempt) = chapter.exercise else {
-        let said = format!("{name} has no exercise to check; `cargo run --release -- check` lists those that have one");
+        let said = format!("{name} has no exercise to check; `check` without a chapter lists those that have one");
         return Err(Error::Usage(said));
     };
     let (mut progress, remark) = Progress::read(file);
@@ -26,8 +26,8 @@ pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result 
     report.print(tries.wrong as usize, out)?;
     let number = name.split('_').next().unwrap_or(name);
     match report.outcome {
-        Outcome::Right(_) => writeln!(out, "next: cargo run --release -- check shows what is left")?,
-        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?,
+        Outcome::Right(_) => writeln!(out, "next: `check` without a chapter shows what is left")?,
+        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
     }
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
@@ -58,10 +58,7 @@ pub fn list_exercises(chapters: &[Chapter], file: &Path, out: &mut dyn Write) ->
         };
         writeln!(out, "  {:<22} {:<24} {state}", chapter.name, attempt.function())?;
     }
-    writeln!(
-        out,
-        "each lies in chapters/<chapter>/exercise.rs; cargo run --release -- check 5 tries that of chapter 05"
-    )?;
+    writeln!(out, "each lies in chapters/<chapter>/exercise.rs; `check 5` tries that of chapter 05")?;
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
     }

@@ -74,7 +74,7 @@ fn round(value: &mut Value) {
 pub fn kept(chapter: &str) -> Result<Report> {
     let short = place(chapter);
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(&short));
-    let make = format!("cargo run --release -- report {chapter} --write");
+    let make = format!("report {chapter} --write");
     let text = text.map_err(|_| Error::Usage(format!("no report of {chapter} is kept; `{make}` measures one")))?;
     let wrong = |_| Error::Usage(format!("{} is no report of this version; `{make}` measures one", short.display()));
     serde_json::from_str(&text).map_err(wrong)

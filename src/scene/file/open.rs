@@ -31,6 +31,20 @@ impl SceneFile {
         Self::parse_bytes(path, bytes)
     }
 
+    /// A scene from what can be read to its end, such as standard input; files that it names lie in the current folder.
+    ///
+    /// Errors: as for a file.
+    pub fn read(name: &Path, from: impl Read) -> Result<Self, FileProblem> {
+        let mut bytes = Vec::new();
+        let read = from.take(LARGEST + 1).read_to_end(&mut bytes);
+        read.map_err(|refused| FileProblem::of(name, unreadable(&refused)))?;
+        if bytes.len() as u64 > LARGEST {
+            let what = format!("there are more than {LARGEST} bytes, but a scene file has at most that many");
+            return Err(FileProblem::of(name, what));
+        }
+        Self::parse_bytes(name, bytes)
+    }
+
     /// A scene from the bytes of a file.
     pub fn parse_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, FileProblem> {
         match String::from_utf8(bytes) {
