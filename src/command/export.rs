@@ -32,7 +32,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, out: &mut dyn Write) ->
     name_images_from(&mut world, file);
     let scene = note + &scene_text(&world)?;
     let shown = file.display();
-    if !is_scene_file(&shown.to_string()) {
+    if !is_scene_file(file) {
         return Err(Error::Usage(format!("cannot write {shown}: the name must end in .ron")));
     }
     if file.is_file() {

@@ -15,7 +15,7 @@ const FOREIGN: [&str; 14] =
 /// The chapter that a reader names: by its stem, its number, its name, or the folder that holds it.
 ///
 /// Errors: there is none, told with what comes nearest to it.
-pub fn chapter<'c>(chapters: &'c [Chapter], asked: impl AsRef<OsStr>) -> Result<&'c Chapter> {
+pub fn chapter(chapters: &[Chapter], asked: impl AsRef<OsStr>) -> Result<&Chapter> {
     let asked = asked.as_ref();
     known(chapters, asked).ok_or_else(|| Error::CommandLine(missing(chapters, asked)))
 }

@@ -39,15 +39,20 @@ impl Progress {
         Self { shown: Shown::Bar(bar) }
     }
 
-    /// A bar where standard error is a terminal; elsewhere a line at once that says `what` is rendered, and then a line
-    /// every tenth of the steps, or of the time where there is a limit to it.
-    pub fn of(what: &str, size: [u32; 2], steps: u64, limit: Option<Duration>) -> Self {
+    /// Says at once what is going to be rendered, where standard error is no terminal, which will show a bar.
+    pub fn announce(what: &str, width: u32, height: u32) {
+        if !stderr().is_terminal() {
+            say(&format!("rendering {what}: {width} × {height} pixels"));
+        }
+    }
+
+    /// A bar where standard error is a terminal; elsewhere a line every tenth of the steps, or of the time where there is a
+    /// limit to it.
+    pub fn of(what: &str, steps: u64, limit: Option<Duration>) -> Self {
         if stderr().is_terminal() {
             return Self::bar(steps);
         }
-        let lines = Lines::new(what, steps, limit);
-        say(&format!("rendering {what}: {} × {} pixels", size[0], size[1]));
-        Self { shown: Shown::Lines(lines) }
+        Self { shown: Shown::Lines(Lines::new(what, steps, limit)) }
     }
 
     /// So many steps more are done.

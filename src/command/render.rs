@@ -42,14 +42,17 @@ pub fn render_subject(
     validate(&scene).map_err(|refusal| placed(refusal.into()))?;
     check_requests(&scene, options, &targets, streams)?;
     let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
+    let watched = (!json && !options.quiet).then(|| subject.shown());
+    if let (Some(what), true) = (&watched, streams.waits) {
+        Progress::announce(what, render.film.width, render.film.height);
+    }
     let said = before_rendering(subject, &scene, options, &render, json, streams)?;
 
     let files = Files::new(targets, &scene, &render.plan);
-    let waiting = waiting(subject, options, &render, json, streams);
+    let waiting = waiting(watched.as_deref(), options, &render, streams);
     let outcome = if render.is_sampled() {
-        let says = !json && !options.quiet;
         Some(render_long(&mut render, &scene, options, &files, &waiting, &mut |note| {
-            if says { streams.note(note) } else { Ok(()) }
+            if json { Ok(()) } else { streams.note(note) }
         })?)
     } else {
         render_at_once(&mut render, &waiting, &files)?;
@@ -109,22 +112,13 @@ fn before_rendering(
 }
 
 /// What shows how far the render is.
-fn waiting(
-    subject: &Subject<'_>,
-    options: &RenderOptions,
-    render: &RenderUnderWay,
-    json: bool,
-    streams: &Streams<'_>,
-) -> Waiting {
+fn waiting(what: Option<&str>, options: &RenderOptions, render: &RenderUnderWay, streams: &Streams<'_>) -> Waiting {
     // Where samples are counted, their number is told later.
     let steps = if render.is_sampled() { 0 } else { render.film.tiles.len() as u64 };
-    let progress = match options.quiet || json {
-        true => Progress::hidden(),
-        false if streams.waits => {
-            let size = [render.film.width, render.film.height];
-            Progress::of(&find::shown(subject.name().as_ref()), size, steps, options.time)
-        }
-        false => Progress::bar(steps),
+    let progress = match what {
+        None => Progress::hidden(),
+        Some(what) if streams.waits => Progress::of(what, steps, options.time),
+        Some(_) => Progress::bar(steps),
     };
     Waiting::with(progress, steps)
 }

@@ -51,6 +51,14 @@ impl<'c> Subject<'c> {
         }
     }
 
+    /// The same as it is printed.
+    pub fn shown(&self) -> String {
+        match self.name() {
+            "-" => "the scene on standard input".into(),
+            name => find::shown(name.as_ref()),
+        }
+    }
+
     /// What its pictures are called.
     pub fn stem(&self) -> String {
         match self {

@@ -53,8 +53,8 @@ impl Summary<'_> {
         }
         lines.extend(self.slowest());
         lines.push(match stats.left_out.len() {
-            0 => format!("{} stages ran, all on offer; {} lists them", stats.stages.len(), self.plan),
-            left => format!("{} stages ran and {left} were left out; {} says why", stats.stages.len(), self.plan),
+            0 => format!("{} stages ran, all that are on offer: {} lists them", stats.stages.len(), self.plan),
+            left => format!("{} stages ran, {left} left out: {} says why", stats.stages.len(), self.plan),
         });
         lines.extend(self.ended());
         lines.extend(
@@ -83,9 +83,10 @@ impl Summary<'_> {
         }
         let mut stages: Vec<_> = self.stats.stages.iter().collect();
         stages.sort_by(|one, other| other.milliseconds.total_cmp(&one.milliseconds));
-        let share = |milliseconds: f64| 100.0 * milliseconds / all;
+        let percent = |milliseconds: f64| 100.0 * milliseconds / all;
+        let named = stages.iter().take(NAMED).map(|stage| (stage.stage, percent(stage.milliseconds)));
         let named =
-            stages.iter().take(NAMED).map(|stage| format!("{} {:.0} %", stage.stage, share(stage.milliseconds)));
+            named.filter(|(_, percent)| *percent >= 0.5).map(|(stage, percent)| format!("{stage} {percent:.0} %"));
         Some(format!("slowest stages: {}", named.collect::<Vec<_>>().join(", ")))
     }
 
@@ -224,7 +225,7 @@ mod tests {
             [
                 "out/05_pinhole.png and .exr: 480 × 270 pixels, 1 sample each, 244 thousand rays in 41 ms",
                 "slowest stages: Aim at lights 40 %, Classify 30 %, Turn rays into the world 20 %",
-                "5 stages ran and 1 were left out; pinhole plan 5 says why",
+                "5 stages ran, 1 left out: pinhole plan 5 says why",
                 "try next: pinhole trace 5 --pixel 1,1",
             ]
         );
