@@ -73,6 +73,8 @@ impl Chapter {
 pub struct Asked {
     /// Another number of pixels.
     pub resolution: Option<Resolution>,
+    /// Another number of pixels, which may be measured by the one that the scene has.
+    pub size: Option<Size>,
     /// A column to be painted.
     pub view: Option<String>,
     /// Whether stages are timed and counted.
@@ -85,6 +87,35 @@ pub struct Asked {
     pub error: Option<f64>,
     /// What else to keep of every pixel.
     pub layers: Option<Layers>,
+}
+
+/// How many pixels a reader asks for, outright or measured by what the scene has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// So many.
+    Pixels(Resolution),
+    /// So many from left to right; the scene's shape says how many from top to bottom.
+    Width(u32),
+    /// So many from top to bottom; the scene's shape says how many from left to right.
+    Height(u32),
+    /// So many for every hundred of the scene's, each way.
+    Percent(f64),
+}
+
+impl Size {
+    /// What it makes of the number of pixels that a scene has.
+    pub fn of(self, own: Resolution) -> Resolution {
+        let [width, height] = [own.width, own.height].map(f64::from);
+        let whole = |pixels: f64| (pixels.round() as u32).max(1);
+        match self {
+            Self::Pixels(resolution) => resolution,
+            Self::Width(asked) => Resolution { width: asked, height: whole(f64::from(asked) * height / width) },
+            Self::Height(asked) => Resolution { width: whole(f64::from(asked) * width / height), height: asked },
+            Self::Percent(percent) => {
+                Resolution { width: whole(width * percent / 100.0), height: whole(height * percent / 100.0) }
+            }
+        }
+    }
 }
 
 /// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
@@ -115,12 +146,21 @@ impl AskedSampling {
 }
 
 impl Asked {
+    /// Whether another number of pixels is asked for.
+    pub fn names_pixels(&self) -> bool {
+        self.resolution.is_some() || self.size.is_some()
+    }
+
     /// Puts what is asked onto a scene's camera, if it has one.
     pub fn put_on_camera(&self, world: &mut World) {
         let Ok(camera) = camera_entity(world) else { return };
         let mut camera = world.entity_mut(camera);
         if let Some(resolution) = self.resolution {
             camera.insert(resolution);
+        }
+        if let Some(size) = self.size {
+            let own = camera.get::<Resolution>().copied().unwrap_or_default();
+            camera.insert(size.of(own));
         }
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });

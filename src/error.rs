@@ -28,7 +28,13 @@ pub enum Error {
         /// What the system said.
         source: io::Error,
     },
-    /// The command line says something that the kit does not know.
+    /// The command line cannot be parsed, or asks for help.
+    #[error("{0}")]
+    Clap(Box<clap::Error>),
+    /// A word of the command line names nothing that there is.
+    #[error("{0}")]
+    CommandLine(String),
+    /// What was asked for cannot be done, or does not hold.
     #[error("{0}")]
     Usage(String),
     /// The reader stopped the render.

@@ -64,17 +64,18 @@ mod chapter;
 mod error;
 
 pub use attempt::{Attempt, StageWords};
-pub use chapter::{Asked, AskedSampling, Chapter};
+pub use chapter::{Asked, AskedSampling, Chapter, Size};
 pub use error::{Error, Result};
 
 /// What a chapter's `main` calls: reads the command line, renders the chapter or looks inside it.
 ///
-/// Errors: one sentence.
+/// A failure is printed in one sentence and ends the program with the status that [`command::status`] gives it.
+///
+/// Errors: none that comes back.
 pub fn run(chapter: Chapter) -> Result {
     command::stop_on_interrupt();
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    match command::run_example(&chapter, &arguments, &mut std::io::stdout().lock()) {
-        Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        result => result,
+    match command::run_example(&chapter) {
+        0 => Ok(()),
+        status => std::process::exit(i32::from(status)),
     }
 }

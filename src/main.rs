@@ -8,6 +8,5 @@ mod chapters;
 
 fn main() -> ExitCode {
     command::stop_on_interrupt();
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    command::conclude(command::run(&chapters::all(), &arguments, &mut std::io::stdout().lock()))
+    ExitCode::from(command::run_program(&chapters::all()))
 }

@@ -33,10 +33,11 @@ const ORDER: &[&str] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 6] = [
+const REEXPORTED: [(&str, &str); 7] = [
     ("Chapter", "chapter"),
     ("Asked", "chapter"),
     ("AskedSampling", "chapter"),
+    ("Size", "chapter"),
     ("Attempt", "attempt"),
     ("StageWords", "attempt"),
     ("run", "command"),

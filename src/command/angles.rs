@@ -1,6 +1,6 @@
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
-use crate::chapter::Chapter;
+use super::subject::Subject;
 use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
 use crate::plan::Table;
 use crate::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
@@ -8,18 +8,19 @@ use crate::{Error, Result};
 use serde_json::json;
 use std::io::Write;
 
-/// What a chapter's perspective camera sees, measured across each axis: a row is another way to ask for the same lens.
+/// What a scene's perspective camera sees, measured across each axis: a row is another way to ask for the same lens.
 ///
 /// Errors: a refused scene, or a camera without an angle.
-pub fn print_angles(chapter: &Chapter, options: &SceneOptions, format: Format, out: &mut dyn Write) -> Result {
-    let scene = chapter.world(&options.asked(false));
-    validate(&scene)?;
+pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Format, out: &mut dyn Write) -> Result {
+    let asked = options.asked(false);
+    let scene = subject.world(&asked);
+    validate(&scene).map_err(|refusal| subject.placed(refusal.into(), &asked))?;
     let camera = camera_entity(&scene)?;
     let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera) else {
         let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
         let told =
             if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
-        return Err(Error::Usage(format!("the camera of {} {told}", chapter.name)));
+        return Err(Error::Usage(format!("the camera of {} {told}", subject.name())));
     };
     let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
     let aspect = image.aspect();
@@ -32,12 +33,12 @@ pub fn print_angles(chapter: &Chapter, options: &SceneOptions, format: Format, o
             json!({ "axis": axis, "half_heights": half_heights, "tan_half_angle": tan_half_angle, "degrees": degrees })
         });
         let told = json!({
-            "scene": chapter.name, "width": image.width, "height": image.height, "aspect": aspect,
+            "scene": subject.name(), "width": image.width, "height": image.height, "aspect": aspect,
             "asked": { "axis": word(axis), "degrees": fov.0 }, "axes": axes,
         });
         return print_json(&told, out);
     }
-    writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", chapter.name, image.width, image.height)?;
+    writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", subject.name(), image.width, image.height)?;
     writeln!(out, "asked for: {}° across {}", fov.0, word(axis))?;
     writeln!(out, "{:<12}{:>14}{:>18}{:>13}", "across", "half heights", "tan(angle / 2)", "angle")?;
     for (name, reach, degrees) in rows {

@@ -1,37 +1,47 @@
+use super::called::called;
 use super::format::Format;
-use super::options::{RenderOptions, SamplingOptions, SceneOptions, pixel, resolution};
+use super::options::{RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size};
 use super::report_arguments::ReportErrors;
+use crate::chapter::Size;
 use crate::look::convention::Mistake;
 use crate::measure::extremes::Group;
-use crate::scene::{Resolution, TracePixel};
+use crate::scene::TracePixel;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// pinhole: a ray tracing book you can run
 #[derive(Parser)]
-#[command(
-    name = "pinhole",
-    version,
-    bin_name = "cargo run --release --",
-    after_help = "Without a command, the cover scene is rendered to out/cover.png and out/cover.exr.\n\n\
-    Things to try:\n  \
-    cargo run --release -- list\n  \
-    cargo run --release -- render 05_pinhole --size 960x540\n  \
-    cargo run --release -- render cover --view surface\n  \
-    cargo run --release -- plan 04_orthographic\n  \
-    cargo run --release -- trace cover --pixel 480,300\n  \
-    cargo run --release -- extremes sphere\n  \
-    cargo run --release -- sweep 05_pinhole\n  \
-    cargo run --release -- report 18 --quick\n  \
-    cargo run --release -- export 05_pinhole\n  \
-    cargo run --release -- check"
-)]
+#[command(name = "pinhole", version, styles = STYLES, max_term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
     /// Print tables for a person, or one JSON value for a program
     #[arg(long, global = true, value_enum, default_value_t, hide_possible_values = true, value_name = "text|json")]
     pub format: Format,
+}
+
+/// What stands below the commands: what happens without one, and commands to begin with.
+pub fn after_help() -> String {
+    let tries = [
+        "list",
+        "render 05_pinhole --size 960x540",
+        "render cover --view surface",
+        "plan 04_orthographic",
+        "trace cover --pixel 480,300",
+        "extremes sphere",
+        "sweep 05_pinhole",
+        "report 18 --quick",
+        "export 05_pinhole",
+        "check",
+    ];
+    let tries: Vec<String> = tries.iter().map(|words| format!("  {}", called(words))).collect();
+    format!(
+        "Without a command, the cover scene is rendered to out/cover.png and out/cover.exr; a chapter or a scene file alone \
+         is rendered too.\n\nThings to try:\n{}",
+        tries.join("\n")
+    )
 }
 
 #[derive(Subcommand)]
@@ -44,7 +54,7 @@ pub enum Command {
     Plan(PlanChapter),
     /// Print what would be said before rendering a chapter's scene or a scene file; without one, of scenes gone wrong
     Preflight(TryPreflight),
-    /// Print what a chapter's camera sees across each axis of the image, in degrees
+    /// Print what a scene's camera sees across each axis of the image, in degrees
     Angles(PlanChapter),
     /// Follow one pixel from raster to light, and print what every stage wrote for it
     Trace(TraceChapter),
@@ -66,12 +76,17 @@ pub enum Command {
     Figure(DrawFigure),
     /// Draw an image that a chapter reads from a file; without a name, list them
     Draw(DrawImage),
-    /// Print what to type in other programs to get a chapter's camera there, and how to come back
+    /// Print what to type in other programs to get a scene's camera there, and how to come back
     Conventions(CompareConventions),
     /// Show on a page what the tests found to differ from the kept snapshots; accept or reject it
     Review(ReviewSnapshots),
     /// Measure how far a picture is from another, both PNG or both EXR
     Compare(CompareImages),
+    /// Print a script that lets a shell complete this program's words
+    Completions {
+        /// The shell that reads it
+        shell: Shell,
+    },
 }
 
 #[derive(Args)]
@@ -139,7 +154,7 @@ pub struct CompareImages {
 #[derive(Args)]
 pub struct TryPreflight {
     /// A chapter or a scene file; without it, small scenes with something wrong
-    pub chapter: Option<String>,
+    pub chapter: Option<OsString>,
     #[command(flatten)]
     pub options: SceneOptions,
 }
@@ -176,7 +191,7 @@ pub struct TryExtremes {
 #[derive(Args)]
 pub struct SweepChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file (scene.ron)
-    pub chapter: String,
+    pub chapter: OsString,
 }
 
 #[derive(Args)]
@@ -196,11 +211,11 @@ pub struct CostOfChapter {
 
 #[derive(Args)]
 pub struct CompareConventions {
-    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
-    pub chapter: String,
-    /// How many pixels the image has
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
-    pub size: Option<Resolution>,
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
+    pub chapter: OsString,
+    /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
+    pub size: Option<Size>,
     /// Render what one sees who takes a word of another program for ours: mirrored, upside-down, backwards, too-narrow,
     /// too-wide or rolled
     #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
@@ -234,7 +249,7 @@ pub struct DrawImage {
 #[derive(Args)]
 pub struct ExportScene {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
-    pub chapter: String,
+    pub chapter: OsString,
     /// Where to write, ending in .ron; what is there stays (default: printed)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -244,8 +259,12 @@ pub struct ExportScene {
 
 #[derive(Args)]
 pub struct RenderChapter {
-    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
-    pub chapter: String,
+    /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); a scene file, ending in .ron; or - for one on
+    /// standard input
+    pub chapter: OsString,
+    /// Where to write, as with --output
+    #[arg(value_name = "OUT")]
+    pub to: Option<PathBuf>,
     /// Render the scene file again whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "stats")]
     pub watch: bool,
@@ -256,7 +275,7 @@ pub struct RenderChapter {
 #[derive(Args)]
 pub struct PlanChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
-    pub chapter: String,
+    pub chapter: OsString,
     #[command(flatten)]
     pub options: SceneOptions,
 }
@@ -264,7 +283,7 @@ pub struct PlanChapter {
 #[derive(Args)]
 pub struct TraceChapter {
     /// A chapter: its stem, its number or its name (05_pinhole, 5, pinhole); or a scene file, ending in .ron
-    pub chapter: String,
+    pub chapter: OsString,
     /// The pixel, counted from 0 at the top left corner
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub pixel: TracePixel,
@@ -276,4 +295,13 @@ pub struct TraceChapter {
     pub all: bool,
     #[command(flatten)]
     pub options: SceneOptions,
+}
+
+impl RenderChapter {
+    /// The options, with the file that was named without one.
+    pub fn options(&self) -> RenderOptions {
+        let mut options = self.options.clone();
+        options.output.extend(self.to.clone());
+        options
+    }
 }

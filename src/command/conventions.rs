@@ -1,9 +1,9 @@
 use super::arguments::CompareConventions;
-use super::find;
 use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::Waiting;
+use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
-use crate::extract::angle_of_tan_half;
+use crate::extract::{angle_of_tan_half, validate};
 use crate::film::{check_place, write_png};
 use crate::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
 use crate::render::{Execution, render};
@@ -13,27 +13,29 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
 
-/// A chapter's camera in the words of other programs, a picture of a mistake, or how exact the words are.
+/// A scene's camera in the words of other programs, a picture of a mistake, or how exact the words are.
 pub fn print_conventions(
     chapters: &[Chapter],
     asked: &CompareConventions,
     format: Format,
     out: &mut dyn Write,
 ) -> Result {
-    let chapter = find::chapter(chapters, &asked.chapter)?;
-    let scene = chapter.world(&Asked { resolution: asked.size, ..Asked::default() });
+    let subject = Subject::find(chapters, &asked.chapter)?;
+    let size = Asked { size: asked.size, ..Asked::default() };
+    let scene = subject.world(&size);
+    validate(&scene).map_err(|refusal| subject.placed(refusal.into(), &size))?;
     match (asked.mistake, asked.round_trips) {
-        (Some(mistake), _) => render_mistake(chapter, scene, mistake, asked, format, out),
+        (Some(mistake), _) => render_mistake(&subject, scene, mistake, asked, format, out),
         (None, Some(cameras)) => print_round_trips(cameras, format, out),
-        (None, None) => print_lines(chapter, &PlacedCamera::of(&scene)?, format, out),
+        (None, None) => print_lines(&subject, &PlacedCamera::of(&scene)?, format, out),
     }
 }
 
-fn print_lines(chapter: &Chapter, camera: &PlacedCamera, format: Format, out: &mut dyn Write) -> Result {
+fn print_lines(subject: &Subject<'_>, camera: &PlacedCamera, format: Format, out: &mut dyn Write) -> Result {
     if format.is_json() {
-        return print_json(&as_json(chapter.name, camera), out);
+        return print_json(&as_json(subject.name(), camera), out);
     }
-    writeln!(out, "camera of {}, {} x {} pixels", chapter.name, camera.image.width, camera.image.height)?;
+    writeln!(out, "camera of {}, {} x {} pixels", subject.name(), camera.image.width, camera.image.height)?;
     for program in Program::ALL {
         writeln!(out, "\n{program}")?;
         for line in lines(program, camera) {
@@ -81,23 +83,23 @@ fn print_round_trips(cameras: u64, format: Format, out: &mut dyn Write) -> Resul
     Ok(())
 }
 
-/// The picture of a chapter's scene after a mistake.
+/// The picture of a scene after a mistake.
 fn render_mistake(
-    chapter: &Chapter,
+    subject: &Subject<'_>,
     mut scene: World,
     mistake: Mistake,
     asked: &CompareConventions,
     format: Format,
     out: &mut dyn Write,
 ) -> Result {
-    let in_out = || Path::new("out").join(format!("{}_{mistake}.png", chapter.name));
+    let in_out = || Path::new("out").join(format!("{}_{mistake}.png", subject.stem()));
     let file = asked.output.clone().unwrap_or_else(in_out);
-    if file.extension().is_none_or(|ending| ending != "png") {
-        return Err(Error::Usage(format!("cannot write {}: the name must end in .png", file.display())));
+    if file.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("png")) {
+        return Err(Error::CommandLine(format!("cannot write {}: the name must end in .png", file.display())));
     }
     check_place(&file)?;
     mistake.commit(&mut scene)?;
-    let rendered = render(&scene, &chapter.stages(), &Execution::default(), &Waiting::new(0, true))?;
+    let rendered = render(&scene, &subject.stages(), &Execution::default(), &Waiting::new(0, true))?;
     write_png(&rendered.film, rendered.curve(), &file)?;
     if format.is_json() {
         let (mistake, made_by) = (mistake.to_string(), mistake.made_by());

@@ -1,4 +1,5 @@
 use super::arguments::ExportScene;
+use super::called::{called, quoted};
 use super::export_images::{carry_images, name_images_whole};
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
@@ -41,11 +42,11 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
         return Ok(());
     };
     let shown = file.to_string_lossy();
-    let refused = |what: &str| Err(Error::Usage(format!("cannot write {}: {what}", shown.escape_debug())));
+    let refused = |what: &str| Err(Error::CommandLine(format!("cannot write {}: {what}", shown.escape_debug())));
     if shown.contains(char::is_control) {
         return refused("the file's first lines name it, so its path must be without control characters");
     }
-    if !is_scene_file(&shown) {
+    if !is_scene_file(file) {
         return refused("the name must end in .ron");
     }
     if file.is_file() {
@@ -70,10 +71,11 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
 /// The comment at the head of a file: what it is, and how it is used.
 fn head(file: &str) -> String {
     let stem = Path::new(file).file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
+    let (file, called) = (quoted(file), called(""));
     format!(
         "// A scene for pinhole: a list of entities, and of each what it is made of. What is left out has its default.\n\
-         // cargo run --release -- render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\
-         // cargo run --release -- render {file} --watch    renders it again at every save\n\
-         // cargo run --release -- plan {file}              says which stages it needs, and why\n"
+         // {called} render {file}            renders it to out/{stem}.png and out/{stem}.exr\n\
+         // {called} render {file} --watch    renders it again at every save\n\
+         // {called} plan {file}              says which stages it needs, and why\n"
     )
 }

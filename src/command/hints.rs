@@ -1,17 +1,30 @@
+use super::called::{called, is_example, quoted};
+use super::options::RenderOptions;
 use super::subject::Subject;
-use crate::plan::view_names;
-use std::fmt::Write;
 
-/// Three commands that a reader may type next, each of which works as it stands.
-pub fn try_next(subject: &Subject<'_>, width: u32, height: u32) -> String {
-    let name = subject.name();
-    let name = if name.contains(' ') { format!("\"{name}\"") } else { name.to_string() };
-    let offer = subject.offer();
-    let views = view_names(&offer);
-    let view = ["surface", "hit", "world", "ndc", "raster"].into_iter().find(|word| views.contains(word));
-    let mut hints = String::from("try next:\n");
-    let _ = writeln!(hints, "  cargo run --release -- trace {name} --pixel {},{}", width / 2, height * 3 / 5);
-    let _ = writeln!(hints, "  cargo run --release -- render {name} --view {}", view.unwrap_or("raster"));
-    let _ = writeln!(hints, "  cargo run --release -- plan {name}");
-    hints
+/// The command that says which stages a render's scene needs, and why the others were left out.
+pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
+    match name(subject) {
+        Some(name) if !is_example() => called(&format!("plan {name}{}", options.scene.typed())),
+        _ => "-v".into(),
+    }
+}
+
+/// A command to go on with, which works as it stands: one pixel of what was rendered, in numbers.
+pub fn next(subject: &Subject<'_>, options: &RenderOptions, width: u32, height: u32) -> Option<String> {
+    let name = name(subject)?;
+    let pixel = format!("{},{}", width / 2, height * 3 / 5);
+    let size = if options.scene.names_pixels() { format!(" --size {width}x{height}") } else { String::new() };
+    if is_example() {
+        return Some(called(&format!("--trace {pixel}{size}")));
+    }
+    Some(called(&format!("trace {name} --pixel {pixel}{size}")))
+}
+
+/// What names a subject again, for a shell; nothing does for what came through a pipe.
+fn name(subject: &Subject<'_>) -> Option<String> {
+    match subject.name() {
+        "-" => None,
+        name => Some(quoted(name)),
+    }
 }

@@ -1,6 +1,6 @@
+use super::progress::Progress;
 use crate::film::writes_under_way;
 use crate::render::Watch;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -78,9 +78,9 @@ pub fn stop_flag() -> Arc<AtomicBool> {
     Arc::clone(&INTERRUPTED)
 }
 
-/// Someone at a terminal: sees a bar, and may press Ctrl-C.
+/// Someone who waits: sees how far a render is, and may press Ctrl-C.
 pub struct Waiting {
-    bar: ProgressBar,
+    progress: Progress,
     counts_samples: bool,
 }
 
@@ -88,36 +88,36 @@ impl Waiting {
     /// A bar of this many tiles on standard error, or, where that is 0, of samples whose number is told later; none where
     /// standard error is not a terminal or `quiet` is set.
     pub fn new(tiles: u64, quiet: bool) -> Self {
-        let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(tiles) };
-        if let Ok(style) = ProgressStyle::with_template("rendering {bar:40} {percent:>3} %  {msg}{eta} left") {
-            bar.set_style(style);
-        }
-        Self { bar, counts_samples: tiles == 0 }
+        Self::with(if quiet { Progress::hidden() } else { Progress::bar(tiles) }, tiles)
+    }
+
+    /// The same with another way to show how far it is.
+    pub fn with(progress: Progress, tiles: u64) -> Self {
+        Self { progress, counts_samples: tiles == 0 }
     }
 
     /// Takes the bar off the screen.
     pub fn done(&self) {
-        self.bar.finish_and_clear();
+        self.progress.done();
     }
 }
 
 impl Watch for Waiting {
     fn tile_done(&self) {
         if !self.counts_samples {
-            self.bar.inc(1);
+            self.progress.advance(1);
         }
     }
 
     fn traced(&self, samples: u64) {
         if self.counts_samples {
-            self.bar.inc(samples);
+            self.progress.advance(samples);
         }
     }
 
     fn expect(&self, samples: u64, done: u32, of: u32) {
         if self.counts_samples {
-            self.bar.set_length(samples);
-            self.bar.set_message(format!("{done} of {of} samples, "));
+            self.progress.expect(samples, done, of);
         }
     }
 

@@ -10,8 +10,9 @@ pub fn list(chapters: &[Chapter], format: Format, out: &mut dyn Write) -> Result
         let told = |chapter: &Chapter| json!({ "name": chapter.name, "title": chapter.title });
         return print_json(&json!({ "chapters": chapters.iter().map(told).collect::<Vec<Value>>() }), out);
     }
+    let longest = chapters.iter().map(|chapter| chapter.name.len()).max().unwrap_or(0);
     for chapter in chapters {
-        writeln!(out, "{:<18} {}", chapter.name, chapter.title)?;
+        writeln!(out, "{:<longest$}  {}", chapter.name, chapter.title)?;
     }
     Ok(())
 }

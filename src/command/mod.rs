@@ -4,9 +4,11 @@
 
 mod angles;
 mod arguments;
+mod called;
 mod check;
 mod closed_forms;
 mod compare;
+mod completions;
 mod conventions;
 mod cost;
 mod draw;
@@ -14,6 +16,7 @@ mod export;
 mod export_images;
 mod extremes;
 mod figure;
+mod files;
 mod find;
 mod format;
 mod hints;
@@ -21,56 +24,102 @@ mod interrupt;
 mod list;
 mod long_render;
 mod options;
+mod parse;
 mod plan;
 mod planted;
 mod preflight;
-mod refused;
+mod progress;
 mod render;
 mod report;
 mod report_arguments;
 mod review;
 mod span;
+mod streams;
 mod subject;
+mod summary;
 mod sweep;
 mod trace;
+mod warnings;
 mod watch;
 
 pub use interrupt::{Waiting, stop_on_interrupt};
+pub use progress::Progress;
 pub use report::has_report;
 
 use crate::chapter::Chapter;
 use crate::{Error, Result};
 use arguments::{Arguments, Command};
-use clap::Parser;
-use clap::error::ErrorKind;
-use format::Format;
+use clap::CommandFactory;
 use options::ExampleArguments;
-use std::io::Write;
-use std::process::ExitCode;
+use parse::{parsed, program, with_render};
+use std::ffi::{OsStr, OsString};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+use streams::Streams;
 use subject::Subject;
 
-/// Runs one command line, without the program's name, and writes what a reader sees to `out`.
+/// Runs one command line, without the program's name, and writes what a reader sees to `out`; notes and warnings go to
+/// standard error.
 ///
-/// Errors: one sentence; nothing of a failed command is left on disk.
-pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> Result {
-    let words = std::iter::once("pinhole").chain(arguments.iter().map(String::as_str));
-    let Some(arguments) = parsed::<Arguments>(words, out)? else { return Ok(()) };
-    let format = arguments.format;
-    match arguments.command {
-        None => render::render_cover(chapters, out),
+/// Errors: one sentence, or what clap says of words that it cannot parse; nothing of a failed command is left on disk.
+pub fn run(chapters: &[Chapter], arguments: &[impl AsRef<OsStr>], out: &mut dyn Write) -> Result {
+    let words: Vec<OsString> = arguments.iter().map(OsString::from).collect();
+    let mut streams = Streams { out, notes: &mut stderr(), waits: false, terminal: false };
+    match perform(chapters, &words, &mut streams) {
+        Err(Error::Clap(help)) if !help.use_stderr() => Ok(write!(streams.out, "{help}")?),
+        result => result,
+    }
+}
+
+/// Runs the command line that the program was started with, and gives the status that it ends with.
+pub fn run_program(chapters: &[Chapter]) -> u8 {
+    called::remember(None);
+    let words: Vec<OsString> = std::env::args_os().skip(1).collect();
+    status(with_standard_streams(|streams| perform(chapters, &words, streams)))
+}
+
+/// A chapter's example: renders it, or looks inside, as the command line asks; gives the status that it ends with.
+pub fn run_example(chapter: &Chapter) -> u8 {
+    called::remember(Some(chapter.name));
+    let words: Vec<OsString> = std::env::args_os().skip(1).collect();
+    status(with_standard_streams(|streams| {
+        let arguments = parsed::<ExampleArguments>(ExampleArguments::command(), &[], &words, streams.waits)?;
+        let subject = Subject::Chapter(chapter);
+        match arguments.trace {
+            Some(pixel) => {
+                let (sample, scene) = (arguments.sample, &arguments.options.scene);
+                trace::print_trace(&subject, pixel, sample, false, scene, arguments.format, streams.out)
+            }
+            None => render::render_subject(&subject, &arguments.options, arguments.format, streams),
+        }
+    }))
+}
+
+fn with_standard_streams(perform: impl FnOnce(&mut Streams<'_>) -> Result) -> Result {
+    let (mut out, mut notes) = (stdout().lock(), stderr());
+    let terminal = out.is_terminal();
+    perform(&mut Streams { out: &mut out, notes: &mut notes, waits: true, terminal })
+}
+
+fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) -> Result {
+    let words = with_render(chapters, words);
+    let Arguments { command, format } = parsed(program(), chapters, &words, streams.waits)?;
+    let out = &mut *streams.out;
+    match command {
+        None => render::render_cover(chapters, format, streams),
         Some(Command::Figure(asked)) => figure::draw_figure(chapters, &asked, format, out),
         Some(Command::Draw(asked)) => draw::draw_image(&asked, format, out),
         Some(Command::List) => list::list(chapters, format, out),
-        Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, out),
+        Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, format, streams),
         Some(Command::Render(asked)) => {
-            render::render_subject(&Subject::find(chapters, &asked.chapter)?, &asked.options, out)
+            let subject = Subject::find(chapters, &asked.chapter)?;
+            render::render_subject(&subject, &asked.options(), format, streams)
         }
         Some(Command::Plan(asked)) => {
             plan::print_plan(&Subject::find(chapters, &asked.chapter)?, &asked.options, format, out)
         }
         Some(Command::Preflight(asked)) => preflight::print_preflight(chapters, &asked, format, out),
         Some(Command::Angles(asked)) => {
-            angles::print_angles(find::chapter(chapters, &asked.chapter)?, &asked.options, format, out)
+            angles::print_angles(&Subject::find(chapters, &asked.chapter)?, &asked.options, format, out)
         }
         Some(Command::Trace(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?;
@@ -86,46 +135,25 @@ pub fn run(chapters: &[Chapter], arguments: &[String], out: &mut dyn Write) -> R
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),
         Some(Command::Compare(asked)) => compare::compare(&asked, format, out),
         Some(Command::Conventions(asked)) => conventions::print_conventions(chapters, &asked, format, out),
+        Some(Command::Completions { shell }) => completions::print_completions(shell, out),
     }
 }
 
-/// A chapter's example: renders it, or looks inside, as the command line asks.
-pub fn run_example(chapter: &Chapter, arguments: &[String], out: &mut dyn Write) -> Result {
-    let words = std::iter::once(chapter.name).chain(arguments.iter().map(String::as_str));
-    let Some(arguments) = parsed::<ExampleArguments>(words, out)? else { return Ok(()) };
-    match arguments.trace {
-        Some(pixel) => {
-            let (subject, options) = (Subject::Chapter(chapter), &arguments.options.scene);
-            trace::print_trace(&subject, pixel, arguments.sample, false, options, Format::Text, out)
-        }
-        None => render::render_subject(&Subject::Chapter(chapter), &arguments.options, out),
-    }
-}
-
-/// Parses, or answers a call for help by itself.
-fn parsed<'a, P: Parser>(words: impl Iterator<Item = &'a str>, out: &mut dyn Write) -> Result<Option<P>> {
-    match P::try_parse_from(words) {
-        Ok(arguments) => Ok(Some(arguments)),
-        Err(answer) if matches!(answer.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
-            write!(out, "{answer}")?;
-            Ok(None)
-        }
-        Err(answer) => Err(Error::Usage(refused::sentence(&answer, &P::command()))),
-    }
-}
-
-/// What a program's `main` does with a command: prints a failure as one sentence, and takes a closed pipe for an end.
-pub fn conclude(result: Result) -> ExitCode {
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(Error::Print(broken)) if broken.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(stop @ (Error::Interrupted | Error::Stopped(_))) => {
-            let _ = writeln!(std::io::stderr(), "pinhole: {stop}");
-            ExitCode::from(130)
-        }
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "pinhole: {error}");
-            ExitCode::FAILURE
-        }
-    }
+/// Says how a command ended, and gives the status that the program ends with: 0 if all is well, and where the reader of
+/// a pipe has seen enough; 1 for a failure; 2 for a command line that makes no sense; 130 for a stop by Ctrl-C.
+pub fn status(result: Result) -> u8 {
+    let (error, status) = match result {
+        Ok(()) => return 0,
+        Err(Error::Print(broken)) if broken.kind() == ErrorKind::BrokenPipe => return 0,
+        Err(Error::Clap(answer)) => match answer.print() {
+            Ok(()) => return u8::try_from(answer.exit_code()).unwrap_or(2),
+            Err(broken) if broken.kind() == ErrorKind::BrokenPipe => return 0,
+            Err(refused) => (refused.into(), 1),
+        },
+        Err(stop @ (Error::Interrupted | Error::Stopped(_))) => (stop, 130),
+        Err(words @ Error::CommandLine(_)) => (words, 2),
+        Err(error) => (error, 1),
+    };
+    let _ = writeln!(stderr(), "pinhole: {error}");
+    status
 }

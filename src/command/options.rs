@@ -1,18 +1,27 @@
 //! The options that several commands share.
 
+use super::called::quoted;
+use super::format::Format;
 use super::span::span;
-use crate::chapter::{Asked, AskedSampling};
+use crate::chapter::{Asked, AskedSampling, Size};
 use crate::extract::MOST_SAMPLES;
 use crate::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
+use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser};
 use std::path::PathBuf;
 use std::time::Duration;
 
 #[derive(Args, Clone, Default)]
 pub struct SceneOptions {
-    /// How many pixels the image has
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = resolution)]
-    pub size: Option<Resolution>,
+    /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
+    pub size: Option<Size>,
+    /// How wide the image is, in pixels; the scene says how high, unless --height does
+    #[arg(long, value_name = "PIXELS", conflicts_with = "size", allow_hyphen_values = true, value_parser = side)]
+    pub width: Option<u32>,
+    /// How high the image is, in pixels; the scene says how wide, unless --width does
+    #[arg(long, value_name = "PIXELS", conflicts_with = "size", allow_hyphen_values = true, value_parser = side)]
+    pub height: Option<u32>,
     /// Paint this column instead of the picture (raster, ndc, screen, camera, world, hit, surface, light, …)
     #[arg(long, value_name = "COLUMN")]
     pub view: Option<String>,
@@ -28,9 +37,9 @@ pub struct SceneOptions {
 
 #[derive(Args, Clone, Default)]
 pub struct SamplingOptions {
-    /// Rays through each pixel (default: what the scene says, or one through its centre; 16 where another of the
-    /// options of sampling is given)
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = samples)]
+    /// Rays through each pixel, such as 64 or 4k (default: what the scene says, or one through its centre; 16 where
+    /// another of the options of sampling is given)
+    #[arg(short = 'n', long, alias = "spp", value_name = "N", allow_hyphen_values = true, value_parser = samples)]
     pub samples: Option<u32>,
     /// Another seed, other random numbers (default: what the scene says, or 0)
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
@@ -48,12 +57,13 @@ pub struct SamplingOptions {
 pub struct RenderOptions {
     #[command(flatten)]
     pub scene: SceneOptions,
-    /// How many workers render (default: as many as the machine has cores)
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
+    /// How many workers render at most (default: RAYON_NUM_THREADS, or as many as the machine has cores)
+    #[arg(short = 'j', long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
     pub threads: Option<u16>,
-    /// Where to write, ending in .png or .exr (default: both, in out/)
+    /// Where to write, ending in .png or .exr, or - for a PNG on standard output; may be given several times (default:
+    /// both kinds, in out/)
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub output: Vec<PathBuf>,
     /// Take samples for so long, such as 500ms, 10s or 2m
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub time: Option<Duration>,
@@ -63,20 +73,26 @@ pub struct RenderOptions {
     /// Write the picture and its checkpoint this often while samples are taken (default: for 5 % of the time at most)
     #[arg(long, value_name = "TIME", value_parser = span)]
     pub write_every: Option<Duration>,
-    /// Print time and rays of every stage as JSON, and nothing else
-    #[arg(long, conflicts_with = "quiet")]
+    /// The older way to say --format json
+    #[arg(long, hide = true, conflicts_with_all = ["quiet", "verbose"])]
     pub stats: bool,
-    /// Print nothing but where the picture is, and take no times
+    /// Print what every stage took, and why the others were left out
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub verbose: bool,
+    /// Print nothing but where the picture is and what to beware of, and take no times
     #[arg(short, long)]
     pub quiet: bool,
 }
 
-/// A chapter's example
+/// A chapter's example: renders its scene, or follows one pixel
 #[derive(Parser)]
-#[command(version)]
+#[command(version, styles = STYLES, max_term_width = 100)]
 pub struct ExampleArguments {
     #[command(flatten)]
     pub options: RenderOptions,
+    /// Print tables for a person, or one JSON value for a program
+    #[arg(long, value_enum, default_value_t, hide_possible_values = true, value_name = "text|json")]
+    pub format: Format,
     /// Follow one pixel from raster to light instead, and print what every stage wrote for it
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
     pub trace: Option<TracePixel>,
@@ -88,7 +104,8 @@ pub struct ExampleArguments {
 impl SceneOptions {
     pub fn asked(&self, statistics: bool) -> Asked {
         Asked {
-            resolution: self.size,
+            resolution: None,
+            size: self.pixels(),
             view: self.view.clone(),
             statistics,
             sampling: self.sampling.asked(),
@@ -96,6 +113,45 @@ impl SceneOptions {
             error: self.error,
             layers: self.layers.clone(),
         }
+    }
+}
+
+impl SceneOptions {
+    fn pixels(&self) -> Option<Size> {
+        match (self.width, self.height) {
+            (Some(width), Some(height)) => Some(Size::Pixels(Resolution { width, height })),
+            (Some(width), None) => Some(Size::Width(width)),
+            (None, Some(height)) => Some(Size::Height(height)),
+            (None, None) => self.size,
+        }
+    }
+
+    /// Whether another number of pixels is asked for.
+    pub fn names_pixels(&self) -> bool {
+        self.pixels().is_some()
+    }
+
+    /// What to type so that another command has the same stages to plan.
+    pub fn typed(&self) -> String {
+        let SamplingOptions { samples, seed, sampler, filter } = self.sampling;
+        let sampler = sampler.and_then(|own| word_of(own, &Sampler::ALL));
+        let filter = filter.and_then(|own| word_of(own, &Filter::ALL));
+        let layers = self.layers.as_ref().map(|layers| {
+            let words: Vec<&str> = layers.kinds.iter().map(|kind| kind.word()).collect();
+            words.join(",")
+        });
+        [
+            ("view", self.view.as_deref().map(quoted)),
+            ("samples", samples.map(|samples| samples.to_string())),
+            ("seed", seed.map(|seed| seed.to_string())),
+            ("sampler", sampler.map(String::from)),
+            ("filter", filter.map(String::from)),
+            ("error", self.error.map(|error| error.to_string())),
+            ("layers", layers),
+        ]
+        .into_iter()
+        .filter_map(|(name, value)| Some(format!(" --{name} {}", value?)))
+        .collect()
     }
 }
 
@@ -111,10 +167,43 @@ impl SamplingOptions {
     }
 }
 
+/// How the help is coloured, as cargo's is.
+pub const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
 pub fn resolution(text: &str) -> Result<Resolution, String> {
-    let (width, height) =
-        pair(text, 'x').ok_or("a size is two whole numbers of pixels with an x between, such as 960x540")?;
-    Ok(Resolution { width, height })
+    pixels(text).ok_or("a size is two whole numbers of pixels with an x between, such as 960x540".into())
+}
+
+/// A size as it is typed: `960x540`, `1080p`, `960` for a width, `50%`.
+pub fn size(text: &str) -> Result<Size, String> {
+    let refused = || {
+        "a size is two whole numbers of pixels with an x between, such as 960x540; 1080p; a width alone, such as 960; or \
+         a part, such as 50%"
+    };
+    let text = text.trim();
+    if let Some(part) = text.strip_suffix('%') {
+        let percent = part.trim_end().parse().ok().filter(|percent| *percent > 0.0 && *percent <= 1e6);
+        return percent.map(Size::Percent).ok_or(refused().into());
+    }
+    if let Some(height) = text.strip_suffix(['p', 'P']).and_then(|height| height.parse::<u32>().ok()) {
+        let width = (f64::from(height) * 16.0 / 9.0).round() as u32;
+        return Ok(Size::Pixels(Resolution { width, height }));
+    }
+    let alone = || text.parse().ok().map(Size::Width);
+    pixels(text).map(Size::Pixels).or_else(alone).ok_or(refused().into())
+}
+
+fn side(text: &str) -> Result<u32, String> {
+    text.trim().parse().map_err(|_| "a side of an image is a whole number of pixels, such as 960".into())
+}
+
+fn pixels(text: &str) -> Option<Resolution> {
+    let (width, height) = ['x', 'X', '×'].into_iter().find_map(|between| pair(text, between))?;
+    Some(Resolution { width, height })
 }
 
 pub fn pixel(text: &str) -> Result<TracePixel, String> {
@@ -127,9 +216,17 @@ pub fn workers(text: &str) -> Result<u16, String> {
     number.ok_or("a number of workers is a whole number from 1 to 1024".into())
 }
 
+/// A number of samples as it is typed: `64`, `4k` for 4000, or `1e3`.
 fn samples(text: &str) -> Result<u32, String> {
-    let number = text.trim().parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
-    number.ok_or(format!("a number of samples is a whole number from 1 to {MOST_SAMPLES}"))
+    let text = text.trim();
+    let number = match text.strip_suffix(['k', 'K']) {
+        Some(thousands) => thousands.parse::<f64>().map(|thousands| thousands * 1e3),
+        None => text.parse(),
+    };
+    let range = 1.0..=f64::from(MOST_SAMPLES);
+    let number = number.ok().filter(|number| range.contains(number) && number.fract() == 0.0);
+    let refused = || format!("a number of samples is a whole number from 1 to {MOST_SAMPLES}, such as 64 or 4k");
+    number.map(|number| number as u32).ok_or_else(refused)
 }
 
 fn seed(text: &str) -> Result<u64, String> {
@@ -144,7 +241,49 @@ fn one_of<T: Copy>(word: &str, kind: &str, all: &[(&str, T)]) -> Result<T, Strin
     })
 }
 
+fn word_of<T: PartialEq>(value: T, all: &[(&'static str, T)]) -> Option<&'static str> {
+    all.iter().find(|(_, own)| *own == value).map(|(word, _)| *word)
+}
+
 fn pair(text: &str, between: char) -> Option<(u32, u32)> {
     let (first, second) = text.split_once(between)?;
     Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_what_a_person_types() {
+        let own = Resolution { width: 480, height: 270 };
+        let of = |text: &str| size(text).map(|size| size.of(own)).map(|own| [own.width, own.height]);
+        for (text, expected) in [
+            ("960x540", [960, 540]),
+            ("1920×1080", [1920, 1080]),
+            ("1920 × 1080", [1920, 1080]),
+            ("8X4", [8, 4]),
+            ("1080p", [1920, 1080]),
+            ("96", [96, 54]),
+            ("50%", [240, 135]),
+            ("0.001 %", [1, 1]),
+            ("200%", [960, 540]),
+            ("0x5", [0, 5]),
+        ] {
+            assert_eq!(of(text), Ok(expected), "{text}");
+        }
+        for bad in ["", "x", "960x", "-1x5", "1.5x5", "99999999999x5", "0%", "-5%", "NaN%", "%", "p", "wide", "1e9%"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(Size::Height(54).of(own), Resolution { width: 96, height: 54 });
+        assert_eq!(Size::Width(1).of(Resolution { width: 0, height: 0 }), Resolution { width: 1, height: 1 });
+    }
+
+    #[test]
+    fn a_number_of_samples_may_be_told_in_thousands() {
+        assert_eq!(["1", "64", "1k", "4K", "1e3", "0.5k"].map(samples), [1, 64, 1000, 4000, 1000, 500].map(Ok));
+        for bad in ["0", "-1", "1.5", "k", "NaN", "inf", "1e30", "many", "1.0005k"] {
+            assert!(samples(bad).is_err(), "{bad}");
+        }
+    }
 }

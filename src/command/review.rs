@@ -1,4 +1,5 @@
 use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
+use super::called::called;
 use super::find;
 use super::format::{Format, print_json, shown};
 use crate::chapter::Chapter;
@@ -9,9 +10,6 @@ use crate::{Error, Result};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// What a reader types before a command.
-const TYPED: &str = "cargo run --release --";
 
 /// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
 pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
@@ -62,8 +60,8 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, format: Fo
         writeln!(out, "{}: {}", chapter.name, chapter.headline())?;
     }
     write_page(asked, &page, out)?;
-    writeln!(out, "to keep      {TYPED} review accept CHAPTER   (or all)")?;
-    writeln!(out, "to go back   {TYPED} review reject CHAPTER   (or all)")?;
+    writeln!(out, "to keep      {}   (or all)", called("review accept CHAPTER"))?;
+    writeln!(out, "to go back   {}   (or all)", called("review reject CHAPTER"))?;
     Ok(())
 }
 
@@ -90,12 +88,12 @@ fn compared(chapters: &[Chapter], pending: &Pending) -> Compared {
     let title = chapters.iter().find(|chapter| chapter.name == name).map_or("", |chapter| chapter.title);
     let (before, now) = (Snapshots::kept(&pending.folder), Snapshots::pending(&pending.folder));
     let mut commands = vec![
-        ("to keep what is new", format!("{TYPED} review accept {name}")),
-        ("to throw it away", format!("{TYPED} review reject {name}")),
+        ("to keep what is new", called(&format!("review accept {name}"))),
+        ("to throw it away", called(&format!("review reject {name}"))),
     ];
     if let Ok(difference) = compare_pictures(&before.picture, &now.picture).as_ref() {
         let ([x, y], Resolution { width, height }) = (difference.worst, SNAPSHOT_SIZE);
-        let command = format!("{TYPED} trace {name} --pixel {x},{y} --size {width}x{height}");
+        let command = called(&format!("trace {name} --pixel {x},{y} --size {width}x{height}"));
         commands.push(("to follow the worst pixel", command));
     }
     Compared { name: name.clone(), title: title.into(), before, now, commands }

@@ -1,11 +1,19 @@
 use super::find;
+use super::interrupt::interrupted;
 use crate::chapter::{Asked, Chapter};
 use crate::extract::{camera_entity, validate};
 use crate::plan::{PlanError, Stage};
 use crate::scene::{FileProblem, SceneFile, View};
 use crate::{Error, Result, follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
+use std::ffi::OsStr;
 use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+/// How long to wait for standard input before Ctrl-C is asked about.
+const PAUSE: Duration = Duration::from_millis(100);
 
 /// What a reader names: a chapter, or a scene file.
 pub enum Subject<'c> {
@@ -21,10 +29,15 @@ pub enum Subject<'c> {
 }
 
 impl<'c> Subject<'c> {
-    /// The scene file that a path ending in `.ron` names, or the chapter that any other word does.
-    pub fn find(chapters: &'c [Chapter], asked: &str) -> Result<Self> {
+    /// The scene file that a path ending in `.ron` names, or `-` for one on standard input, or the chapter that any other
+    /// word does.
+    pub fn find(chapters: &'c [Chapter], asked: impl AsRef<OsStr>) -> Result<Self> {
+        let asked = asked.as_ref();
+        let typed = || asked.to_string_lossy().into_owned();
         if find::is_scene_file(asked) {
-            Ok(Self::File { file: SceneFile::open(Path::new(asked))?, typed: asked.into() })
+            Ok(Self::File { file: SceneFile::open(Path::new(asked))?, typed: typed() })
+        } else if asked == "-" {
+            Ok(Self::File { file: from_standard_input()?, typed: typed() })
         } else {
             Ok(Self::Chapter(find::chapter(chapters, asked)?))
         }
@@ -38,10 +51,19 @@ impl<'c> Subject<'c> {
         }
     }
 
+    /// The same as it is printed.
+    pub fn shown(&self) -> String {
+        match self.name() {
+            "-" => "the scene on standard input".into(),
+            name => find::shown(name.as_ref()),
+        }
+    }
+
     /// What its pictures are called.
     pub fn stem(&self) -> String {
         match self {
             Self::Chapter(chapter) => chapter.name.into(),
+            Self::File { typed, .. } if typed == "-" => "scene".into(),
             Self::File { file, .. } => {
                 file.path.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned())
             }
@@ -53,14 +75,6 @@ impl<'c> Subject<'c> {
         match self {
             Self::Chapter(chapter) => chapter.title,
             Self::File { .. } => "a scene file",
-        }
-    }
-
-    /// The stages on offer.
-    pub fn offer(&self) -> Vec<Stage> {
-        match self {
-            Self::Chapter(chapter) => chapter.offer.clone(),
-            Self::File { .. } => every_stage().offer,
         }
     }
 
@@ -100,7 +114,7 @@ impl<'c> Subject<'c> {
     pub fn placed(&self, error: Error, asked: &Asked) -> Error {
         let Self::File { file, .. } = self else { return error };
         let place = match &error {
-            Error::Refusal(refusal) if asked.resolution.is_some() && refusal.field == "resolution" => return error,
+            Error::Refusal(refusal) if asked.names_pixels() && refusal.field == "resolution" => return error,
             Error::Refusal(_) => file.place_of(|world| {
                 asked.put_on_camera(world);
                 validate(world).err()
@@ -109,6 +123,22 @@ impl<'c> Subject<'c> {
             _ => return error,
         };
         FileProblem { path: file.path.clone(), place, what: error.to_string() }.into()
+    }
+}
+
+/// The scene on standard input, whose end Ctrl-C does not have to wait for.
+fn from_standard_input() -> Result<SceneFile> {
+    let (send, receive) = channel();
+    thread::spawn(move || send.send(SceneFile::read(Path::new("standard input"), std::io::stdin().lock())));
+    loop {
+        match receive.recv_timeout(PAUSE) {
+            Ok(file) => return Ok(file?),
+            Err(_) if interrupted() => return Err(Error::Interrupted),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(FileProblem::of(Path::new("standard input"), "it cannot be read").into());
+            }
+        }
     }
 }
 

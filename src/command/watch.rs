@@ -1,11 +1,12 @@
 use super::arguments::RenderChapter;
-use super::find::is_scene_file;
+use super::find::{is_scene_file, shown};
+use super::format::Format;
 use super::interrupt::{EndsByItself, interrupted};
 use super::render::render_subject;
+use super::streams::Streams;
 use super::subject::Subject;
 use crate::chapter::Chapter;
 use crate::{Error, Result};
-use std::io::Write;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, SystemTime};
@@ -25,11 +26,21 @@ struct Stamp {
 /// What is wrong with a file is told, and the next save waited for: an editor may have saved half of it.
 ///
 /// Errors: no scene file is named, or nothing can be printed any more.
-pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &mut dyn Write) -> Result {
-    let file = Path::new(&asked.chapter);
-    if !is_scene_file(&asked.chapter) {
+pub fn render_at_every_save(
+    chapters: &[Chapter],
+    asked: &RenderChapter,
+    format: Format,
+    streams: &mut Streams<'_>,
+) -> Result {
+    let (file, shown) = (Path::new(&asked.chapter), shown(&asked.chapter));
+    if !is_scene_file(file) {
         let what = "a scene file is watched, whose name ends in .ron; `export` makes one of a chapter";
-        return Err(Error::Usage(format!("cannot watch {}: {what}", asked.chapter)));
+        return Err(Error::CommandLine(format!("cannot watch {shown}: {what}")));
+    }
+    let options = asked.options();
+    if format == Format::Json || options.output.iter().any(|file| file.as_os_str() == "-") {
+        let what = "one picture after another can be neither one JSON value nor one PNG on standard output";
+        return Err(Error::CommandLine(format!("cannot watch {shown}: {what}")));
     }
     let (mut seen, mut last) = (stamp(file), None);
     let mut waits = EndsByItself::begin();
@@ -45,18 +56,18 @@ pub fn render_at_every_save(chapters: &[Chapter], asked: &RenderChapter, out: &m
         // A render has its own say in how it ends.
         drop(waits);
         let rendered =
-            Subject::find(chapters, &asked.chapter).and_then(|subject| render_subject(&subject, &asked.options, out));
+            Subject::find(chapters, file).and_then(|subject| render_subject(&subject, &options, Format::Text, streams));
         waits = EndsByItself::begin();
         match rendered {
             Err(Error::Print(broken)) => return Err(Error::Print(broken)),
             Err(Error::Interrupted | Error::Stopped(_)) => break,
-            Err(told) => writeln!(out, "{told}")?,
+            Err(told) => writeln!(streams.out, "{told}")?,
             Ok(()) => {}
         }
-        writeln!(out, "waiting for the next save of {}, or Ctrl-C", file.display())?;
-        out.flush()?;
+        writeln!(streams.out, "waiting for the next save of {shown}, or Ctrl-C")?;
+        streams.out.flush()?;
     }
-    writeln!(out, "stopped watching {}", file.display())?;
+    writeln!(streams.out, "stopped watching {shown}")?;
     Ok(())
 }
 

@@ -22,7 +22,7 @@ pub struct Turn {
 pub fn turn(chapter: &Chapter, file: &Path) -> Result<Turn> {
     let name = chapter.name;
     let Some(attempt) = chapter.exercise else {
-        let said = format!("{name} has no exercise to check; `cargo run --release -- check` lists those that have one");
+        let said = format!("{name} has no exercise to check; `check` without a chapter lists those that have one");
         return Err(Error::Usage(said));
     };
     let (mut progress, remark) = Progress::read(file);
@@ -60,8 +60,8 @@ pub fn take_turn(chapter: &Chapter, file: &Path, out: &mut dyn Write) -> Result 
     report.print(tries.wrong as usize, out)?;
     let number = name.split('_').next().unwrap_or(name);
     match report.outcome {
-        Outcome::Right(_) => writeln!(out, "next: cargo run --release -- check shows what is left")?,
-        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then: cargo run --release -- check {number}")?,
+        Outcome::Right(_) => writeln!(out, "next: `check` without a chapter shows what is left")?,
+        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
     }
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
     report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
@@ -84,10 +84,7 @@ pub fn list_exercises(chapters: &[Chapter], file: &Path, out: &mut dyn Write) ->
         };
         writeln!(out, "  {:<22} {:<24} {state}", chapter.name, attempt.function())?;
     }
-    writeln!(
-        out,
-        "each lies in chapters/<chapter>/exercise.rs; cargo run --release -- check 5 tries that of chapter 05"
-    )?;
+    writeln!(out, "each lies in chapters/<chapter>/exercise.rs; `check 5` tries that of chapter 05")?;
     if let Some(remark) = remark {
         writeln!(out, "note: {remark}")?;
     }

@@ -295,7 +295,7 @@ pub fn draw(chapters: &[Chapter], name: &str) -> Result<Drawing> {
         let likeness = |figure: &&Figure| (strsim::jaro_winkler(figure.name, name) * 1e6) as u64;
         let nearest = figures.iter().max_by_key(likeness).map_or("05_pinhole", |figure| figure.name);
         return Err(Error::Usage(format!(
-            "there is no figure \"{name}\"; the nearest is {nearest}, and `cargo run --release -- figure` shows all"
+            "there is no figure \"{name}\"; the nearest is {nearest}, and `figure` without a name lists all"
         )));
     };
     let chapter = chapters.iter().find(|chapter| chapter.name == figure.chapter);

@@ -76,7 +76,7 @@ fn round(value: &mut Value) {
 pub fn kept(chapter: &str) -> Result<Report> {
     let short = place(chapter);
     let text = read_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(&short), REPORT);
-    let make = format!("cargo run --release -- report {chapter} --write");
+    let make = format!("report {chapter} --write");
     let text = text.map_err(|_| Error::Usage(format!("no report of {chapter} is kept; `{make}` measures one")))?;
     let wrong = |_| Error::Usage(format!("{} is no report of this version; `{make}` measures one", short.display()));
     serde_json::from_slice(&text).map_err(wrong)

@@ -78,7 +78,7 @@ fn ten_kills_at_random_moments_change_no_bit() {
     }
     let last = run(folder.path(), &["--resume"]);
     assert!(last.status.success(), "{}", text(&last.stderr));
-    assert!(text(&last.stdout).contains("continuing from out/05_pinhole.checkpoint"), "{}", text(&last.stdout));
+    assert!(text(&last.stderr).contains("continuing from out/05_pinhole.checkpoint"), "{}", text(&last.stderr));
     assert!(picture(folder.path()) == expected, "another picture than that of one run");
     assert!(killed >= 5 && continued >= 5, "{killed} killed, {continued} with a checkpoint");
     eprintln!("kills: {killed} of 10 while it ran, {continued} with a checkpoint; {:?} altogether", began.elapsed());
@@ -114,7 +114,7 @@ fn ctrl_c_writes_what_there_is_and_says_how_to_go_on_and_more_samples_continue_a
         command.args(["render", "05_pinhole", "--size", "64x36", "--write-every", "1ms", "--samples", samples]);
         let ended = command.args(words).output().expect("the program starts");
         assert!(ended.status.success(), "{}", text(&ended.stderr));
-        (text(&ended.stdout), fs::read(folder.join("picture.exr")).expect("a picture"))
+        (text(&ended.stderr), fs::read(folder.join("picture.exr")).expect("a picture"))
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (_, expected) = render(folder.path(), "24", &[]);

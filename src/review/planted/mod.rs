@@ -61,7 +61,7 @@ impl Planted {
             let nearest = PLANTED.iter().max_by_key(likeness).map_or("half-pixel", |planted| planted.name);
             Error::Usage(format!(
                 "there is no bug \"{name}\" to be planted; the nearest is {nearest}, \
-                 and `cargo run --release -- review --plant all` shows all"
+                 and `review --plant all` shows all"
             ))
         })
     }

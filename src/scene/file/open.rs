@@ -1,5 +1,6 @@
 use super::{FileProblem, SceneFile};
 use crate::scene::{FileError, FileKind, Unopened, read_file};
+use std::io::Read;
 use std::path::Path;
 
 const SCENE_FILE: FileKind = FileKind { name: "a scene file", most: 16 << 20 };
@@ -12,6 +13,21 @@ impl SceneFile {
     pub fn open(path: &Path) -> Result<Self, FileProblem> {
         let bytes = read_file(path, SCENE_FILE).map_err(|refused| FileProblem::of(path, told(refused)))?;
         Self::parse_bytes(path, bytes)
+    }
+
+    /// A scene from what can be read to its end, such as standard input; files that it names lie in the current folder.
+    ///
+    /// Errors: as for a file.
+    pub fn read(name: &Path, from: impl Read) -> Result<Self, FileProblem> {
+        let mut bytes = Vec::new();
+        let most = SCENE_FILE.most;
+        let read = from.take(most + 1).read_to_end(&mut bytes);
+        read.map_err(|refused| FileProblem::of(name, format!("it cannot be read: {refused}")))?;
+        if bytes.len() as u64 > most {
+            let what = format!("there are more than {most} bytes, but a scene file has at most that many");
+            return Err(FileProblem::of(name, what));
+        }
+        Self::parse_bytes(name, bytes)
     }
 
     /// A scene from the bytes of a file.

@@ -1,0 +1,145 @@
+use super::options::RenderOptions;
+use super::subject::Subject;
+use crate::extract::ShapeTable;
+use crate::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
+use crate::plan::{Plan, Table};
+use crate::{Error, Result};
+use bevy_ecs::prelude::*;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Where a picture goes.
+#[derive(Clone, Default)]
+pub struct Targets {
+    /// The files, each PNG or EXR.
+    pub pictures: Vec<PathBuf>,
+    /// Whether a PNG goes to standard output.
+    pub standard_output: bool,
+}
+
+impl Targets {
+    /// What is asked for, or both kinds in `out/`.
+    pub fn of(subject: &Subject<'_>, options: &RenderOptions) -> Result<Self> {
+        if options.output.is_empty() {
+            let stem = match &options.scene.view {
+                Some(column) => format!("{}_{}", subject.stem(), column.replace([' ', '/', '\\'], "_")),
+                None => subject.stem(),
+            };
+            let pictures = ["png", "exr"].map(|ending| Path::new("out").join(format!("{stem}.{ending}"))).to_vec();
+            return Ok(Self { pictures, standard_output: false });
+        }
+        let mut targets = Self::default();
+        for file in &options.output {
+            if file.as_os_str() == "-" {
+                targets.standard_output = true;
+            } else if !is(file, "png") && !is(file, "exr") {
+                return Err(Error::CommandLine(format!(
+                    "cannot write {}: the name must end in .png, for a picture to look at, or .exr, for its light in full",
+                    file.display()
+                )));
+            } else if !targets.pictures.contains(file) {
+                targets.pictures.push(file.clone());
+            }
+        }
+        Ok(targets)
+    }
+
+    /// Whether one of them holds layers.
+    pub fn hold_layers(&self) -> bool {
+        self.pictures.iter().any(|file| is(file, "exr"))
+    }
+
+    /// The checkpoint: beside the first picture, with its name; none where only standard output is written to.
+    pub fn checkpoint(&self) -> Option<PathBuf> {
+        self.pictures.first().map(|picture| picture.with_extension("checkpoint"))
+    }
+
+    /// All of them by name, with `and` before the last; one that differs from the first in its ending only is told by
+    /// that.
+    pub fn told(&self, checkpoint: Option<&Path>) -> String {
+        let first = self.pictures.first();
+        let name = |file: &Path| match (first, file.extension()) {
+            (Some(first), Some(ending)) if file != first && first.with_extension("") == file.with_extension("") => {
+                format!(".{}", ending.to_string_lossy())
+            }
+            _ => plain(&file.display().to_string()),
+        };
+        let files = self.pictures.iter().map(PathBuf::as_path).chain(checkpoint).map(name);
+        let names: Vec<String> =
+            self.standard_output.then(|| "standard output".into()).into_iter().chain(files).collect();
+        match names.split_last() {
+            Some((last, [])) => last.clone(),
+            Some((last, before)) => format!("{} and {last}", before.join(", ")),
+            None => String::new(),
+        }
+    }
+}
+
+/// The picture's files, and how they are written.
+pub struct Files {
+    /// Where they go.
+    pub targets: Targets,
+    /// The names of shapes by their numbers, for the layer that tells them.
+    names: Vec<String>,
+    curve: Curve,
+}
+
+impl Files {
+    /// The files of a scene's pictures.
+    pub fn new(targets: Targets, scene: &World, plan: &Plan) -> Self {
+        let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
+        let names = ShapeTable::extract(scene).map(|shapes| shapes.name).unwrap_or_default();
+        Self { targets, names, curve }
+    }
+
+    /// Writes the files anew, each whole.
+    pub fn write(&self, film: &Film) -> Result {
+        self.targets.pictures.iter().try_for_each(|picture| self.write_one(film, picture))
+    }
+
+    /// Writes one of them.
+    pub fn write_one(&self, film: &Film, picture: &Path) -> Result {
+        match (is(picture, "exr"), film.layers.is_empty()) {
+            (false, _) => write_png(film, self.curve, picture),
+            (true, true) => write_exr(film, picture),
+            (true, false) => write_layered_exr(film, &self.names, picture),
+        }
+    }
+
+    /// Sends the picture to standard output, where that is asked for.
+    pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
+        if self.targets.standard_output {
+            out.write_all(&png_bytes(film, self.curve)?)?;
+            out.flush()?;
+        }
+        Ok(())
+    }
+}
+
+fn is(file: &Path, ending: &str) -> bool {
+    file.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
+/// A text without what would move a terminal's cursor.
+pub fn plain(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_that_differ_in_their_ending_are_told_once() {
+        let told = |files: &[&str], checkpoint: Option<&str>, standard_output: bool| {
+            let pictures = files.iter().map(PathBuf::from).collect();
+            Targets { pictures, standard_output }.told(checkpoint.map(Path::new))
+        };
+        assert_eq!(told(&["out/a.png", "out/a.exr"], None, false), "out/a.png and .exr");
+        assert_eq!(told(&["a.png", "a.exr"], Some("a.checkpoint"), false), "a.png, .exr and .checkpoint");
+        assert_eq!(told(&["a.png", "b.exr"], None, false), "a.png and b.exr");
+        assert_eq!(told(&["a.b.png"], None, false), "a.b.png");
+        assert_eq!(told(&["a.exr"], None, true), "standard output and a.exr");
+        assert_eq!(told(&["a\n.png"], None, false), "a\u{fffd}.png");
+    }
+}

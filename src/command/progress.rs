@@ -1,0 +1,185 @@
+//! What someone who waits for a render sees: a bar at a terminal, and elsewhere a line every tenth.
+
+use super::span::told;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, Write, stderr};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// No two lines follow each other sooner than this.
+const SOONEST: Duration = Duration::from_secs(1);
+
+/// How far a render is, on standard error.
+pub struct Progress {
+    shown: Shown,
+}
+
+enum Shown {
+    Nothing,
+    Bar(ProgressBar),
+    Lines(Lines),
+}
+
+impl Progress {
+    /// Nothing to be seen.
+    pub fn hidden() -> Self {
+        Self { shown: Shown::Nothing }
+    }
+
+    /// A bar of so many steps where standard error is a terminal, and nothing elsewhere.
+    pub fn bar(steps: u64) -> Self {
+        if !stderr().is_terminal() {
+            return Self::hidden();
+        }
+        let bar = ProgressBar::new(steps);
+        if let Ok(style) = ProgressStyle::with_template("rendering {bar:40} {percent:>3} %  {msg}{eta} left") {
+            bar.set_style(style);
+        }
+        Self { shown: Shown::Bar(bar) }
+    }
+
+    /// Says at once what is going to be rendered, where standard error is no terminal, which will show a bar.
+    pub fn announce(what: &str, width: u32, height: u32) {
+        if !stderr().is_terminal() {
+            say(&format!("rendering {what}: {width} × {height} pixels"));
+        }
+    }
+
+    /// A bar where standard error is a terminal; elsewhere a line every tenth of the steps, or of the time where there is a
+    /// limit to it.
+    pub fn of(what: &str, steps: u64, limit: Option<Duration>) -> Self {
+        if stderr().is_terminal() {
+            return Self::bar(steps);
+        }
+        Self { shown: Shown::Lines(Lines::new(what, steps, limit)) }
+    }
+
+    /// So many steps more are done.
+    pub fn advance(&self, steps: u64) {
+        match &self.shown {
+            Shown::Nothing => {}
+            Shown::Bar(bar) => bar.inc(steps),
+            Shown::Lines(lines) => lines.advance(steps),
+        }
+    }
+
+    /// A pass begins: how many steps there are altogether, and how many samples of how many each pixel has.
+    pub fn expect(&self, steps: u64, done: u32, of: u32) {
+        match &self.shown {
+            Shown::Nothing => {}
+            Shown::Bar(bar) => {
+                bar.set_length(steps);
+                bar.set_message(format!("{done} of {of} samples, "));
+            }
+            Shown::Lines(lines) => lines.expect(steps, done, of),
+        }
+    }
+
+    /// Takes a bar off the screen.
+    pub fn done(&self) {
+        if let Shown::Bar(bar) = &self.shown {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Progress as lines.
+struct Lines {
+    what: String,
+    began: Instant,
+    limit: Option<Duration>,
+    steps: AtomicU64,
+    done: AtomicU64,
+    pace: Mutex<Pace>,
+}
+
+/// Which tenths have been told of, and when.
+#[derive(Default)]
+struct Pace {
+    tenths: u32,
+    told: Duration,
+    samples: Option<[u32; 2]>,
+}
+
+impl Lines {
+    fn new(what: &str, steps: u64, limit: Option<Duration>) -> Self {
+        let (steps, done) = (AtomicU64::new(steps), AtomicU64::new(0));
+        Self { what: what.into(), began: Instant::now(), limit, steps, done, pace: Mutex::default() }
+    }
+
+    fn advance(&self, steps: u64) {
+        let done = self.done.fetch_add(steps, Ordering::Relaxed) + steps;
+        let all = self.steps.load(Ordering::Relaxed);
+        let passed = self.began.elapsed();
+        let by_steps = done as f64 / all.max(1) as f64;
+        let fraction = self.limit.map_or(by_steps, |limit| by_steps.max(passed.div_duration_f64(limit)));
+        let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(line) = pace.line(fraction, passed) {
+            say(&format!("rendering {}: {line}", self.what));
+        }
+    }
+
+    /// What was done before this program began, or in a pilot, is told by the samples that each pixel has.
+    fn expect(&self, steps: u64, done: u32, of: u32) {
+        if self.steps.swap(steps, Ordering::Relaxed) != steps {
+            let before = steps as f64 * f64::from(done) / f64::from(of.max(1));
+            self.done.store(before as u64, Ordering::Relaxed);
+        }
+        let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
+        // No number of samples is a goal where only the time ends the render.
+        pace.samples = self.limit.is_none().then_some([done, of]);
+    }
+}
+
+impl Pace {
+    /// The line that is due when a fraction of the work is done after some time.
+    fn line(&mut self, fraction: f64, passed: Duration) -> Option<String> {
+        let tenths = (fraction * 10.0) as u32;
+        if tenths <= self.tenths || tenths >= 10 {
+            return None;
+        }
+        self.tenths = tenths;
+        if passed.saturating_sub(self.told) < SOONEST {
+            return None;
+        }
+        self.told = passed;
+        let samples = self.samples.map_or(String::new(), |[done, of]| format!(", {done} of {of} samples a pixel"));
+        let left = told(passed.mul_f64((1.0 - fraction) / fraction));
+        Some(format!("{tenths}0 %{samples}, about {left} left"))
+    }
+}
+
+fn say(line: &str) {
+    let _ = writeln!(stderr(), "{line}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_comes_every_tenth_and_no_sooner_than_a_second() {
+        let mut pace = Pace { samples: Some([2, 16]), ..Pace::default() };
+        let mut at = |fraction: f64, seconds: f64| pace.line(fraction, Duration::from_secs_f64(seconds));
+        assert_eq!(at(0.05, 2.0), None);
+        assert_eq!(at(0.11, 4.0).as_deref(), Some("10 %, 2 of 16 samples a pixel, about 32.4 s left"));
+        assert_eq!(at(0.12, 9.0), None, "the same tenth");
+        assert_eq!(at(0.21, 4.5), None, "too soon");
+        assert_eq!(at(0.22, 9.0), None, "a tenth that was passed over stays so");
+        assert!(at(0.55, 20.0).is_some_and(|line| line.starts_with("50 %, ")));
+        assert_eq!(at(1.0, 40.0), None, "what follows says that it is done");
+    }
+
+    #[test]
+    fn a_hundred_quick_steps_are_not_a_hundred_lines() {
+        let mut pace = Pace::default();
+        let lines =
+            (1..=1000).filter_map(|step| pace.line(f64::from(step) / 1000.0, Duration::from_millis(10 * step as u64)));
+        assert_eq!(lines.count(), 9);
+        let mut pace = Pace::default();
+        let lines =
+            (1..=1000).filter_map(|step| pace.line(f64::from(step) / 1000.0, Duration::from_millis(step as u64)));
+        assert_eq!(lines.count(), 0);
+    }
+}

@@ -1,0 +1,147 @@
+//! How much is said, where, and in what name.
+
+use super::{chapters, names, pinhole, run, text};
+use pinhole::command;
+use std::fs;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+#[test]
+fn no_render_ends_in_more_than_six_lines_or_wider_ones_than_120_columns() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (mut most, mut widest, mut tried) = (0, 0, 0);
+    let mut look = |what: &str, said: &str| {
+        let wide = said.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        (most, widest, tried) = (most.max(said.lines().count()), widest.max(wide), tried + 1);
+        assert!((1..=6).contains(&said.lines().count()) && wide <= 120, "{what}: {wide} columns\n{said}");
+    };
+    let all = chapters::all();
+    let render = |words: &[&str]| {
+        let mut out = Vec::new();
+        command::run(&all, words, &mut out).expect("renders");
+        text(&out)
+    };
+    let picture = folder.path().join("picture.png").display().to_string();
+    for chapter in &all {
+        look(chapter.name, &render(&["render", chapter.name, "--size", "8x5", "-o", &picture]));
+    }
+    for more in [["--error", "0.5"], ["--time", "1ms"], ["--view", "surface"], ["--samples", "3"]] {
+        look(more[0], &render(&["render", "cover", "--size", "8x5", "-o", &picture, more[0], more[1]]));
+    }
+    let long = format!("{}.ron", "name".repeat(50));
+    let scene = run(folder.path(), &["export", "5"]).stdout;
+    fs::write(folder.path().join(&long), scene).expect("written");
+    look("a long name", &text(&run(folder.path(), &["render", &long, "--size", "8x5"]).stdout));
+    eprintln!("summaries: {tried} renders, at most {most} lines, the widest of {widest} columns");
+}
+
+#[test]
+fn who_waits_without_a_terminal_is_told_how_far_it_is() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let words = ["render", "10", "--size", "64x36", "--time", "2500ms", "-o", "a.png"];
+    let began = Instant::now();
+    let told = run(folder.path(), &words);
+    let (noted, took) = (text(&told.stderr), began.elapsed());
+    assert!(told.status.success(), "{noted}");
+    let lines: Vec<&str> = noted.lines().filter(|line| line.starts_with("rendering 10_light_and_shadow: ")).collect();
+    assert_eq!(lines[0], "rendering 10_light_and_shadow: 64 × 36 pixels");
+    let tenths = &lines[1..];
+    assert!(!tenths.is_empty() && tenths.len() as u64 <= took.as_secs(), "{took:?}: {noted}");
+    assert!(tenths.iter().all(|line| line.contains("0 %") && line.ends_with(" left")), "{noted}");
+    assert!(text(&told.stdout).contains("the time is up: "), "{}", text(&told.stdout));
+    for quiet in [&["-q"][..], &["--format", "json"], &["--stats"]] {
+        let told = run(folder.path(), &[&["render", "10", "--size", "64x36"], quiet].concat());
+        assert!(told.stderr.is_empty(), "{}", text(&told.stderr));
+    }
+}
+
+/// The first line comes before there is anything to see, not with it.
+#[test]
+fn what_is_rendered_is_told_at_once() {
+    use std::io::{BufRead, BufReader};
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let began = Instant::now();
+    let mut child = pinhole(folder.path()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().expect("piped")).read_line(&mut line).expect("UTF-8");
+    let took = began.elapsed();
+    child.kill().expect("killed");
+    child.wait().expect("it ends");
+    assert_eq!(line, "rendering cover: 960 × 540 pixels\n");
+    assert!(took < Duration::from_secs(10), "{took:?}");
+}
+
+#[test]
+fn warnings_go_to_standard_error_with_quiet_too() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let words = ["render", "4", "--size", "16x9", "--layers", "uv", "-o", "a.exr"];
+    for more in [&[][..], &["-q"], &["-v"]] {
+        let told = run(folder.path(), &[&words, more].concat());
+        let (said, noted) = (text(&told.stdout), text(&told.stderr));
+        assert!(noted.contains("warning: the layer `uv` is empty"), "{more:?}: {noted}");
+        assert!(!said.contains("warning") && !said.is_empty(), "{more:?}: {said}");
+    }
+    let told = run(folder.path(), &[&words[..], &["--format", "json"]].concat());
+    let data: serde_json::Value = serde_json::from_slice(&told.stdout).expect("JSON");
+    assert!(told.stderr.is_empty(), "{}", text(&told.stderr));
+    let warned = data["warnings"].as_array().expect("a list");
+    assert!(warned.iter().any(|warning| warning.as_str().is_some_and(|told| told.contains("`uv` is empty"))), "{data}");
+    assert_eq!(data["files"], serde_json::json!(["a.exr"]));
+}
+
+#[test]
+fn the_program_is_called_as_it_was_started() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let by = |cargo: bool| {
+        let mut command = pinhole(folder.path());
+        if !cargo {
+            command.env_remove("CARGO");
+        }
+        text(&command.args(["render", "5", "--size", "16x9"]).output().expect("it starts").stdout)
+    };
+    assert!(by(true).contains("try next: cargo run --release -- trace 05_pinhole"), "{}", by(true));
+    let name = std::path::Path::new(env!("CARGO_BIN_EXE_pinhole")).file_name().expect("a name").to_string_lossy();
+    assert!(by(false).contains(&format!("try next: {name} trace 05_pinhole")), "{}", by(false));
+}
+
+#[test]
+fn help_is_as_wide_as_the_terminal_and_coloured_where_it_can_be() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let help = |variables: &[(&str, &str)], words: &[&str]| {
+        let told = pinhole(folder.path()).envs(variables.iter().copied()).args(words).output().expect("it starts");
+        text(&told.stdout) + &text(&told.stderr)
+    };
+    let lists = help(&[], &["--help"]);
+    let commands: Vec<&str> =
+        lists.lines().filter_map(|line| line.strip_prefix("  ")?.split_once("  ")).map(|(name, _)| name).collect();
+    let commands: Vec<&str> =
+        commands.into_iter().filter(|name| !name.is_empty() && !name.starts_with([' ', '-'])).collect();
+    assert!(commands.len() >= 19, "{commands:?}");
+    for command in commands.iter().filter(|command| **command != "help") {
+        let narrow = help(&[("COLUMNS", "60")], &[command, "--help"]);
+        let wide = narrow.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        assert!(wide <= 60 || !narrow.contains("Options:"), "{command}: {wide} columns\n{narrow}");
+        assert!(!narrow.contains('\u{1b}'), "{command}: colours in a pipe");
+    }
+    let forced = [("CLICOLOR_FORCE", "1")];
+    assert!(help(&forced, &["--help"]).contains("\u{1b}["), "no colours");
+    assert!(help(&forced, &["lst"]).contains("\u{1b}["), "no colours");
+    let off = [("CLICOLOR_FORCE", "0"), ("NO_COLOR", "1")];
+    assert!(!help(&off, &["--help"]).contains('\u{1b}'), "colours in spite of NO_COLOR");
+}
+
+#[test]
+fn workers_are_as_many_as_the_environment_says_and_fewer_than_asked_for_is_no_error() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let threads = |words: &[&str]| {
+        let mut command = pinhole(folder.path());
+        command.env("RAYON_NUM_THREADS", "3").args(["render", "5", "--size", "96x54", "--format", "json"]);
+        let told = command.args(words).output().expect("it starts");
+        let data: serde_json::Value = serde_json::from_slice(&told.stdout).expect("JSON");
+        data["threads"].as_u64().expect("a number")
+    };
+    assert_eq!(threads(&[]), 3);
+    assert_eq!(threads(&["-j", "2"]), 2);
+    assert!((1..=100).contains(&threads(&["--threads", "100"])));
+    assert_eq!(names(&folder.path().join("out")), ["05_pinhole.exr", "05_pinhole.png"]);
+}
