@@ -112,24 +112,21 @@ fn pieces(image: ImageShape, side: u32) -> Vec<Tile> {
         let side = side.min(pixels);
         (0..count).map(|piece| [((2 * piece + 1) * pixels / (2 * count)).saturating_sub(side / 2), side]).collect()
     };
-    let columns = along(image.width, PIECES[0]);
-    let piece = |[y, height]: [u32; 2]| columns.iter().map(move |&[x, width]| Tile { x, y, width, height });
-    let pieces: Vec<Tile> = along(image.height, PIECES[1]).into_iter().flat_map(piece).collect();
-    let stride = stride(pieces.len());
-    (0..pieces.len()).map(|turn| pieces[turn * stride % pieces.len()]).collect()
+    let (columns, lines) = (along(image.width, PIECES[0]), along(image.height, PIECES[1]));
+    let mut pieces = Vec::new();
+    for (line, &[y, height]) in lines.iter().enumerate() {
+        for (column, &[x, width]) in columns.iter().enumerate() {
+            let turn = turn([256 * column / columns.len(), 256 * line / lines.len()]);
+            pieces.push((turn, Tile { x, y, width, height }));
+        }
+    }
+    pieces.sort_by_key(|(turn, _)| *turn);
+    pieces.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// Steps of about the golden section of a circle leave no large gap at any time; a step that has no factor in common with
-/// the circle comes by every place.
-fn stride(places: usize) -> usize {
-    let has_common = |mut a: usize, mut b: usize| {
-        while b > 0 {
-            (a, b) = (b, a % b);
-        }
-        a > 1
-    };
-    let golden = (places as f64 * 0.618).round() as usize;
-    (golden.max(1)..).find(|&step| !has_common(step, places)).unwrap_or(1)
+/// When the turn of a place is that lies so many 256ths along each axis: the halves of a place come before its quarters.
+fn turn([x, y]: [usize; 2]) -> usize {
+    (0..8).map(|bit| (x >> (7 - bit) & 1 | (y >> (7 - bit) & 1) << 1) << (2 * bit)).sum()
 }
 
 /// Counts what the camera's rays have met, and on the first legs which rays to lights are blocked.
@@ -185,21 +182,19 @@ fn counting_hook() -> Hook {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     /// Every piece is tried once, and the first few of them lie in all quarters of the picture.
     #[test]
     fn pieces_are_spread_evenly_from_the_first_on() {
-        for places in 1..=200 {
-            let step = stride(places);
-            let mut seen: Vec<usize> = (0..places).map(|turn| turn * step % places).collect();
-            seen.sort_unstable();
-            assert_eq!(seen, (0..places).collect::<Vec<_>>(), "{places}");
-        }
         let image = ImageShape { width: 960, height: 540 };
         let pieces = pieces(image, SIDE);
-        assert_eq!(pieces.len(), 96);
-        let quarter = |tile: &Tile| (tile.x < 480, tile.y < 270);
-        let first: std::collections::BTreeSet<_> = pieces[..8].iter().map(quarter).collect();
-        assert_eq!(first.len(), 4, "{:?}", &pieces[..8]);
+        let all: BTreeSet<_> = pieces.iter().map(|tile| (tile.x, tile.y)).collect();
+        assert_eq!((pieces.len(), all.len()), (96, 96));
+        for (parts, tried) in [(2, 4), (4, 24)] {
+            let part = |tile: &Tile| (tile.x * parts / 960, tile.y * parts / 540);
+            let seen: BTreeSet<_> = pieces[..tried].iter().map(part).collect();
+            assert_eq!(seen.len(), (parts * parts) as usize, "{:?}", &pieces[..tried]);
+        }
     }
 }
