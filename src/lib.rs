@@ -69,7 +69,8 @@ pub use error::{Error, Result};
 
 /// What a chapter's `main` calls: reads the command line, renders the chapter or looks inside it.
 ///
-/// A failure is printed in one sentence and ends the program with the status that [`command::status`] gives it.
+/// A failure is printed in one sentence and ends the program: with status 2 where the command line makes no sense, with
+/// 130 after Ctrl-C, and else with 1.
 ///
 /// Errors: none that comes back.
 pub fn run(chapter: Chapter) -> Result {

@@ -261,7 +261,7 @@ fn bad_command_lines() {
         ("render cover --write-every 1d".into(), &["1d", "--write-every", "10s"]),
         ("render 10 --error 0 --size 8x8".into(), &["error is 0", "above 0"]),
         ("render 10 --error 2 --size 8x8".into(), &["error is 2", "at most 1"]),
-        ("render 10 --error little".into(), &["little", "--error"]),
+        ("render 10 --error little".into(), &["little", "--error", "above 0 and at most 1"]),
         ("render cover --layers normals".into(), &["normals", "position", "normal", "all"]),
         ("render 5 --resume --size 8x8".into(), &["nothing to continue", "--samples"]),
         ("render cover --layers all --size 8x8 -o picture.png".into(), &["picture.png", "layers", ".exr"]),
@@ -283,7 +283,7 @@ fn bad_command_lines() {
         let shown = words.join(" ").replace(&path(""), "FOLDER/");
         let error = typed(&words).err().unwrap_or_else(|| panic!("`{shown}` is not refused"));
         let message = match &error {
-            Error::Clap(answer) => answer.to_string().trim_end().replace('\n', "\n    "),
+            Error::Clap(answer) => answer.to_string().trim_end().replace("\n\n", "\n").replace('\n', "\n    "),
             _ => sentence(&error, &shown),
         };
         for word in *expected {

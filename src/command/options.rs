@@ -28,7 +28,7 @@ pub struct SceneOptions {
     #[command(flatten)]
     pub sampling: SamplingOptions,
     /// Take as many samples of each pixel as bring its relative standard error down to E (such as 0.01)
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = error)]
     pub error: Option<f64>,
     /// Keep more of every pixel than its light: position,normal,albedo,depth_along_ray,entity,… or all
     #[arg(long, value_name = "LAYERS", value_parser = Layers::of_words)]
@@ -227,6 +227,10 @@ fn samples(text: &str) -> Result<u32, String> {
     let number = number.ok().filter(|number| range.contains(number) && number.fract() == 0.0);
     let refused = || format!("a number of samples is a whole number from 1 to {MOST_SAMPLES}, such as 64 or 4k");
     number.map(|number| number as u32).ok_or_else(refused)
+}
+
+fn error(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "an error is a number above 0 and at most 1, such as 0.01".into())
 }
 
 fn seed(text: &str) -> Result<u64, String> {

@@ -56,7 +56,7 @@ fn bad_files_and_command_lines() {
         let error = typed(words).err().unwrap_or_else(|| panic!("`{shown}` is not refused"));
         let mut message = error.to_string().trim_end().replace(&path(""), "FOLDER/");
         match error {
-            Error::Clap(_) => message = message.replace('\n', "\n    "),
+            Error::Clap(_) => message = message.replace("\n\n", "\n").replace('\n', "\n    "),
             _ => assert!(!message.contains('\n') && !message.ends_with('.'), "{shown}: {message}"),
         }
         for word in *expected {
