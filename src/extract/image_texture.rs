@@ -30,7 +30,7 @@ pub(super) fn check_images(scene: &World) -> Result<(), Refusal> {
     let files = owners.iter().filter_map(|&owner| scene.get::<ImageTexture>(owner)).map(|texture| &*texture.file);
     check_memory_of_textures(scene, files).map_err(|(count, too_little)| {
         let files = counted(count, "file");
-        Refusal::new("the scene", "image textures", files, format!("to decode them {too_little}"))
+        Refusal::new("the scene", "set of image textures", files, format!("decoding them {too_little}"))
     })?;
     owners.into_iter().try_for_each(|owner| image_of(scene, owner).map(|_| ()))
 }

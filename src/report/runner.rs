@@ -149,7 +149,7 @@ fn check_images_fit(variants: &[Variant<'_>], ladder: &Ladder) -> Result {
     let pixels = u64::from(width) * u64::from(height);
     check_memory(images * pixels * size_of::<[f64; 3]>() as u64).map_err(|too_little| {
         let what = format!("its {images} images of {width} × {height} pixels");
-        Error::Usage(format!("cannot make this report: to keep {what} {too_little}; a smaller --size may fit"))
+        Error::Usage(format!("cannot make this report: keeping {what} {too_little}; a smaller --size may fit"))
     })
 }
 
