@@ -243,9 +243,13 @@ fn extremes(value: &Value) -> Vec<String> {
         says.push(format!("{}: {} tried, {} ", word(case, "case"), case["inputs"], case["judged"]));
         says.extend(each(case, "methods", |method| format!("{} {} ", word(method, "name"), method["wrong"])));
         let naive = &case["naive_at_its_worst"];
+        if naive.is_null() {
+            continue;
+        }
         says.push(format!("at input {}: {}", naive["input"], word(naive, "method")));
         says.extend(naive["answers"]["exact"].as_f64().map(|exact| {
-            if (1e-3..1e6).contains(&exact) { format!("exact {exact:.10}") } else { format!("exact {exact:.10e}") }
+            let is_plain = exact == 0.0 || (1e-3..1e6).contains(&exact.abs());
+            if is_plain { format!("exact {exact:.10}") } else { format!("exact {exact:.10e}") }
         }));
     }
     says
