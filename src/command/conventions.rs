@@ -7,6 +7,7 @@ use crate::extract::{angle_of_tan_half, validate};
 use crate::film::{check_place, write_png};
 use crate::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
 use crate::render::{Execution, render};
+use crate::scene::printable_path;
 use crate::{Error, Result};
 use bevy_ecs::prelude::World;
 use serde_json::{Value, json};
@@ -106,6 +107,6 @@ fn render_mistake(
         return print_json(&json!({ "mistake": mistake, "made_by": made_by, "files": [shown(&file)] }), out);
     }
     writeln!(out, "{mistake}: {}", mistake.made_by())?;
-    writeln!(out, "wrote {}", file.display())?;
+    writeln!(out, "wrote {}", printable_path(&file))?;
     Ok(())
 }

@@ -10,7 +10,7 @@ use crate::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure}
 use crate::plan::Table;
 use crate::render::Execution;
 use crate::report::provenance::{compiler, load, processor};
-use crate::scene::Resolution;
+use crate::scene::{Resolution, printable_path};
 use serde_json::{Value, json};
 use std::fmt;
 use std::io::Write;
@@ -52,7 +52,7 @@ fn measure_one(
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(&short);
     write_whole(&file, |file| file.write_all(report.as_bytes()))?;
     if !format.is_json() {
-        writeln!(out, "wrote {}", short.display())?;
+        writeln!(out, "wrote {}", printable_path(&short))?;
     }
     Ok((measured, vec![shown(&short)]))
 }

@@ -6,7 +6,7 @@ use super::format::{Format, print_json, shown};
 use super::subject::Subject;
 use crate::chapter::{Asked, Chapter};
 use crate::film::write_whole;
-use crate::scene::scene_text;
+use crate::scene::{printable_path, scene_text};
 use crate::{Error, Result};
 use serde_json::json;
 use std::io::Write;
@@ -63,7 +63,7 @@ pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &m
     }
     writeln!(out, "wrote {shown}")?;
     for image in images {
-        writeln!(out, "wrote {}, which it names", image.display())?;
+        writeln!(out, "wrote {}, which it names", printable_path(&image))?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use crate::chapter::{Asked, Chapter};
 use crate::film::{check_place, write_whole};
 use crate::measure::extremes::{Case, Group, Outcome, Worst, try_group, unbroken};
 use crate::measure::extremes_page::{page, strips};
+use crate::scene::printable_path;
 use crate::{Error, Result};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -57,7 +58,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
             writeln!(out, "no case here breaks \"{method}\"")?;
         }
         if let Some(file) = &asked.page {
-            writeln!(out, "wrote {}", file.display())?;
+            writeln!(out, "wrote {}", printable_path(file))?;
         }
         writeln!(out, "held: {held} of {} cases", cases.len())?;
     }

@@ -3,6 +3,7 @@ use super::subject::Subject;
 use crate::extract::ShapeTable;
 use crate::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
 use crate::plan::{Plan, Table};
+use crate::scene::printable_path;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::io::Write;
@@ -62,7 +63,7 @@ impl Targets {
             (Some(first), Some(ending)) if file != first && first.with_extension("") == file.with_extension("") => {
                 format!(".{}", ending.to_string_lossy())
             }
-            _ => plain(&file.display().to_string()),
+            _ => printable_path(file),
         };
         let files = self.pictures.iter().map(PathBuf::as_path).chain(checkpoint).map(name);
         let names: Vec<String> =
@@ -118,11 +119,6 @@ impl Files {
 
 fn is(file: &Path, ending: &str) -> bool {
     file.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
-}
-
-/// A text without what would move a terminal's cursor.
-pub fn plain(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 use super::called::called;
 use crate::chapter::Chapter;
+use crate::scene::printable;
 use crate::{Error, Result};
 use std::ffi::OsStr;
 use std::path::{Component, Path};
@@ -61,12 +62,9 @@ pub fn nearest(chapters: &[Chapter], word: &str) -> Vec<&'static str> {
     chapters.iter().filter(|own| far(own) == least).map(|own| own.name).take(MOST_NEAREST).collect()
 }
 
-/// A word as it is shown: no longer than can be read, and without what would move a terminal's cursor.
+/// A word as it is shown.
 pub fn shown(word: &OsStr) -> String {
-    let text = word.to_string_lossy();
-    let cut = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
-    let letters = text.chars().take(LONGEST).map(|letter| if letter.is_control() { '\u{fffd}' } else { letter });
-    letters.collect::<String>() + cut
+    printable(&word.to_string_lossy(), LONGEST)
 }
 
 /// The chapter's name within a word: without folders before it and the source after it, without `chapter`, in small

@@ -1,4 +1,5 @@
 use crate::Result;
+use crate::scene::printable_path;
 use clap::ValueEnum;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -36,7 +37,7 @@ pub fn print_json(value: &impl Serialize, out: &mut dyn Write) -> Result {
 pub fn print_written(file: &Path, format: Format, out: &mut dyn Write) -> Result {
     match format {
         Format::Json => print_json(&json!({ "files": [shown(file)] }), out),
-        Format::Text => Ok(writeln!(out, "wrote {}", file.display())?),
+        Format::Text => Ok(writeln!(out, "wrote {}", printable_path(file))?),
     }
 }
 

@@ -47,6 +47,7 @@ pub use progress::Progress;
 pub use report::has_report;
 
 use crate::chapter::Chapter;
+use crate::scene::printable_message;
 use crate::{Error, Result};
 use arguments::{Arguments, Command};
 use clap::CommandFactory;
@@ -154,6 +155,6 @@ pub fn status(result: Result) -> u8 {
         Err(words @ Error::CommandLine(_)) => (words, 2),
         Err(error) => (error, 1),
     };
-    let _ = writeln!(stderr(), "pinhole: {error}");
+    let _ = writeln!(stderr(), "pinhole: {}", printable_message(&error));
     status
 }

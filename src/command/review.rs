@@ -5,7 +5,7 @@ use super::format::{Format, print_json, shown};
 use crate::chapter::Chapter;
 use crate::film::write_whole;
 use crate::review::{Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast};
-use crate::scene::Resolution;
+use crate::scene::{Resolution, printable_path};
 use crate::{Error, Result};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -109,7 +109,7 @@ pub(super) fn keep_page(asked: &ReviewSnapshots, page: &str) -> Result<PathBuf> 
 /// Writes the page and says where it is.
 pub(super) fn write_page(asked: &ReviewSnapshots, page: &str, out: &mut dyn Write) -> Result {
     let file = keep_page(asked, page)?;
-    writeln!(out, "wrote {}: open it in a browser", file.display())?;
+    writeln!(out, "wrote {}: open it in a browser", printable_path(&file))?;
     Ok(())
 }
 
