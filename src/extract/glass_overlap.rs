@@ -44,8 +44,7 @@ pub fn glass_overlaps(scene: &World) -> Evidence {
     }
 }
 
-/// Evidence that more than so many shapes of glass may hold one point, by the boxes about them: each of those shapes then
-/// overlaps with at least so many others.
+/// Evidence that more than so many shapes of glass may hold one point, by the boxes about them.
 ///
 /// It may be said of shapes that do not hold a point together, but is never missed of those that do.
 pub fn deep_glass(scene: &World, places: usize) -> Evidence {
@@ -72,27 +71,37 @@ fn surfaces(pieces: Vec<Piece>) -> Vec<Piece> {
     whole
 }
 
-/// Whether more than so many pieces overlap with at least so many others each.
+/// Whether some point may lie in more than so many of the pieces.
 fn overlap_deeply(pieces: &[Piece], places: usize) -> bool {
-    let mut order: Vec<usize> = (0..pieces.len()).collect();
-    let least = |piece: usize| pieces[piece].bounds.least.x;
-    order.sort_by(|&a, &b| least(a).partial_cmp(&least(b)).unwrap_or(Ordering::Equal));
-    let (mut overlaps, mut deep) = (vec![0; pieces.len()], 0);
-    let mut open: Vec<usize> = Vec::new();
-    for piece in order {
-        open.retain(|&other| pieces[other].bounds.most.x >= least(piece));
-        for &other in open.iter().filter(|&&other| pieces[other].bounds.meets(&pieces[piece].bounds)) {
-            for one in [other, piece] {
-                overlaps[one] += 1;
-                deep += usize::from(overlaps[one] == places);
-            }
-        }
-        if deep > places {
+    let mut order: Vec<&Bounds> = pieces.iter().map(|piece| &piece.bounds).collect();
+    order.sort_by(|a, b| a.least.x.partial_cmp(&b.least.x).unwrap_or(Ordering::Equal));
+    let mut open: Vec<&Bounds> = Vec::new();
+    for bounds in order {
+        open.retain(|other| other.most.x >= bounds.least.x);
+        let mut about: Vec<&Bounds> = open.iter().copied().filter(|other| other.meets(bounds)).collect();
+        about.push(bounds);
+        if about.len() > places && share_a_point(&about, places) {
             return true;
         }
-        open.push(piece);
+        open.push(bounds);
     }
     false
+}
+
+/// Beyond so many boxes that overlap with one of them it is taken for granted that some of them share a point, for to
+/// look closer would take long.
+const MANY: usize = 64;
+
+/// Whether more than so many boxes, which all hold the x at which the last of them begins, share a point: if any point
+/// does, then one at whose y and z some of them begin.
+fn share_a_point(boxes: &[&Bounds], places: usize) -> bool {
+    let holds = |along: usize, at: f64| move |other: &&&Bounds| (other.least[along]..=other.most[along]).contains(&at);
+    boxes.len() > MANY
+        || boxes.iter().any(|first| {
+            let beside: Vec<&Bounds> = boxes.iter().filter(holds(1, first.least.y)).copied().collect();
+            let deepest = beside.iter().map(|own| beside.iter().filter(holds(2, own.least.z)).count()).max();
+            deepest.is_some_and(|deepest| deepest > places)
+        })
 }
 
 /// The numbers of two shapes whose boxes meet, the first such pair along x.
@@ -186,6 +195,17 @@ mod tests {
         let mut stone = world(&apart[..1]);
         stone.spawn((Sphere { radius: 0.5 }, Matte::default()));
         assert!(!glass_overlaps(&stone).needed, "matter that is no glass");
+    }
+
+    #[test]
+    fn as_deep_as_boxes_share_a_point() {
+        let depth = |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&world(balls), places).needed);
+        assert_eq!(depth(&[]), Some(0));
+        assert_eq!(depth(&[(0.0, 1.0), (5.0, 1.0)]), Some(1));
+        assert_eq!(depth(&[(0.0, 1.0), (0.0, 0.9), (0.0, 0.8), (0.0, 0.7), (0.0, 0.6)]), Some(5));
+        // A row of balls, each of which overlaps with both of its neighbours, within a large one.
+        let row: Vec<(f64, f64)> = (0..9).map(|at| (1.5 * f64::from(at), 1.0)).chain([(6.0, 20.0)]).collect();
+        assert_eq!(depth(&row), Some(3));
     }
 
     #[test]

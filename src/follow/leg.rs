@@ -69,15 +69,16 @@ pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
 }
 
 // ANCHOR: follow_legs
-/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left or nobody waits for
-/// them any longer.
-pub fn follow_legs(world: &mut World, tiles: &mut QueryState<&WorldRays, With<Leg>>) {
+/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left; where nobody waits any
+/// longer, those that are left are dropped.
+pub fn follow_legs(world: &mut World, tiles: &mut QueryState<&mut WorldRays, With<Leg>>) {
     let legs = world.resource::<Shared<IntegratorTable>>().legs;
     for _ in 1..legs {
-        if tiles.iter(world).all(|rays| rays.rows() == 0) {
+        if tiles.iter_mut(world).all(|rays| rays.rows() == 0) {
             break;
         }
         if world.get_resource_mut::<Stop>().is_some_and(|mut stop| stop.gives_up()) {
+            tiles.iter_mut(world).for_each(|mut rays| rays.clear());
             break;
         }
         world.run_schedule(Bounce);

@@ -75,8 +75,8 @@ impl RenderWorld {
             schedule
         };
         let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::Follow);
-        world.insert_resource(Stop::default());
         if follows {
+            world.insert_resource(Stop::default());
             world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
                 stage.runs_in(row) && stage.on_every_leg
             })));
@@ -124,9 +124,11 @@ impl RenderWorld {
         0
     }
 
-    /// From now on a run is given up as soon as this says so.
+    /// From now on a run is given up as soon as this says so, where light is followed at all: else a run is soon over.
     pub fn stop_at(&mut self, stop: Stop) {
-        self.world.insert_resource(stop);
+        if let Some(mut own) = self.world.get_resource_mut::<Stop>() {
+            *own = stop;
+        }
     }
 
     /// Runs every kept stage once over all tiles of this world; whether it was not given up before its light was
