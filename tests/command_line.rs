@@ -155,7 +155,7 @@ fn ctrl_c_leaves_no_file_behind() {
         assert!(pressed.elapsed() < Duration::from_secs(5), "it took {:?} to stop", pressed.elapsed());
         if ended.code() == Some(130) {
             stopped += 1;
-            assert!(said.contains("stopped before the picture was done; nothing was written"), "{said}");
+            assert!(said.contains("stopped; no file was left half written"), "{said}");
             assert!(names(&folder.path().join("out")).is_empty(), "{:?}", names(&folder.path().join("out")));
         }
     }

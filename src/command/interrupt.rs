@@ -46,7 +46,7 @@ fn end() {
     // A terminal shows ^C, or a bar, on the line that the cursor is on.
     let mut errors = std::io::stderr();
     let line = if errors.is_terminal() { "\n" } else { "" };
-    let _ = writeln!(errors, "{line}pinhole: stopped before it was done; files that were there are whole");
+    let _ = writeln!(errors, "{line}pinhole: stopped; no file was left half written");
     process::exit(STATUS);
 }
 

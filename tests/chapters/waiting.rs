@@ -144,7 +144,7 @@ fn a_file_that_is_cut_short_is_refused_and_nothing_is_written() {
         fs::write(folder.join(file), whole).expect("written");
     }
     fs::remove_file(folder.join("image.snap.new.png")).expect("removed");
-    assert!(waiting.accept().expect_err("refused").to_string().contains("cannot read"));
+    assert!(waiting.accept().expect_err("refused").to_string().contains("there is no file"));
 }
 
 /// What the command prints, and whether it succeeds.

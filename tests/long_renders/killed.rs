@@ -98,7 +98,7 @@ fn ctrl_c_writes_what_there_is_and_says_how_to_go_on_and_more_samples_continue_a
         let ended = child.wait_with_output().expect("it ends");
         if ended.status.code() == Some(130) {
             let said = text(&ended.stderr);
-            assert!(said.contains("picture.exr and picture.checkpoint hold what there is"), "{said}");
+            assert!(said.contains("picture.exr and .checkpoint hold what there is"), "{said}");
             assert!(folder.path().join("picture.exr").exists() && folder.path().join("picture.checkpoint").exists());
             eprint!("{said}");
         }
