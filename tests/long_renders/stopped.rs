@@ -190,12 +190,15 @@ fn every_command_ends_soon_after_a_signal() {
         "sweep 26",
         "closed-forms --times 1000",
         "cost 26",
+        "render 5 -q --size 96x54 --samples 1000000 -o kept.exr",
+        "render 25 -q --size 96x54 --samples 1000000 -o kept.png",
     ]
     .into_iter()
     .enumerate()
     {
         let mut child = spawn(path, words);
-        thread::sleep(Duration::from_millis(300));
+        // What is to be kept must have come as far as its first samples.
+        thread::sleep(Duration::from_millis(if words.contains("kept") { 1500 } else { 300 }));
         if child.try_wait().expect("known").is_some() {
             eprintln!("{words}: over by itself");
             continue;
