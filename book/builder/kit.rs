@@ -19,7 +19,9 @@ impl Kit {
     pub fn shared() -> Rc<RefCell<Self>> {
         let chapters = crate::chapters::all();
         Self::with(move |arguments, out| {
-            pinhole::command::run(&chapters, arguments, out).map_err(|error| error.to_string())
+            // What is to be known before a render is for whoever waits for it; the pages show what comes of it.
+            pinhole::command::run_with_notes(&chapters, arguments, out, &mut std::io::sink())
+                .map_err(|error| error.to_string())
         })
     }
 

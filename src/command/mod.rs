@@ -63,8 +63,20 @@ use subject::Subject;
 ///
 /// Errors: one sentence, or what clap says of words that it cannot parse; nothing of a failed command is left on disk.
 pub fn run(chapters: &[Chapter], arguments: &[impl AsRef<OsStr>], out: &mut dyn Write) -> Result {
+    run_with_notes(chapters, arguments, out, &mut stderr())
+}
+
+/// The same, with notes and warnings to a place of their own.
+///
+/// Errors: as [`run`].
+pub fn run_with_notes(
+    chapters: &[Chapter],
+    arguments: &[impl AsRef<OsStr>],
+    out: &mut dyn Write,
+    notes: &mut dyn Write,
+) -> Result {
     let words: Vec<OsString> = arguments.iter().map(OsString::from).collect();
-    let mut streams = Streams { out, notes: &mut stderr(), waits: false, terminal: false };
+    let mut streams = Streams { out, notes, waits: false, terminal: false };
     match perform(chapters, &words, &mut streams) {
         Err(Error::Clap(help)) if !help.use_stderr() => Ok(write!(streams.out, "{help}")?),
         result => result,
