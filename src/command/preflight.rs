@@ -9,15 +9,18 @@ use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use serde_json::json;
 use std::io::Write;
+use std::time::Instant;
 
 /// What would be said before a render, a line each; without a subject, of small scenes with something wrong.
 ///
 /// Errors: what the scene of a subject is refused for.
 pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Format, out: &mut dyn Write) -> Result {
+    let began = Instant::now();
     if let Some(chapter) = &asked.chapter {
         let subject = Subject::find(chapters, chapter)?;
         let wanted = asked.options.asked(false);
-        let told = said(&subject.world(&wanted), &subject.stages()).map_err(|error| subject.placed(error, &wanted))?;
+        let told =
+            said(&subject.world(&wanted), &subject.stages(), began).map_err(|error| subject.placed(error, &wanted))?;
         return match format {
             Format::Json => print_json(&json!({ "scene": subject.name(), "warnings": told }), out),
             Format::Text => print_lines(&told, "", out),
@@ -28,7 +31,7 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
     for slip in SLIPS {
         let mut scene = World::new();
         (slip.scene)(&mut scene);
-        let (warnings, refused) = match said(&scene, &stages) {
+        let (warnings, refused) = match said(&scene, &stages, Instant::now()) {
             Ok(told) => (told, None),
             Err(Error::Refusal(refusal)) => (Vec::new(), Some(refusal.to_string())),
             Err(error) => return Err(error),
@@ -46,10 +49,10 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
     if format.is_json() { print_json(&json!({ "scenes": scenes }), out) } else { Ok(()) }
 }
 
-fn said(scene: &World, stages: &[Stage]) -> Result<Vec<String>> {
+fn said(scene: &World, stages: &[Stage], began: Instant) -> Result<Vec<String>> {
     let (plan, tables) = prepare(scene, stages)?;
     check_film_fits(scene, &plan)?;
-    preflight(scene, (&plan, &tables), Preflight::default())
+    preflight(scene, (&plan, &tables), Preflight::default().since(began))
 }
 
 fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {

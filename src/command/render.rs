@@ -18,6 +18,7 @@ use crate::render::{Execution, RenderUnderWay};
 use crate::scene::Sampling;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use std::time::Instant;
 
 /// The main job: the cover, to `out/`.
 pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<'_>) -> Result {
@@ -32,6 +33,7 @@ pub fn render_subject(
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
+    let began = Instant::now();
     let json = options.stats || format == Format::Json;
     let targets = Targets::of(subject, options)?;
     targets.pictures.iter().try_for_each(|file| check_place(file))?;
@@ -46,7 +48,7 @@ pub fn render_subject(
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
     }
-    let said = before_rendering(&scene, options, &render, json, streams)?;
+    let said = before_rendering(&scene, options, (&render, began), json, streams)?;
 
     let files = Files::new(targets, &scene, &render.plan);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
@@ -98,12 +100,12 @@ pub fn render_subject(
 fn before_rendering(
     scene: &World,
     options: &RenderOptions,
-    render: &RenderUnderWay,
+    (render, began): (&RenderUnderWay, Instant),
     json: bool,
     streams: &mut Streams<'_>,
 ) -> Result<Vec<String>> {
     let (threads, ends_in_time) = (options.threads.map(usize::from), options.time.is_some());
-    let asked = Preflight { threads, ends_in_time, ..Preflight::default() };
+    let asked = Preflight { threads, ends_in_time, ..Preflight::default() }.since(began);
     let said = preflight(scene, (&render.plan, render.tables()), asked)?;
     if !json {
         said.iter().try_for_each(|warning| streams.note(&format!("before rendering: {warning}")))?;

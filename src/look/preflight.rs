@@ -11,7 +11,7 @@ use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// From this share of the rays on a picture counts as black or white.
 const NEARLY_ALL: f64 = 0.95;
@@ -32,6 +32,14 @@ pub struct Preflight {
 /// How long rays are tried. A build without optimisation is about ten times as slow and gets that much longer, so that it
 /// says the same.
 const PATIENCE: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 1 });
+
+impl Preflight {
+    /// The same for someone who has been waiting since `began`: what reading the scene took is taken off the time for
+    /// trying rays, of which a fifth is always left.
+    pub fn since(self, began: Instant) -> Self {
+        Self { patience: Some(PATIENCE.saturating_sub(began.elapsed()).max(PATIENCE / 5)), ..self }
+    }
+}
 
 /// Says why the picture of a scene is likely to be black or white, to miss light, or to take very long, before it is
 /// rendered: a sentence each.

@@ -42,6 +42,8 @@ pub struct Counts {
     files: u64,
     commands: u64,
     refused: u64,
+    /// Commands that did what they were asked, by what was damaged: scene, texture, compared image, checkpoint.
+    pub done: [u64; 4],
     pub panics: Vec<String>,
     pub slow: Vec<String>,
     pub large: Vec<String>,
@@ -53,11 +55,12 @@ impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} files, {} commands, {} of them refused; {} panics {:?}, {} over {SLOW:?} {:?}, {} over 1 GiB {:?}; the slowest \
+            "{} files, {} commands, {} of them refused, {:?} done by kind; {} panics {:?}, {} over {SLOW:?} {:?}, {} over 1 GiB {:?}; the slowest \
              took {:?} of the processor, the largest {} MiB",
             self.files,
             self.commands,
             self.refused,
+            self.done,
             self.panics.len(),
             self.panics,
             self.slow.len(),
@@ -109,7 +112,7 @@ impl Bases {
     }
 
     fn run(&self, words: &[String]) -> pinhole::Result {
-        command::run(&self.chapters, words, &mut std::io::sink())
+        command::run_with_notes(&self.chapters, words, &mut std::io::sink(), &mut std::io::sink())
     }
 
     /// Damages a file as this seed says and gives it to every command that reads its kind.
@@ -123,11 +126,11 @@ impl Bases {
         };
         counts.files += 1;
         for words in commands {
-            self.try_command(&format!("{seed} {kind:?} {}", words[0]), &words, counts);
+            self.try_command(&format!("{seed} {kind:?} {}", words[0]), kind, &words, counts);
         }
     }
 
-    fn try_command(&self, what: &str, words: &[String], counts: &mut Counts) {
+    fn try_command(&self, what: &str, kind: Kind, words: &[String], counts: &mut Counts) {
         forget_peak();
         let started = ProcessTime::now();
         let ended = catch_unwind(AssertUnwindSafe(|| self.run(words)));
@@ -141,7 +144,7 @@ impl Bases {
                 assert!(!told.is_empty() && told.chars().count() <= 2200, "{what}: {told}");
                 assert!(!told.chars().any(|letter| letter.is_control() && letter != '\n'), "{what}: {told:?}");
             }
-            Ok(Ok(())) => {}
+            Ok(Ok(())) => counts.done[kind as usize] += 1,
         }
         if time > SLOW {
             counts.slow.push(format!("{what} {time:?}"));
@@ -189,6 +192,9 @@ impl Bases {
     fn damage_checkpoint(&self, dice: &mut Dice) -> Vec<Vec<String>> {
         let mut bytes = self.checkpoint.clone();
         damage(dice, &mut bytes);
+        if dice.below(4) > 0 {
+            mend_checkpoint(&mut bytes);
+        }
         fs::write(self.folder.join("out.checkpoint"), bytes).expect("written");
         vec![self.render("sampled.ron", &["--resume"])]
     }
@@ -254,11 +260,12 @@ fn images() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// Damages a file in one to three places.
+/// Damages a file in up to three places; some stay whole, so that what was damaged before is told from what is always
+/// refused.
 fn damage(dice: &mut Dice, bytes: &mut Vec<u8>) {
-    for _ in 0..1 + dice.below(3) {
+    for _ in 0..dice.below(8).min(dice.below(4)) {
         // Headers are short, and most of what can go wrong stands in them.
-        let within = if dice.below(2) == 0 { bytes.len().min(400) } else { bytes.len() };
+        let within = if dice.below(3) == 0 { bytes.len().min(400) } else { bytes.len() };
         let at = dice.below(within + 1);
         let end = (at + dice.below(24)).min(bytes.len());
         let number =
@@ -278,6 +285,15 @@ fn damage(dice: &mut Dice, bytes: &mut Vec<u8>) {
             _ if at < bytes.len() => bytes[at] ^= 1 << dice.below(8),
             _ => {}
         }
+    }
+}
+
+/// Gives a checkpoint the check sum at its end that it ought to have, so that what stands in it is looked at.
+fn mend_checkpoint(bytes: &mut [u8]) {
+    const WORD: usize = 20;
+    if let Some(end) = bytes.len().checked_sub(4).filter(|&end| end > WORD) {
+        let sum = crc32fast::hash(&bytes[WORD..end]);
+        bytes[end..].copy_from_slice(&sum.to_le_bytes());
     }
 }
 
