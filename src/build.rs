@@ -7,20 +7,26 @@ use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let mut files = vec![root.join("Cargo.lock")];
-    list(&root.join("src"), &mut files)?;
-    let mut hasher = DefaultHasher::new();
-    for file in files {
-        // The same sources are the same program wherever they lie, so neither the folder nor the ends of lines may count.
-        let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
-        hasher.write(name.as_bytes());
-        hasher.write(fs::read_to_string(&file)?.replace("\r\n", "\n").as_bytes());
-    }
     let mut out = io::stdout();
     for watched in ["src", "Cargo.lock"] {
         io::Write::write_all(&mut out, format!("cargo::rerun-if-changed={watched}\n").as_bytes())?;
     }
-    io::Write::write_all(&mut out, format!("cargo::rustc-env=PINHOLE_SOURCES={:016x}\n", hasher.finish()).as_bytes())
+    io::Write::write_all(&mut out, format!("cargo::rustc-env=PINHOLE_SOURCES={}\n", hash_of(&root)?).as_bytes())
+}
+
+/// A hash of all that a program is built from below this folder, but for its chapters.
+///
+/// The same sources are the same program wherever they lie, so neither the folder nor the ends of lines count.
+pub fn hash_of(root: &Path) -> io::Result<String> {
+    let mut files = vec![root.join("Cargo.lock")];
+    list(&root.join("src"), &mut files)?;
+    let mut hasher = DefaultHasher::new();
+    for file in files {
+        let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+        hasher.write(name.as_bytes());
+        hasher.write(fs::read_to_string(&file)?.replace("\r\n", "\n").as_bytes());
+    }
+    Ok(format!("{:016x}", hasher.finish()))
 }
 
 /// The sources of a folder and of those in it, in the order of their names.

@@ -8,6 +8,8 @@ mod adaptive;
 mod killed;
 #[path = "long_renders/layers.rs"]
 mod layers;
+#[path = "long_renders/sources.rs"]
+mod sources;
 #[path = "long_renders/stopped.rs"]
 mod stopped;
 
