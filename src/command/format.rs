@@ -1,5 +1,5 @@
 use crate::Result;
-use crate::scene::printable_path;
+use crate::scene::{is_invisible, printable_path};
 use clap::ValueEnum;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -68,22 +68,9 @@ fn escaped(json: &str) -> String {
     text
 }
 
-/// Whether a letter controls a terminal, sets the direction of text, or has no width; serde_json escapes those below a
-/// space.
+/// Whether a terminal does not show a letter as itself; serde_json escapes those below a space.
 fn is_hidden(letter: char) -> bool {
-    matches!(
-        letter,
-        '\u{7f}'..='\u{9f}'
-            | '\u{ad}'
-            | '\u{61c}'
-            | '\u{180e}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{feff}'
-            | '\u{fff9}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e0fff}'
-    )
+    ('\u{7f}'..='\u{9f}').contains(&letter) || is_invisible(letter)
 }
 
 #[cfg(test)]

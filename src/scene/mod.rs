@@ -93,7 +93,7 @@ pub use phong::Phong;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
-pub use printable::{printable, printable_message, printable_path};
+pub use printable::{is_invisible, printable, printable_message, printable_path};
 pub use rectangle::Rectangle;
 pub use refusal::Refusal;
 pub use request::{Statistics, TracePixel, View};

@@ -42,11 +42,19 @@ fn escaped(letters: impl Iterator<Item = char>) -> String {
     line
 }
 
-/// Letters that are not seen and change how others are shown: the controls of direction, line ends and joints.
-fn is_invisible(letter: char) -> bool {
+/// Letters that are not seen and change how others are shown: the controls of direction, line ends, joints and tags.
+pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,
-        '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}'
+        '\u{ad}'
+            | '\u{61c}'
+            | '\u{180e}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
     )
 }
 
