@@ -1,6 +1,6 @@
 //! What each chapter asks its reader to write: a function in the chapter's `exercise.rs`.
 
-use pinhole::Attempt;
+use pinhole_lab::Attempt;
 
 #[path = "01_image/exercise.rs"]
 pub mod image;
@@ -83,83 +83,38 @@ pub mod choosing_samples;
 #[path = "27_caustics/exercise.rs"]
 pub mod caustics;
 
-/// Chapter 01.
-pub const IMAGE: Attempt = Attempt::RasterFromIndex(image::raster_from_index);
+/// Each chapter that asks something, and the function as the reader has it now.
+pub const ALL: &[(&str, Attempt)] = &[
+    ("01_image", Attempt::RasterFromIndex(image::raster_from_index)),
+    ("02_ray", Attempt::Unit(ray::unit)),
+    ("03_hit", Attempt::NearestSphereT(hit::nearest_sphere_t)),
+    ("04_orthographic", Attempt::OrthographicRay(orthographic::orthographic_ray)),
+    ("05_pinhole", Attempt::PerspectiveDirection(pinhole_camera::perspective_direction)),
+    ("06_ndc", Attempt::PixelFromNdc(ndc::pixel_from_ndc)),
+    ("07_screen", Attempt::NdcFromScreen(screen::ndc_from_screen)),
+    ("08_field_of_view", Attempt::VerticalFov(field_of_view::vertical_fov)),
+    ("09_camera_to_world", Attempt::NormalWorldFromObject(camera_to_world::normal_world_from_object)),
+    ("10_light_and_shadow", Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance)),
+    ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
+    ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
+    ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
+    ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
+    ("15_reflection", Attempt::PhongRadiance(reflection::phong_radiance)),
+    ("16_textures", Attempt::MeanOfStripes(textures::mean_of_stripes)),
+    ("17_sampling", Attempt::TentOffset(sampling::tent_offset)),
+    ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
+    ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
+    ("20_glass", Attempt::Refracted(glass::refracted)),
+    ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
+    ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
+    ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
+    ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
+    ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
+    ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
+    ("27_caustics", Attempt::PixelShare(caustics::pixel_share)),
+];
 
-/// Chapter 02.
-pub const RAY: Attempt = Attempt::Unit(ray::unit);
-
-/// Chapter 03.
-pub const HIT: Attempt = Attempt::NearestSphereT(hit::nearest_sphere_t);
-
-/// Chapter 04.
-pub const ORTHOGRAPHIC: Attempt = Attempt::OrthographicRay(orthographic::orthographic_ray);
-
-/// Chapter 05.
-pub const PINHOLE_CAMERA: Attempt = Attempt::PerspectiveDirection(pinhole_camera::perspective_direction);
-
-/// Chapter 06.
-pub const NDC: Attempt = Attempt::PixelFromNdc(ndc::pixel_from_ndc);
-
-/// Chapter 07.
-pub const SCREEN: Attempt = Attempt::NdcFromScreen(screen::ndc_from_screen);
-
-/// Chapter 08.
-pub const FIELD_OF_VIEW: Attempt = Attempt::VerticalFov(field_of_view::vertical_fov);
-
-/// Chapter 09.
-pub const CAMERA_TO_WORLD: Attempt = Attempt::NormalWorldFromObject(camera_to_world::normal_world_from_object);
-
-/// Chapter 10.
-pub const LIGHT_AND_SHADOW: Attempt = Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance);
-
-/// Chapter 11.
-pub const CONVENTIONS: Attempt = Attempt::OursFromTheirs(conventions::ours_from_theirs);
-
-/// Chapter 12.
-pub const HOW_IT_IS_BUILT: Attempt = Attempt::Kept(how_it_is_built::kept);
-
-/// Chapter 13.
-pub const SHAPES: Attempt = Attempt::NearestBoxT(shapes::nearest_box_t);
-
-/// Chapter 14.
-pub const TRANSFORMS: Attempt = Attempt::FallingCosine(transforms::falling_cosine);
-
-/// Chapter 15.
-pub const REFLECTION: Attempt = Attempt::PhongRadiance(reflection::phong_radiance);
-
-/// Chapter 16.
-pub const TEXTURES: Attempt = Attempt::MeanOfStripes(textures::mean_of_stripes);
-
-/// Chapter 17.
-pub const SAMPLING: Attempt = Attempt::TentOffset(sampling::tent_offset);
-
-/// Chapter 18.
-pub const ERROR_AND_TIME: Attempt = Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared);
-
-/// Chapter 19.
-pub const MIRRORS: Attempt = Attempt::Mirrored(mirrors::mirrored);
-
-/// Chapter 20.
-pub const GLASS: Attempt = Attempt::Refracted(glass::refracted);
-
-/// Chapter 21.
-pub const SOFT_SHADOWS: Attempt = Attempt::SolidAngleDensity(soft_shadows::solid_angle_density);
-
-/// Chapter 23.
-pub const DEPTH_OF_FIELD: Attempt = Attempt::LensDirection(depth_of_field::lens_direction);
-
-/// Chapter 24.
-pub const MOTION_BLUR: Attempt = Attempt::MovingSphereT(motion_blur::moving_sphere_t);
-
-/// Chapter 22.
-pub const AMBIENT_OCCLUSION: Attempt = Attempt::CosineDirection(ambient_occlusion::cosine_direction);
-
-/// Chapter 25.
-pub const PATH_TRACING: Attempt = Attempt::AfterRoulette(path_tracing::after_roulette);
-
-/// Chapter 26.
-pub const CHOOSING_SAMPLES: Attempt = Attempt::PowerHeuristic(choosing_samples::power_heuristic);
-
-/// Chapter 27.
-pub const CAUSTICS: Attempt = Attempt::PixelShare(caustics::pixel_share);
+/// The function that a chapter asks for.
+pub fn of(chapter: &str) -> Option<Attempt> {
+    ALL.iter().find(|(name, _)| *name == chapter).map(|(_, attempt)| *attempt)
+}

@@ -1,10 +1,7 @@
 //! The command line of pinhole.
 
-use pinhole::command;
+use pinhole_cli::command;
 use std::process::ExitCode;
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
 
 fn main() -> ExitCode {
     command::stop_on_interrupt();

@@ -1,8 +1,6 @@
 //! Every refusal: one sentence that names the entity, the field, the value and what is accepted; never a panic.
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
-mod scenes;
+use crate::scenes;
 
 #[path = "bad_input/cameras.rs"]
 mod cameras;
@@ -17,7 +15,8 @@ use glam::{DQuat, DVec3};
 use pinhole::plan::PlanError;
 use pinhole::render::prepare;
 use pinhole::scene::*;
-use pinhole::{Error, command, look};
+use pinhole::{Error, look};
+use pinhole_cli::command;
 use scenes::{Eye, offer};
 use std::fmt::Display;
 use std::fs;
@@ -204,7 +203,7 @@ fn bad_views_and_pixels() {
     eprintln!("bad views and pixels: {} refused", lines.len());
 }
 
-fn typed(words: &[&str]) -> pinhole::Result<String> {
+fn typed(words: &[&str]) -> command::Result<String> {
     let words: Vec<String> = words.iter().map(|word| word.to_string()).collect();
     let mut out = Vec::new();
     command::run(&chapters::all(), &words, &mut out)?;
@@ -283,14 +282,15 @@ fn bad_command_lines() {
         let shown = words.join(" ").replace(&path(""), "FOLDER/");
         let error = typed(&words).err().unwrap_or_else(|| panic!("`{shown}` is not refused"));
         let message = match &error {
-            Error::Clap(answer) => answer.to_string().trim_end().replace("\n\n", "\n").replace('\n', "\n    "),
-            _ => sentence(&error, &shown),
+            command::Error::Clap(answer) => answer.to_string().trim_end().replace("\n\n", "\n").replace('\n', "\n    "),
+            command::Error::Pinhole(error) => sentence(error, &shown),
+            command::Error::CommandLine(_) => sentence(&error, &shown),
         };
         for word in *expected {
             assert!(message.contains(word), "`{shown}`: no {word} in: {message}");
         }
         let mut message = message.replace(&path(""), "FOLDER/");
-        if let (Error::Write { source, .. }, false) =
+        if let (command::Error::Pinhole(Error::Write { source, .. }), false) =
             (&error, shown.contains("folder.png") || message.contains("is a file"))
         {
             message = message.replace(&source.to_string(), "(what the system says)");
@@ -325,7 +325,7 @@ fn a_bad_place_is_refused_before_the_render() {
     let place = file.join("picture.png").display().to_string();
     // The view is refused too, but only when the render begins.
     let error = typed(&["render", "cover", "-q", "--view", "nonsense", "-o", &place]).expect_err("refused");
-    assert!(matches!(error, Error::Write { .. }), "{error}");
+    assert!(matches!(error, command::Error::Pinhole(Error::Write { .. })), "{error}");
     let good = folder.path().join("good.png").display().to_string();
     typed(&["render", "cover", "-q", "--view", "nonsense", "-o", &good]).expect_err("refused");
     assert_eq!(names_in(folder.path()), ["file"], "trying a place leaves nothing there");

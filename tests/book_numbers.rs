@@ -5,17 +5,15 @@ use glam::{DMat3, DVec3, Vec3};
 use pinhole::extract::validate;
 use pinhole::film::{Curve, byte_from_linear, linear_from_srgb};
 use pinhole::intersect::{NO_SHAPE, Surfaces};
-use pinhole::naive::euler::{pitch_yaw_roll, yaw_pitch_roll};
 use pinhole::plan::plan;
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::{LightRays, ShadowHits};
 use pinhole::{Asked, Chapter};
+use pinhole_lab::naive::euler::{pitch_yaw_roll, yaw_pitch_roll};
 use std::path::Path;
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
 #[path = "book_numbers/matter.rs"]
 mod matter;
 #[path = "book_numbers/reflection.rs"]

@@ -1,7 +1,7 @@
 //! Fisheye and equirectangular cameras: directions lead back to their places, solid angles are whole, what lies outside a
 //! circle is black; and one scene through every camera.
 
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};

@@ -16,9 +16,6 @@ use std::process::{Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
-
 fn pinhole(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pinhole"));
     // As `cargo run` starts it, wherever the test was started from.

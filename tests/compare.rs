@@ -2,7 +2,7 @@
 
 use exr::prelude::{Encoding, Image, SpecificChannels, WritableImage};
 use image::{Rgb, RgbImage};
-use pinhole::measure::image_error::{ImageError, Numbers, Oddities, image_error};
+use pinhole_lab::measure::image_error::{ImageError, Numbers, Oddities, image_error};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -111,7 +111,7 @@ fn write_exr(path: &Path, size: [u32; 2], pixels: &[Pixel]) {
 fn compare(words: &[&str]) -> Result<String, String> {
     let words: Vec<String> = std::iter::once("compare").chain(words.iter().copied()).map(String::from).collect();
     let mut out = Vec::new();
-    pinhole::command::run(&[], &words, &mut out).map_err(|error| error.to_string())?;
+    pinhole_cli::command::run(&[], &words, &mut out).map_err(|error| error.to_string())?;
     Ok(String::from_utf8(out).expect("text"))
 }
 

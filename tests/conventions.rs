@@ -13,9 +13,6 @@ use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, 
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
-
 fn scene(name: &str, width: u32, height: u32) -> World {
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
     chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() })

@@ -1,11 +1,8 @@
 //! Each chapter's costs were measured with the sources as they are.
 
-use pinhole::measure::cost::made_from;
+use pinhole_lab::measure::cost::made_from;
 use std::fs;
 use std::path::Path;
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
 
 #[test]
 fn costs_are_of_the_present_sources() {

@@ -15,8 +15,8 @@ mod sides;
 
 use glam::DVec3;
 use pinhole::extract::{Emitter, EmittingCuboid, Parallelogram};
-use pinhole::measure::ray_aim::Draws;
 use pinhole::shade::emitter::{LightPoint, density_towards, point_on};
+use pinhole_lab::measure::ray_aim::Draws;
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
 /// direction at a time, and by how much at most the density told there differs from the one asked for afterwards.

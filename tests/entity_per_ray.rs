@@ -1,15 +1,13 @@
 //! The renderer of one entity a ray makes the kit's image, and what was measured of it is of the present sources.
 
 use bevy_ecs::prelude::*;
-use pinhole::measure::cost::made_from_these;
-use pinhole::naive::entity_per_ray::EntityPerRay;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{PointLight, Resolution};
 use pinhole::{Asked, Chapter};
+use pinhole_lab::measure::cost::made_from_these;
+use pinhole_lab::naive::entity_per_ray::EntityPerRay;
 use std::path::Path;
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
 #[path = "scenes/sunflower.rs"]
 mod sunflower;
 
@@ -47,7 +45,7 @@ fn kept() -> String {
 
 #[test]
 fn it_was_measured_with_the_present_sources() {
-    let beside = ["src/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
+    let beside = ["src/lab/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
     let expected = format!("made from {}", made_from_these("12_how_it_is_built", &beside).expect("sources"));
     assert_eq!(
         kept().lines().last(),

@@ -3,18 +3,15 @@
 use bevy_ecs::prelude::*;
 use glam::Vec3;
 use pinhole::intersect::Hits;
-use pinhole::measure::extremes::{Group, Outcome, try_group, unbroken};
-use pinhole::measure::oracle_plane::{Plane, enclosed_plane_t, plane_hit};
-use pinhole::measure::oracle_sphere::{Roots, Sphere, enclosed_line_ts, enclosed_sphere_t, line_roots, sphere_hit};
-use pinhole::measure::ray_aim::{self, AimedRay};
-use pinhole::measure::sweep::sweep;
 use pinhole::plan::{Evidence, Stage, TileSystems};
 use pinhole::shade::Radiance;
 use pinhole::{Asked, Chapter};
+use pinhole_lab::measure::extremes::{Group, Outcome, try_group, unbroken};
+use pinhole_lab::measure::oracle_plane::{Plane, enclosed_plane_t, plane_hit};
+use pinhole_lab::measure::oracle_sphere::{Roots, Sphere, enclosed_line_ts, enclosed_sphere_t, line_roots, sphere_hit};
+use pinhole_lab::measure::ray_aim::{self, AimedRay};
+use pinhole_lab::measure::sweep::sweep;
 use std::fs;
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
 
 /// Tries a group, prints its table, and asks that the kit holds everywhere and each naive method breaks somewhere.
 fn holds(group: Group, rays: u64) {
@@ -238,7 +235,7 @@ fn the_page_needs_nothing_but_itself() {
     let file = folder.path().join("extremes").join("index.html");
     let words = ["extremes", "sphere", "--rays", "256", "--page", &file.display().to_string()].map(String::from);
     let mut said = Vec::new();
-    pinhole::command::run(&chapters::all(), &words, &mut said).expect("the kit holds");
+    pinhole_cli::command::run(&chapters::all(), &words, &mut said).expect("the kit holds");
     let page = fs::read_to_string(&file).expect("the page");
     for outside in ["http:", "https:", "src=\"/", "<script", "url("] {
         assert!(!page.contains(outside), "the page asks for {outside}");

@@ -1,12 +1,9 @@
 //! Every figure of the book, drawn from the chapters as they are: well-formed, finite, stamped, and legible.
 #![allow(missing_docs, reason = "a test")]
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
-
 use std::sync::OnceLock;
 
-use pinhole::figure::{self, Drawing, Grid, Subject, chosen_rays, drawn_distance, overlap};
+use pinhole_lab::figure::{self, Drawing, Grid, Subject, chosen_rays, drawn_distance, overlap};
 
 /// All of them, drawn once for all tests.
 fn drawings() -> &'static [(&'static str, Drawing)] {
@@ -90,7 +87,7 @@ fn the_command_lists_draws_and_refuses() {
     let run = |words: &[&str]| {
         let words: Vec<String> = words.iter().map(|word| word.to_string()).collect();
         let mut out = Vec::new();
-        let done = pinhole::command::run(&chapters, &words, &mut out);
+        let done = pinhole_cli::command::run(&chapters, &words, &mut out);
         (done.map_err(|error| error.to_string()), String::from_utf8(out).expect("text"))
     };
     let (done, listed) = run(&["figure"]);

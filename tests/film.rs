@@ -1,6 +1,6 @@
 //! The film: what may not join it, what it sums, and what it leaves on disk.
 
-mod scenes;
+use crate::scenes;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use pinhole::film::{

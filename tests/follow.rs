@@ -4,8 +4,6 @@
 mod broken;
 #[path = "follow/caustics.rs"]
 mod caustics;
-#[path = "../chapters/mod.rs"]
-mod chapters;
 #[path = "follow/long_paths.rs"]
 mod long_paths;
 #[path = "follow/nested.rs"]
@@ -14,18 +12,18 @@ mod nested;
 mod numerics;
 #[path = "follow/preflight.rs"]
 mod preflight;
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use pinhole::Asked;
 use pinhole::extract::integrator_of;
-use pinhole::measure::closed_form::closed_forms;
-use pinhole::measure::image_error::Numbers;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, render};
-use pinhole::report::agreement::{Agreement, agreement};
-use pinhole::report::run::numbers;
 use pinhole::scene::{Background, Gradient, Integrator, LightSampling, Resolution, Sampler, Sampling};
+use pinhole_lab::measure::closed_form::closed_forms;
+use pinhole_lab::measure::image_error::Numbers;
+use pinhole_lab::report::agreement::{Agreement, agreement};
+use pinhole_lab::report::run::numbers;
 use scenes::public::public;
 use scenes::{named, offer};
 

@@ -1,19 +1,19 @@
 //! The same bits everywhere: nothing about how a picture is made can change it, and neither can units or place.
 
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use glam::DVec3;
 use pinhole::extract::EllipsoidTable;
 use pinhole::film::FilmTile;
-use pinhole::measure::film_bits::digest;
-use pinhole::measure::sweep::{scale, shift};
 use pinhole::plan::{Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{
     Aperture, Filter, Integrator, Lens, Motion, Placement, PointLight, Sampling, Shutter, Statistics,
 };
+use pinhole_lab::measure::film_bits::digest;
+use pinhole_lab::measure::sweep::{scale, shift};
 use scenes::caustics::{caustics, traced};
 use scenes::followed::{INTEGRATORS, followed};
 use scenes::matter::{brushed, polished};

@@ -1,6 +1,6 @@
 //! The thin lens, against closed forms: where its rays start, where they meet, how wide what is out of focus becomes.
 
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};

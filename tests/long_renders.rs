@@ -1,6 +1,6 @@
 //! Renders in passes: the same bits however they are cut, stopped and continued; by time; by error; with layers.
 
-mod scenes;
+use crate::scenes;
 
 #[path = "long_renders/adaptive.rs"]
 mod adaptive;
@@ -16,9 +16,9 @@ mod stopped;
 use bevy_ecs::prelude::*;
 use pinhole::Error;
 use pinhole::film::{Film, read_checkpoint, write_checkpoint};
-use pinhole::measure::film_bits::FilmBits;
 use pinhole::render::{Execution, Limits, RenderUnderWay, Watch, Worlds, film_key, render, render_in_passes, steps_of};
 use pinhole::scene::*;
+use pinhole_lab::measure::film_bits::FilmBits;
 use scenes::{Setup, full, named};
 use std::fs;
 use std::sync::atomic::{AtomicU64, Ordering};

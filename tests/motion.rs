@@ -1,7 +1,7 @@
 //! Shutter and motion, against closed forms: how much of a pixel something covers, on average over the time that the
 //! shutter is open.
 
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};

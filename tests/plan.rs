@@ -1,6 +1,6 @@
 //! What a scene does not need does not exist, and leaving it out changes nothing; what it needs cannot be left out.
 
-mod scenes;
+use crate::scenes;
 
 #[path = "plan/followed.rs"]
 mod followed;

@@ -1,21 +1,18 @@
 //! `report` as a reader runs it: what it writes, how it stops and goes on, what it refuses.
 
-use pinhole::command::run;
-use pinhole::measure::cost::fingerprint;
 use pinhole::plan::Stage;
 use pinhole::render::Watch;
-use pinhole::report::deviation::RELATIVE_MSE;
-use pinhole::report::interval::LEVEL;
-use pinhole::report::ladder::Ladder;
-use pinhole::report::run::Shelf;
-use pinhole::report::runner::{Progress, Runs, Variant, run_all};
-use pinhole::report::sum_up::measure;
 use pinhole::scene::{Filter, Resolution, Sampler, Sampling};
 use pinhole::{Asked, Chapter, Error};
+use pinhole_cli::command::run;
+use pinhole_lab::measure::cost::fingerprint;
+use pinhole_lab::report::deviation::RELATIVE_MSE;
+use pinhole_lab::report::interval::LEVEL;
+use pinhole_lab::report::ladder::Ladder;
+use pinhole_lab::report::run::Shelf;
+use pinhole_lab::report::runner::{Progress, Runs, Variant, run_all};
+use pinhole_lab::report::sum_up::measure;
 use std::sync::atomic::{AtomicU32, Ordering};
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
 
 fn chapter(name: &str) -> Chapter {
     chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter")

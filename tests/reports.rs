@@ -1,12 +1,9 @@
 //! Each chapter's kept report was measured with the sources as they are, and is small.
 
-use pinhole::command::has_report;
-use pinhole::report::kept::{LARGEST, kept, made_from, place};
+use pinhole_cli::command::has_report;
+use pinhole_lab::report::kept::{LARGEST, kept, made_from, place};
 use std::fs;
 use std::path::Path;
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
 
 #[test]
 fn reports_are_of_the_present_sources() {

@@ -1,9 +1,6 @@
 //! Sampling as a whole: constants through every filter, the widest image, what means vary by, the command line.
 
-mod scenes;
-
-#[path = "../chapters/mod.rs"]
-mod chapters;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::FilterCells;
@@ -212,7 +209,7 @@ fn slopes_are_those_of_theory() {
 fn run(words: &str) -> (Result<(), String>, String) {
     let words: Vec<String> = words.split_whitespace().map(String::from).collect();
     let mut out = Vec::new();
-    let done = pinhole::command::run(&chapters::all(), &words, &mut out).map_err(|error| error.to_string());
+    let done = pinhole_cli::command::run(&chapters::all(), &words, &mut out).map_err(|error| error.to_string());
     (done, String::from_utf8(out).expect("text"))
 }
 

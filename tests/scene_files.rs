@@ -1,9 +1,5 @@
 //! Scenes as files: what is written comes back bit for bit, and what is wrong is told by file, line and column.
 
-#[path = "../chapters/mod.rs"]
-mod chapters;
-mod scenes;
-
 #[path = "scene_files/bad_cases.rs"]
 mod bad_cases;
 #[path = "scene_files/bad_files.rs"]
@@ -36,10 +32,10 @@ fn parsed(text: &str) -> Result<SceneFile, FileProblem> {
 }
 
 /// What a command line prints.
-fn typed(words: &[&str]) -> pinhole::Result<String> {
+fn typed(words: &[&str]) -> pinhole_cli::command::Result<String> {
     let words: Vec<String> = words.iter().map(|word| word.to_string()).collect();
     let mut out = Vec::new();
-    pinhole::command::run(&chapters::all(), &words, &mut out)?;
+    pinhole_cli::command::run(&chapters::all(), &words, &mut out)?;
     Ok(String::from_utf8(out).expect("text"))
 }
 

@@ -1,6 +1,6 @@
 //! What a pixel covers of a texture, judged by its neighbours and by many samples; files found where a scene says.
 
-mod scenes;
+use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec2, DVec3};

@@ -17,10 +17,10 @@ pub struct Kit {
 impl Kit {
     /// The kit of this repository, to be shared by the pages of one build.
     pub fn shared() -> Rc<RefCell<Self>> {
-        let chapters = crate::chapters::all();
+        let chapters = chapters::all();
         Self::with(move |arguments, out| {
             // What is to be known before a render is for whoever waits for it; the pages show what comes of it.
-            pinhole::command::run_with_notes(&chapters, arguments, out, &mut std::io::sink())
+            pinhole_cli::command::run_with_notes(&chapters, arguments, out, &mut std::io::sink())
                 .map_err(|error| error.to_string())
         })
     }

@@ -17,9 +17,6 @@ mod serve;
 mod site;
 mod watch;
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
-
 use clap::Parser;
 use std::io::Write;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! The exercise of chapter 12; `cargo run --release -- check 12` compares it with the kit.
 
-use pinhole::StageWords;
+use pinhole_lab::StageWords;
 
 // ANCHOR: kept
 /// The names of the stages that a plan keeps, in their order, for someone who asks for a column.

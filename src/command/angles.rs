@@ -1,10 +1,10 @@
+use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use crate::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
-use crate::plan::Table;
-use crate::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
-use crate::{Error, Result};
+use pinhole::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
+use pinhole::plan::Table;
+use pinhole::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
 use serde_json::json;
 use std::io::Write;
 
@@ -20,7 +20,7 @@ pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Forma
         let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
         let told =
             if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
-        return Err(Error::Usage(format!("the camera of {} {told}", subject.name())));
+        return Err(Error::usage(format!("the camera of {} {told}", subject.name())));
     };
     let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
     let aspect = image.aspect();

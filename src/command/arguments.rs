@@ -2,12 +2,12 @@ use super::called::called;
 use super::format::Format;
 use super::options::{RenderOptions, STYLES, SamplingOptions, SceneOptions, pixel, size};
 use super::report_arguments::ReportErrors;
-use crate::chapter::Size;
-use crate::look::convention::Mistake;
-use crate::measure::extremes::Group;
-use crate::scene::TracePixel;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use pinhole::Size;
+use pinhole::look::convention::Mistake;
+use pinhole::scene::TracePixel;
+use pinhole_lab::measure::extremes::Group;
 use std::ffi::OsString;
 use std::path::PathBuf;
 

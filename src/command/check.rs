@@ -1,8 +1,10 @@
+use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, number_or_word, print_json};
-use crate::chapter::Chapter;
-use crate::exercise::{Outcome, Progress, Turn, list_exercises, take_turn, turn};
-use crate::{Error, Result};
+use crate::exercises;
+use pinhole::Chapter;
+use pinhole_lab::Attempt;
+use pinhole_lab::exercise::{Outcome, Progress, Turn, list_exercises, take_turn, turn};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -17,28 +19,37 @@ const PROGRESS: &str = "out/check.json";
 pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mut dyn Write) -> Result {
     let file = Path::new(PROGRESS);
     match (asked, format) {
-        (None, Format::Text) => list_exercises(chapters, file, out),
-        (None, Format::Json) => print_json(&exercises(chapters, file), out),
-        (Some(asked), Format::Text) => take_turn(find::chapter(chapters, asked)?, file, out),
+        (None, Format::Text) => Ok(list_exercises(exercises::ALL, file, out)?),
+        (None, Format::Json) => print_json(&told(file), out),
+        (Some(asked), Format::Text) => {
+            let (name, attempt) = find(chapters, asked)?;
+            Ok(take_turn(name, attempt, file, out)?)
+        }
         (Some(asked), Format::Json) => {
-            let chapter = find::chapter(chapters, asked)?;
-            let turn = turn(chapter, file)?;
-            print_json(&Told::of(chapter.name, &turn), out)?;
-            turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
+            let (name, attempt) = find(chapters, asked)?;
+            let turn = turn(name, attempt, file);
+            print_json(&Told::of(name, &turn), out)?;
+            turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::usage(sentence)))
         }
     }
 }
 
-fn exercises(chapters: &[Chapter], file: &Path) -> Value {
+/// A chapter's name and the function that it asks for.
+fn find(chapters: &[Chapter], asked: &str) -> Result<(&'static str, Attempt)> {
+    let name = find::chapter(chapters, asked)?.name;
+    let none = || format!("{name} has no exercise to check; `check` without a chapter lists those that have one");
+    Ok((name, exercises::of(name).ok_or_else(|| Error::usage(none()))?))
+}
+
+fn told(file: &Path) -> Value {
     let (progress, remark) = Progress::read(file);
-    let told = |chapter: &Chapter| {
-        let function = chapter.exercise?.function();
-        let exercise = format!("chapters/{}/exercise.rs", chapter.name);
-        Some(json!({
-            "chapter": chapter.name, "function": function, "file": exercise, "tries": progress.of(chapter.name),
-        }))
+    let told = |(chapter, attempt): &(&str, Attempt)| {
+        let exercise = format!("chapters/{chapter}/exercise.rs");
+        json!({
+            "chapter": chapter, "function": attempt.function(), "file": exercise, "tries": progress.of(chapter),
+        })
     };
-    let exercises: Vec<Value> = chapters.iter().filter_map(told).collect();
+    let exercises: Vec<Value> = exercises::ALL.iter().map(told).collect();
     json!({ "exercises": exercises, "notes": remark.into_iter().collect::<Vec<String>>() })
 }
 

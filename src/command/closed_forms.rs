@@ -1,8 +1,8 @@
 use super::arguments::TryClosedForms;
+use super::error::{Error, Result};
 use super::format::{Format, number_or_word, print_json};
 use super::interrupt::interrupted;
-use crate::measure::closed_form::{ClosedForm, Measured, closed_forms};
-use crate::{Error, Result};
+use pinhole_lab::measure::closed_form::{ClosedForm, Measured, closed_forms};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -22,7 +22,7 @@ pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn 
     let mut told = Vec::new();
     for form in closed_forms().filter(|form| form.name.contains(&asked.case)) {
         if interrupted() {
-            return Err(Error::Interrupted);
+            return Err(pinhole::Error::Interrupted.into());
         }
         let measured = form.measure(form.few.saturating_mul(asked.times), asked.seed)?;
         if !format.is_json() {
@@ -31,7 +31,7 @@ pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn 
         told.push(Told::of(form, &measured));
     }
     if told.is_empty() {
-        return Err(Error::Usage(format!("no closed form's name holds \"{}\"", asked.case)));
+        return Err(Error::usage(format!("no closed form's name holds \"{}\"", asked.case)));
     }
     if format.is_json() {
         let held = told.iter().filter(|told| told.held).count();
@@ -40,7 +40,7 @@ pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn 
     match told.iter().find(|told| !told.held) {
         None => Ok(()),
         Some(Told { name, .. }) => {
-            Err(Error::Usage(format!("\"{name}\" lies more than 4 standard errors from the truth")))
+            Err(Error::usage(format!("\"{name}\" lies more than 4 standard errors from the truth")))
         }
     }
 }

@@ -1,10 +1,10 @@
 use super::arguments::CompareImages;
+use super::error::{Error, Result};
 use super::format::{Format, number_or_word, print_json, shown};
-use crate::film::write_whole;
-use crate::measure::image_error::{ImageError, Numbers, Oddities, RELATIVE_FLOOR, image_error};
-use crate::measure::image_file::{ImageKind, read_numbers};
-use crate::review::{difference_png, full_white};
-use crate::{Error, Result};
+use pinhole::film::write_whole;
+use pinhole_lab::measure::image_error::{ImageError, Numbers, Oddities, RELATIVE_FLOOR, image_error};
+use pinhole_lab::measure::image_file::{ImageKind, read_numbers};
+use pinhole_lab::review::{difference_png, full_white};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -17,13 +17,13 @@ pub fn compare(asked: &CompareImages, format: Format, out: &mut dyn Write) -> Re
     let (kind, other) = (kind_of(reference)?, kind_of(image)?);
     if kind != other {
         let (r, x) = (reference.display(), image.display());
-        return Err(Error::Usage(format!(
+        return Err(Error::usage(format!(
             "cannot compare {r} with {x}: one holds bytes after the curve, the other light"
         )));
     }
-    let [reference, image] = [reference, image].map(|file| read_numbers(file).map_err(Error::Usage));
+    let [reference, image] = [reference, image].map(|file| read_numbers(file).map_err(Error::usage));
     let (reference, image) = (reference?, image?);
-    let error = image_error(&reference, &image).map_err(Error::Usage)?;
+    let error = image_error(&reference, &image).map_err(Error::usage)?;
     let scale = match &asked.output {
         Some(file) => Some((file, write_difference(&reference, &image, &error, file)?)),
         None => None,
@@ -47,13 +47,13 @@ pub fn compare(asked: &CompareImages, format: Format, out: &mut dyn Write) -> Re
 }
 
 fn kind_of(file: &Path) -> Result<ImageKind> {
-    ImageKind::of(file).map_err(Error::Usage)
+    ImageKind::of(file).map_err(Error::usage)
 }
 
 /// Writes the difference as a PNG and says which difference is full white.
 fn write_difference(reference: &Numbers, image: &Numbers, error: &ImageError, file: &Path) -> Result<f64> {
     if file.extension().is_none_or(|ending| ending != "png") {
-        return Err(Error::Usage(format!("cannot write {}: the name must end in .png", file.display())));
+        return Err(Error::usage(format!("cannot write {}: the name must end in .png", file.display())));
     }
     let full = full_white(error.means.map_or(0.0, |means| means.largest));
     let png = difference_png(error.size, full, |x, y| {

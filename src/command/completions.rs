@@ -1,5 +1,5 @@
 use super::arguments::Arguments;
-use crate::Result;
+use super::error::Result;
 use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 use std::io::Write;

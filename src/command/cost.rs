@@ -1,16 +1,16 @@
 use super::arguments::CostOfChapter;
+use super::error::Result;
 use super::find;
 use super::format::{Format, print_json, shown};
 use super::interrupt::Waiting;
-use crate::Result;
-use crate::chapter::{Asked, Chapter};
-use crate::extract::SamplingTable;
-use crate::film::write_whole;
-use crate::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure};
-use crate::plan::Table;
-use crate::render::Execution;
-use crate::report::provenance::{compiler, load, processor};
-use crate::scene::{Resolution, printable_path};
+use pinhole::extract::SamplingTable;
+use pinhole::film::write_whole;
+use pinhole::plan::Table;
+use pinhole::render::Execution;
+use pinhole::scene::{Resolution, printable_path};
+use pinhole::{Asked, Chapter};
+use pinhole_lab::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure};
+use pinhole_lab::report::provenance::{compiler, load, processor};
 use serde_json::{Value, json};
 use std::fmt;
 use std::io::Write;
@@ -49,7 +49,7 @@ fn measure_one(
         return Ok((measured, Vec::new()));
     }
     let short = Path::new("chapters").join(chapter.name).join("costs.txt");
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(&short);
+    let file = pinhole_lab::repository().join(&short);
     write_whole(&file, |file| file.write_all(report.as_bytes()))?;
     if !format.is_json() {
         writeln!(out, "wrote {}", printable_path(&short))?;

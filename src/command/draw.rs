@@ -1,8 +1,8 @@
 use super::arguments::DrawImage;
+use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
-use crate::figure::{DRAWN_IMAGES, DrawnImage};
-use crate::film::write_whole;
-use crate::{Error, Result};
+use pinhole::film::write_whole;
+use pinhole_lab::figure::{DRAWN_IMAGES, DrawnImage};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub fn draw_image(asked: &DrawImage, format: Format, out: &mut dyn Write) -> Res
     };
     let Some(image) = DRAWN_IMAGES.iter().find(|image| image.file == name) else {
         let names: Vec<&str> = DRAWN_IMAGES.iter().map(|image| image.file).collect();
-        return Err(Error::Usage(format!("there is no image \"{name}\" to be drawn; there are {}", names.join(", "))));
+        return Err(Error::usage(format!("there is no image \"{name}\" to be drawn; there are {}", names.join(", "))));
     };
     let file = asked.output.clone().unwrap_or_else(|| Path::new("out").join(image.file));
     let bytes = image.bytes()?;

@@ -1,13 +1,13 @@
 use super::arguments::ExportScene;
 use super::called::{called, quoted};
+use super::error::{Error, Result};
 use super::export_images::{carry_images, name_images_whole};
 use super::find::is_scene_file;
 use super::format::{Format, print_json, shown};
 use super::subject::Subject;
-use crate::chapter::{Asked, Chapter};
-use crate::film::write_whole;
-use crate::scene::{printable_path, scene_text};
-use crate::{Error, Result};
+use pinhole::film::write_whole;
+use pinhole::scene::{printable_path, scene_text};
+use pinhole::{Asked, Chapter};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! The images of a scene that is exported: carried along beside the file, or named by their whole paths.
 
-use crate::film::write_whole;
-use crate::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, SceneFolder, read_file};
-use crate::{Error, Result};
+use super::error::{Error, Result};
 use bevy_ecs::prelude::World;
+use pinhole::film::write_whole;
+use pinhole::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, SceneFolder, read_file};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::io::Write;
@@ -96,5 +96,5 @@ fn place_beside(folder: &Path, path: &Path, bytes: &[u8]) -> Option<(String, boo
 }
 
 fn refused(file: &Path, name: &str, why: &dyn Display) -> Error {
-    Error::Usage(format!("cannot write {}: the image {name:?} cannot be copied beside it: {why}", file.display()))
+    Error::usage(format!("cannot write {}: the image {name:?} cannot be copied beside it: {why}", file.display()))
 }

@@ -1,13 +1,13 @@
 use super::arguments::TryExtremes;
+use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::{Waiting, interrupted};
-use crate::chapter::{Asked, Chapter};
-use crate::film::{check_place, write_whole};
-use crate::measure::extremes::{Case, Group, Outcome, Worst, try_group, unbroken};
-use crate::measure::extremes_page::{page, strips};
-use crate::scene::printable_path;
-use crate::{Error, Result};
+use pinhole::film::{check_place, write_whole};
+use pinhole::scene::printable_path;
+use pinhole::{Asked, Chapter};
+use pinhole_lab::measure::extremes::{Case, Group, Outcome, Worst, try_group, unbroken};
+use pinhole_lab::measure::extremes_page::{page, strips};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -29,7 +29,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
         }
         let tried = try_group(group, &asked.case, asked.rays, &Waiting::new(0, true));
         if interrupted() {
-            return Err(Error::Interrupted);
+            return Err(pinhole::Error::Interrupted.into());
         }
         if !format.is_json() {
             tried.iter().try_for_each(|case| write!(out, "{case}"))?;
@@ -38,7 +38,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
         cases.extend(tried);
     }
     if cases.is_empty() {
-        return Err(Error::Usage(format!("no case's name holds \"{}\"; without --case all are tried", asked.case)));
+        return Err(Error::usage(format!("no case's name holds \"{}\"; without --case all are tried", asked.case)));
     }
     if let Some(file) = &asked.page {
         write_page(chapters, &cases, file)?;
@@ -64,7 +64,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
     }
     match cases.iter().find(|case| !case.held()) {
         None => Ok(()),
-        Some(case) => Err(Error::Usage(format!("the kit does not hold in the case \"{}\"", case.name))),
+        Some(case) => Err(Error::usage(format!("the kit does not hold in the case \"{}\"", case.name))),
     }
 }
 
@@ -72,7 +72,7 @@ fn write_page(chapters: &[Chapter], cases: &[Case], file: &Path) -> Result {
     let chapter = find::chapter(chapters, SHOWN)?;
     let make = || chapter.world(&Asked::default());
     let page = page(cases, &strips(&make, &chapter.stages())?, chapter.name)?;
-    write_whole(file, |file| file.write_all(page.as_bytes()))
+    Ok(write_whole(file, |file| file.write_all(page.as_bytes()))?)
 }
 
 #[derive(Serialize)]

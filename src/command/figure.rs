@@ -1,9 +1,9 @@
 use super::arguments::DrawFigure;
+use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
-use crate::chapter::Chapter;
-use crate::figure::{Figure, draw, figures};
-use crate::film::write_whole;
-use crate::{Error, Result};
+use pinhole::Chapter;
+use pinhole::film::write_whole;
+use pinhole_lab::figure::{Figure, draw, figures};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,6 @@ pub fn svg_place(asked: Option<&PathBuf>, name: &str) -> Result<PathBuf> {
     let file = asked.cloned().unwrap_or_else(|| Path::new("out").join(format!("{name}.svg")));
     match file.extension() {
         Some(ending) if ending.eq_ignore_ascii_case("svg") => Ok(file),
-        _ => Err(Error::Usage(format!("cannot write a drawing to {}: its name must end in .svg", file.display()))),
+        _ => Err(Error::usage(format!("cannot write a drawing to {}: its name must end in .svg", file.display()))),
     }
 }

@@ -1,11 +1,11 @@
+use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
-use crate::extract::ShapeTable;
-use crate::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
-use crate::plan::{Plan, Table};
-use crate::scene::printable_path;
-use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use pinhole::extract::ShapeTable;
+use pinhole::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
+use pinhole::plan::{Plan, Table};
+use pinhole::scene::printable_path;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -94,17 +94,17 @@ impl Files {
     }
 
     /// Writes the files anew, each whole.
-    pub fn write(&self, film: &Film) -> Result {
+    pub fn write(&self, film: &Film) -> pinhole::Result {
         self.targets.pictures.iter().try_for_each(|picture| self.write_one(film, picture))
     }
 
     /// Writes one of them.
-    pub fn write_one(&self, film: &Film, picture: &Path) -> Result {
-        match (is(picture, "exr"), film.layers.is_empty()) {
-            (false, _) => write_png(film, self.curve, picture),
-            (true, true) => write_exr(film, picture),
-            (true, false) => write_layered_exr(film, &self.names, picture),
-        }
+    pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
+        Ok(match (is(picture, "exr"), film.layers.is_empty()) {
+            (false, _) => write_png(film, self.curve, picture)?,
+            (true, true) => write_exr(film, picture)?,
+            (true, false) => write_layered_exr(film, &self.names, picture)?,
+        })
     }
 
     /// Sends the picture to standard output, where that is asked for.

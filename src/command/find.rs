@@ -1,7 +1,7 @@
 use super::called::called;
-use crate::chapter::Chapter;
-use crate::scene::printable;
-use crate::{Error, Result};
+use super::error::{Error, Result};
+use pinhole::Chapter;
+use pinhole::scene::printable;
 use std::ffi::OsStr;
 use std::path::{Component, Path};
 

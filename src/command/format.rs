@@ -1,6 +1,6 @@
-use crate::Result;
-use crate::scene::{is_invisible, printable_path};
+use super::error::Result;
 use clap::ValueEnum;
+use pinhole::scene::{is_invisible, printable_path};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write as _;

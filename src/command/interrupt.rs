@@ -1,6 +1,6 @@
 use super::progress::Progress;
-use crate::film::writes_under_way;
-use crate::render::Watch;
+use pinhole::film::writes_under_way;
+use pinhole::render::Watch;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};

@@ -1,6 +1,6 @@
+use super::error::Result;
 use super::format::{Format, print_json};
-use crate::Result;
-use crate::chapter::Chapter;
+use pinhole::Chapter;
 use serde_json::{Value, json};
 use std::io::Write;
 

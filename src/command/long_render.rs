@@ -1,11 +1,11 @@
+use super::error::Result;
 use super::files::Files;
 use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
-use crate::extract::adaptive_of;
-use crate::film::{Film, check_place, read_checkpoint, write_checkpoint};
-use crate::render::{Limits, Outcome, RenderUnderWay, film_key, render_in_passes};
-use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use pinhole::extract::adaptive_of;
+use pinhole::film::{Film, check_place, read_checkpoint, write_checkpoint};
+use pinhole::render::{Limits, Outcome, RenderUnderWay, film_key, render_in_passes};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -41,7 +41,7 @@ pub fn render_long(
     waiting.done();
     let outcome = outcome?;
     let Some(checkpoint) = &checkpoint else {
-        return if outcome.stopped { Err(Error::Interrupted) } else { Ok(outcome) };
+        return if outcome.stopped { Err(pinhole::Error::Interrupted.into()) } else { Ok(outcome) };
     };
     if outcome.stopped {
         keep(&render.film)?;
@@ -49,10 +49,11 @@ pub fn render_long(
             0 => "stopped before every pixel had its first sample".to_string(),
             samples => format!("stopped after {samples} of {} samples a pixel", render.sampling.samples),
         };
-        return Err(Error::Stopped(format!(
+        return Err(pinhole::Error::Stopped(format!(
             "{reached}; {} hold what there is, and the same command with --resume continues",
             files.targets.told(Some(checkpoint))
-        )));
+        ))
+        .into());
     }
     drop(ends_by_itself);
     files.write(&render.film)?;
@@ -61,7 +62,7 @@ pub fn render_long(
     } else if let Err(refused) = fs::remove_file(checkpoint)
         && refused.kind() != ErrorKind::NotFound
     {
-        return Err(Error::Write { path: checkpoint.clone(), source: refused });
+        return Err(pinhole::Error::Write { path: checkpoint.clone(), source: refused }.into());
     }
     Ok(outcome)
 }
@@ -73,7 +74,7 @@ fn resume(render: &mut RenderUnderWay, key: u64, adaptive: bool, checkpoint: &Pa
     }
     let film = read_checkpoint(key, &render.film, adaptive, checkpoint)?;
     render.take(film);
-    let samples = crate::render::samples_after(render.film.least_done());
+    let samples = pinhole::render::samples_after(render.film.least_done());
     let of = if render.film.pilot { " of the pilot" } else { "" };
     let more = !render.film.pilot && render.film.planned.is_empty() && samples > render.sampling.samples;
     let kept = if more { format!(", more than the {} asked for", render.sampling.samples) } else { String::new() };

@@ -12,6 +12,7 @@ mod completions;
 mod conventions;
 mod cost;
 mod draw;
+mod error;
 mod export;
 mod export_images;
 mod extremes;
@@ -42,17 +43,15 @@ mod trace;
 mod warnings;
 mod watch;
 
+pub use error::{Error, Result};
 pub use interrupt::{Waiting, stop_on_interrupt};
 pub use progress::Progress;
 pub use report::has_report;
 
-use crate::chapter::Chapter;
-use crate::scene::printable_message;
-use crate::{Error, Result};
 use arguments::{Arguments, Command};
-use clap::CommandFactory;
-use options::ExampleArguments;
 use parse::{parsed, program, with_render};
+use pinhole::Chapter;
+use pinhole::scene::printable_message;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use streams::Streams;
@@ -88,23 +87,6 @@ pub fn run_program(chapters: &[Chapter]) -> u8 {
     called::remember(None);
     let words: Vec<OsString> = std::env::args_os().skip(1).collect();
     status(with_standard_streams(|streams| perform(chapters, &words, streams)))
-}
-
-/// A chapter's example: renders it, or looks inside, as the command line asks; gives the status that it ends with.
-pub fn run_example(chapter: &Chapter) -> u8 {
-    called::remember(Some(chapter.name));
-    let words: Vec<OsString> = std::env::args_os().skip(1).collect();
-    status(with_standard_streams(|streams| {
-        let arguments = parsed::<ExampleArguments>(ExampleArguments::command(), &[], &words, streams.waits)?;
-        let subject = Subject::Chapter(chapter);
-        match arguments.trace {
-            Some(pixel) => {
-                let (sample, scene) = (arguments.sample, &arguments.options.scene);
-                trace::print_trace(&subject, pixel, sample, false, scene, arguments.format, streams.out)
-            }
-            None => render::render_subject(&subject, &arguments.options, arguments.format, streams),
-        }
-    }))
 }
 
 fn with_standard_streams(perform: impl FnOnce(&mut Streams<'_>) -> Result) -> Result {
@@ -157,13 +139,13 @@ fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) 
 pub fn status(result: Result) -> u8 {
     let (error, status) = match result {
         Ok(()) => return 0,
-        Err(Error::Print(broken)) if broken.kind() == ErrorKind::BrokenPipe => return 0,
+        Err(Error::Pinhole(pinhole::Error::Print(broken))) if broken.kind() == ErrorKind::BrokenPipe => return 0,
         Err(Error::Clap(answer)) => match answer.print() {
             Ok(()) => return u8::try_from(answer.exit_code()).unwrap_or(2),
             Err(broken) if broken.kind() == ErrorKind::BrokenPipe => return 0,
             Err(refused) => (refused.into(), 1),
         },
-        Err(stop @ (Error::Interrupted | Error::Stopped(_))) => (stop, 130),
+        Err(stop @ Error::Pinhole(pinhole::Error::Interrupted | pinhole::Error::Stopped(_))) => (stop, 130),
         Err(words @ Error::CommandLine(_)) => (words, 2),
         Err(error) => (error, 1),
     };

@@ -1,13 +1,12 @@
 //! The options that several commands share.
 
 use super::called::quoted;
-use super::format::Format;
 use super::span::span;
-use crate::chapter::{Asked, AskedSampling, Size};
-use crate::extract::MOST_SAMPLES;
-use crate::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
+use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{Args, Parser};
+use pinhole::extract::MOST_SAMPLES;
+use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
+use pinhole::{Asked, AskedSampling, Size};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -82,23 +81,6 @@ pub struct RenderOptions {
     /// Print nothing but where the picture is and what to beware of, and take no times
     #[arg(short, long)]
     pub quiet: bool,
-}
-
-/// A chapter's example: renders its scene, or follows one pixel
-#[derive(Parser)]
-#[command(version, styles = STYLES, max_term_width = 100)]
-pub struct ExampleArguments {
-    #[command(flatten)]
-    pub options: RenderOptions,
-    /// Print tables for a person, or one JSON value for a program
-    #[arg(long, value_enum, default_value_t, hide_possible_values = true, value_name = "text|json")]
-    pub format: Format,
-    /// Follow one pixel from raster to light instead, and print what every stage wrote for it
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = pixel)]
-    pub trace: Option<TracePixel>,
-    /// Which of its samples to follow, counted from 0
-    #[arg(long, value_name = "K", default_value_t = 0, requires = "trace")]
-    pub sample: u32,
 }
 
 impl SceneOptions {

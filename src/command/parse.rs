@@ -1,11 +1,11 @@
 use super::arguments::{Arguments, after_help};
 use super::called::called;
+use super::error::{Error, Result};
 use super::find;
-use crate::chapter::Chapter;
-use crate::{Error, Result};
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory, Parser};
+use pinhole::Chapter;
 use std::ffi::{OsStr, OsString};
 
 /// Where no one waits, the help is as wide as this whatever the terminal is, so that the book's is always the same.

@@ -1,10 +1,10 @@
+use super::error::Result;
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use crate::Result;
-use crate::plan::{ColumnKind, Lifetime, Pass, PlanRow};
-use crate::render::prepare;
-use crate::review::plan_text;
+use pinhole::plan::{ColumnKind, Lifetime, Pass, PlanRow};
+use pinhole::render::prepare;
+use pinhole_lab::review::plan_text;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;

@@ -1,13 +1,13 @@
 use super::arguments::ReviewSnapshots;
+use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, print_json, print_written, shown};
 use super::review::{keep_page, picture, told, write_page};
-use crate::chapter::Chapter;
-use crate::film::png_url;
-use crate::film::write_whole;
-use crate::review::planted::{PLANTED, Planted};
-use crate::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
-use crate::{Error, Result};
+use pinhole::Chapter;
+use pinhole::film::png_url;
+use pinhole::film::write_whole;
+use pinhole_lab::review::planted::{PLANTED, Planted};
+use pinhole_lab::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
 use serde_json::{Value, json};
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::fmt::Write as _;
@@ -17,15 +17,14 @@ use std::io::Write;
 pub fn plant(chapters: &[Chapter], name: &str, asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
     let all = name == "all";
     if (asked.gallery && !all) || (asked.picture.is_some() && all) {
-        return Err(Error::Usage("--gallery goes with --plant all, and --picture with the name of one bug".into()));
+        return Err(Error::usage("--gallery goes with --plant all, and --picture with the name of one bug"));
     }
     if !all {
         let planted = Planted::named(name)?;
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(planted.chapter))?;
         let compared = compared(planted, chapter, Snapshots::of(chapter)?)?;
         if let Some(which) = asked.picture {
-            let file =
-                asked.output.clone().ok_or_else(|| Error::Usage("--picture needs a file: -o FILE.png".into()))?;
+            let file = asked.output.clone().ok_or_else(|| Error::usage("--picture needs a file: -o FILE.png"))?;
             let png = picture(&compared, which)?;
             write_whole(&file, |file| file.write_all(&png))?;
             return print_written(&file, format, out);
@@ -111,7 +110,7 @@ fn gallery(all: &[(&Planted, Compared)]) -> Result<String> {
         let [x, y] = [index % 2 * ROOM[0], index / 2 * ROOM[1]];
         let before_now = [&compared.before.picture, &compared.now.picture];
         let contrast = picture_contrast(before_now[0], before_now[1])?;
-        let (difference, _) = contrast.ok_or_else(|| Error::Usage("two pictures cannot be compared".into()))?;
+        let (difference, _) = contrast.ok_or_else(|| Error::usage("two pictures cannot be compared"))?;
         for (place, png) in [&compared.now.picture, &difference].into_iter().enumerate() {
             let x = x + place * (PICTURE[0] + 8);
             let _ = writeln!(

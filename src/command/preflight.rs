@@ -1,12 +1,12 @@
 use super::arguments::TryPreflight;
+use super::error::Result;
 use super::format::{Format, print_json};
 use super::subject::{Subject, every_stage};
-use crate::chapter::Chapter;
-use crate::look::{Preflight, SLIPS, preflight};
-use crate::plan::Stage;
-use crate::render::{check_film_fits, prepare};
-use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use pinhole::Chapter;
+use pinhole::look::{Preflight, SLIPS, preflight};
+use pinhole::plan::Stage;
+use pinhole::render::{check_film_fits, prepare};
 use serde_json::json;
 use std::io::Write;
 use std::time::Instant;
@@ -33,8 +33,8 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
         (slip.scene)(&mut scene);
         let (warnings, refused) = match said(&scene, &stages, Instant::now()) {
             Ok(told) => (told, None),
-            Err(Error::Refusal(refusal)) => (Vec::new(), Some(refusal.to_string())),
-            Err(error) => return Err(error),
+            Err(pinhole::Error::Refusal(refusal)) => (Vec::new(), Some(refusal.to_string())),
+            Err(error) => return Err(error.into()),
         };
         if format.is_json() {
             scenes.push(json!({ "scene": slip.what, "warnings": warnings, "refused": refused }));
@@ -49,7 +49,7 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
     if format.is_json() { print_json(&json!({ "scenes": scenes }), out) } else { Ok(()) }
 }
 
-fn said(scene: &World, stages: &[Stage], began: Instant) -> Result<Vec<String>> {
+fn said(scene: &World, stages: &[Stage], began: Instant) -> pinhole::Result<Vec<String>> {
     let (plan, tables) = prepare(scene, stages)?;
     check_film_fits(scene, &plan)?;
     preflight(scene, (&plan, &tables), Preflight::default().since(began))

@@ -1,3 +1,4 @@
+use super::error::{Error, Result};
 use super::files::{Files, Targets};
 use super::find;
 use super::format::{Format, print_json};
@@ -10,14 +11,13 @@ use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
 use super::warnings::warnings;
-use crate::chapter::Chapter;
-use crate::extract::{LayerTable, adaptive_of, camera_entity, validate};
-use crate::film::check_place;
-use crate::look::{Preflight, RenderStats, preflight};
-use crate::render::{Execution, RenderUnderWay};
-use crate::scene::Sampling;
-use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use pinhole::Chapter;
+use pinhole::extract::{LayerTable, adaptive_of, camera_entity, validate};
+use pinhole::film::check_place;
+use pinhole::look::{Preflight, RenderStats, preflight};
+use pinhole::render::{Execution, RenderUnderWay};
+use pinhole::scene::Sampling;
 use std::time::Instant;
 
 /// The main job: the cover, to `out/`.
@@ -153,7 +153,7 @@ fn render_at_once(render: &mut RenderUnderWay, waiting: &Waiting, files: &Files)
     rendered?;
     for file in &files.targets.pictures {
         if interrupted() {
-            return Err(Error::Interrupted);
+            return Err(pinhole::Error::Interrupted.into());
         }
         files.write_one(&render.film, file)?;
     }

@@ -1,27 +1,27 @@
+use super::error::{Error, Result};
 use super::figure::svg_place;
 use super::format::{Format, print_json, print_written, shown};
 use super::interrupt::{EndsByItself, interrupted, stop_flag};
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
-use crate::chapter::{Asked, Chapter};
-use crate::extract::{ImageShape, camera_entity, integrator_of, validate};
-use crate::film::{check_place, write_whole};
-use crate::plan::Table;
-use crate::render::Watch;
-use crate::report::kept::{keep, kept, made_from};
-use crate::report::ladder::Ladder;
-use crate::report::page::page;
-use crate::report::pictures::pictures;
-use crate::report::pitfalls::{pitfalls, pitfalls_table};
-use crate::report::plot::{Against, plot};
-use crate::report::provenance::{Provenance, load};
-use crate::report::run::Shelf;
-use crate::report::runner::{Progress, Variant, fingerprint, run_all};
-use crate::report::sum_up::{measure, sum_up};
-use crate::report::summary::Report;
-use crate::scene::{Filter, Integrator, LightSampling, Resolution, Sampler, Sampling, scene_text};
-use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
+use pinhole::extract::{ImageShape, camera_entity, integrator_of, validate};
+use pinhole::film::{check_place, write_whole};
+use pinhole::plan::Table;
+use pinhole::render::Watch;
+use pinhole::scene::{Filter, Integrator, LightSampling, Resolution, Sampler, Sampling, scene_text};
+use pinhole::{Asked, Chapter};
+use pinhole_lab::report::kept::{keep, kept, made_from};
+use pinhole_lab::report::ladder::Ladder;
+use pinhole_lab::report::page::page;
+use pinhole_lab::report::pictures::pictures;
+use pinhole_lab::report::pitfalls::{pitfalls, pitfalls_table};
+use pinhole_lab::report::plot::{Against, plot};
+use pinhole_lab::report::provenance::{Provenance, load};
+use pinhole_lab::report::run::Shelf;
+use pinhole_lab::report::runner::{Progress, Variant, fingerprint, run_all};
+use pinhole_lab::report::sum_up::{measure, sum_up};
+use pinhole_lab::report::summary::Report;
 use serde::Serialize;
 use serde_json::json;
 use std::io::Write;
@@ -112,10 +112,10 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let runs = run_all(&variants, &ladder, threads, &shelf, &waiting);
     waiting.bar.finish_and_clear();
     let runs = runs.map_err(|error| match error {
-        Error::Interrupted => Error::Usage(format!(
+        pinhole::Error::Interrupted => Error::usage(format!(
             "stopped; the runs made so far are kept in out/report/{name}.runs, and the same command goes on from there"
         )),
-        other => other,
+        other => other.into(),
     })?;
     drop(ends_by_itself);
     provenance.load[1] = load();
@@ -123,7 +123,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let scenes = variants.iter().map(|variant| {
         let world = (variant.scene)();
         let text = scene_text(&world)?;
-        Ok((crate::measure::cost::fingerprint(text.as_bytes()), crate::extract::shape_entities(&world).len()))
+        Ok((pinhole_lab::measure::cost::fingerprint(text.as_bytes()), pinhole::extract::shape_entities(&world).len()))
     });
     let empty = Report {
         name: subject.stem(),
@@ -144,7 +144,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let report = sum_up(empty, &variants, &runs, &measured);
     let html = page(&report, &pictures(&report, &variants, &runs, &measured))?;
     let json = serde_json::to_string_pretty(&report).map_err(std::io::Error::from)?;
-    let texts = [html, json, crate::report::csv::csv(&variants, &ladder, &runs, &measured)];
+    let texts = [html, json, pinhole_lab::report::csv::csv(&variants, &ladder, &runs, &measured)];
     for (file, text) in files.iter().zip(&texts) {
         write_whole(file, |file| file.write_all(text.as_bytes()))?;
     }
@@ -154,7 +154,7 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     }
     if asked.write {
         keep(&report)?;
-        let kept = shown(&crate::report::kept::place(&report.name));
+        let kept = shown(&pinhole_lab::report::kept::place(&report.name));
         if !format.is_json() {
             writeln!(out, "wrote {kept}")?;
         }
@@ -193,7 +193,7 @@ fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'
                 .map(|(word, lights)| Rival::Lights(word, lights))
                 .ok_or_else(|| no_such("way to find lights", name, &LightSampling::ALL))
         }
-        Some((other, _)) => Err(Error::Usage(format!(
+        Some((other, _)) => Err(Error::usage(format!(
             "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and {other} is none of \
              these"
         ))),
@@ -204,7 +204,7 @@ fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'
 
 fn no_such<T>(kind: &str, name: &str, all: &[(&'static str, T)]) -> Error {
     let all: Vec<&str> = all.iter().map(|(word, _)| *word).collect();
-    Error::Usage(format!("there is no {kind} \"{name}\"; there are {}", all.join(", ")))
+    Error::usage(format!("there is no {kind} \"{name}\"; there are {}", all.join(", ")))
 }
 
 /// The subject itself, then each rival: the subject with another sampler or filter, or another scene.
@@ -242,7 +242,7 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
         };
         let same = variants.iter().position(|it: &Variant<'_>| it.name == next.name);
         if same.is_some() {
-            return Err(Error::Usage(format!("{} is named twice", next.name)));
+            return Err(Error::usage(format!("{} is named twice", next.name)));
         }
         variants.push(next);
     }
@@ -254,7 +254,7 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
 fn paths_with(subject: &Subject<'_>, word: &str, lights: LightSampling) -> Result<Integrator> {
     match integrator_of(&subject.world(&Asked::default())).integrator {
         Integrator::Path { legs, roulette, .. } => Ok(Integrator::Path { legs, lights, roulette }),
-        _ => Err(Error::Usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
+        _ => Err(Error::usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
     }
 }
 

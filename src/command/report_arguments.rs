@@ -1,6 +1,6 @@
 use super::options::{resolution, workers};
-use crate::scene::Resolution;
 use clap::Args;
+use pinhole::scene::Resolution;
 use std::path::PathBuf;
 
 /// What says how to measure, or what else.

@@ -1,25 +1,27 @@
 use super::arguments::{Picture, ReviewAction, ReviewSnapshots};
 use super::called::called;
+use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, print_json, shown};
-use crate::chapter::Chapter;
-use crate::film::write_whole;
-use crate::review::{Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast};
-use crate::scene::{Resolution, printable_path};
-use crate::{Error, Result};
+use pinhole::Chapter;
+use pinhole::film::write_whole;
+use pinhole::scene::{Resolution, printable_path};
+use pinhole_lab::review::{
+    Compared, Pending, SNAPSHOT_SIZE, Snapshots, compare_pictures, page, pending, picture_contrast,
+};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
 pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
-    let folder = asked.chapters.clone().unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("chapters"));
+    let folder = asked.chapters.clone().unwrap_or_else(|| pinhole_lab::repository().join("chapters"));
     match (&asked.action, &asked.plant) {
         (Some(ReviewAction::Accept { chapter }), _) => {
-            settle(chapters, &folder, chapter.as_deref(), "accepted", Pending::accept, format, out)
+            settle(chapters, &folder, chapter.as_deref(), "accepted", |pending| Ok(pending.accept()?), format, out)
         }
         (Some(ReviewAction::Reject { chapter }), _) => {
-            settle(chapters, &folder, chapter.as_deref(), "rejected", Pending::reject, format, out)
+            settle(chapters, &folder, chapter.as_deref(), "rejected", |pending| Ok(pending.reject()?), format, out)
         }
         (None, Some(name)) => super::planted::plant(chapters, name, asked, format, out),
         (None, None) => show(chapters, &folder, asked, format, out),
@@ -32,7 +34,7 @@ fn show(chapters: &[Chapter], folder: &Path, asked: &ReviewSnapshots, format: Fo
     if let Some(name) = &asked.chapter {
         let near = |word: &&str| strsim::jaro_winkler(word, name) > 0.85;
         if let Some(word) = ["accept", "reject"].into_iter().find(near) {
-            return Err(Error::Usage(format!("there is no chapter \"{name}\"; a similar word is `review {word}`")));
+            return Err(Error::usage(format!("there is no chapter \"{name}\"; a similar word is `review {word}`")));
         }
         let chapter = find::chapter(chapters, name)?;
         waiting.retain(|pending| pending.chapter == chapter.name);
@@ -120,7 +122,7 @@ pub(super) fn picture(compared: &Compared, picture: Picture) -> Result<Vec<u8>> 
         Picture::Now => Ok(compared.now.picture.clone()),
         Picture::Difference => match picture_contrast(&compared.before.picture, &compared.now.picture)? {
             Some((png, _)) => Ok(png),
-            None => Err(Error::Usage(format!("the pictures of {} cannot be compared", compared.name))),
+            None => Err(Error::usage(format!("the pictures of {} cannot be compared", compared.name))),
         },
     }
 }
@@ -144,7 +146,7 @@ fn settle(
         }
         None if waiting.len() > 1 => {
             let names: Vec<&str> = waiting.iter().map(|pending| &*pending.chapter).collect();
-            return Err(Error::Usage(format!(
+            return Err(Error::usage(format!(
                 "the snapshots of {} chapters wait: name one of {}, or all",
                 names.len(),
                 names.join(", ")

@@ -1,4 +1,4 @@
-use crate::Result;
+use super::error::Result;
 use std::io::Write;
 
 /// Where a command's words go.

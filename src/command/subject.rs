@@ -1,11 +1,12 @@
+use super::error::{Error, Result};
 use super::find;
 use super::interrupt::interrupted;
-use crate::chapter::{Asked, Chapter};
-use crate::extract::{camera_entity, validate};
-use crate::plan::{PlanError, Stage};
-use crate::scene::{FileProblem, SceneFile, View};
-use crate::{Error, Result, follow, intersect, rays, shade};
 use bevy_ecs::prelude::*;
+use pinhole::extract::{camera_entity, validate};
+use pinhole::plan::{PlanError, Stage};
+use pinhole::scene::{FileProblem, SceneFile, View};
+use pinhole::{Asked, Chapter};
+use pinhole::{follow, intersect, rays, shade};
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -111,16 +112,18 @@ impl<'c> Subject<'c> {
     }
 
     /// The same error with file, line and column, where it is the file that is at fault.
-    pub fn placed(&self, error: Error, asked: &Asked) -> Error {
-        let Self::File { file, .. } = self else { return error };
+    pub fn placed(&self, error: pinhole::Error, asked: &Asked) -> Error {
+        let Self::File { file, .. } = self else { return error.into() };
         let place = match &error {
-            Error::Refusal(refusal) if asked.names_pixels() && refusal.field == "resolution" => return error,
-            Error::Refusal(_) => file.place_of(|world| {
+            pinhole::Error::Refusal(refusal) if asked.names_pixels() && refusal.field == "resolution" => {
+                return error.into();
+            }
+            pinhole::Error::Refusal(_) => file.place_of(|world| {
                 asked.put_on_camera(world);
                 validate(world).err()
             }),
-            Error::Plan(PlanError::NoSuchView { .. }) if asked.view.is_none() => file.place_of_word("view"),
-            _ => return error,
+            pinhole::Error::Plan(PlanError::NoSuchView { .. }) if asked.view.is_none() => file.place_of_word("view"),
+            _ => return error.into(),
         };
         FileProblem { path: file.path.clone(), place, what: error.to_string() }.into()
     }
@@ -133,7 +136,7 @@ fn from_standard_input() -> Result<SceneFile> {
     loop {
         match receive.recv_timeout(PAUSE) {
             Ok(file) => return Ok(file?),
-            Err(_) if interrupted() => return Err(Error::Interrupted),
+            Err(_) if interrupted() => return Err(pinhole::Error::Interrupted.into()),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(FileProblem::of(Path::new("standard input"), "it cannot be read").into());

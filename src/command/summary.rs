@@ -1,9 +1,9 @@
 //! What a person sees at the end of a render: a few lines, none wider than a terminal.
 
 use super::span::told;
-use crate::look::RenderStats;
-use crate::render::Outcome;
-use crate::scene::OPEN_END;
+use pinhole::look::RenderStats;
+use pinhole::render::Outcome;
+use pinhole::scene::OPEN_END;
 use serde::Serialize;
 use std::time::Duration;
 
@@ -177,8 +177,8 @@ fn cut(line: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::look::StageStats;
-    use crate::render::Achieved;
+    use pinhole::look::StageStats;
+    use pinhole::render::Achieved;
 
     fn stats(stages: usize) -> RenderStats {
         let stage = |number: usize| StageStats {

@@ -1,9 +1,9 @@
+use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::interrupt::{Waiting, interrupted};
 use super::subject::Subject;
-use crate::chapter::Asked;
-use crate::measure::sweep::{Line, SIZE, sweep};
-use crate::{Error, Result};
+use pinhole::Asked;
+use pinhole_lab::measure::sweep::{Line, SIZE, sweep};
 use serde::Serialize;
 use std::io::Write;
 
@@ -14,7 +14,7 @@ pub fn print_sweep(subject: &Subject<'_>, format: Format, out: &mut dyn Write) -
     let make = || subject.world(&Asked::default());
     let lines = sweep(&make, &subject.stages(), &Waiting::new(0, true))?;
     if interrupted() {
-        return Err(Error::Interrupted);
+        return Err(pinhole::Error::Interrupted.into());
     }
     let held = lines.iter().filter(|line| line.held).count();
     match format {
@@ -34,7 +34,7 @@ pub fn print_sweep(subject: &Subject<'_>, format: Format, out: &mut dyn Write) -
     match lines.iter().find(|line| !line.held) {
         None => Ok(()),
         Some(Line { done, came, asked, .. }) => {
-            Err(Error::Usage(format!("{} does not hold when {done}: {came}, where {asked} is asked", subject.name())))
+            Err(Error::usage(format!("{} does not hold when {done}: {came}, where {asked} is asked", subject.name())))
         }
     }
 }

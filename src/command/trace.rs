@@ -1,10 +1,10 @@
+use super::error::Result;
 use super::format::{Format, number_or_word, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use crate::Result;
-use crate::look::{self, Trace};
-use crate::plan::LaneNumber;
-use crate::scene::TracePixel;
+use pinhole::look::{self, Trace};
+use pinhole::plan::LaneNumber;
+use pinhole::scene::TracePixel;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

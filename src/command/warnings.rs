@@ -1,12 +1,12 @@
 //! What a reader should know of a picture that has been rendered.
 
+use super::error::Result;
 use super::options::RenderOptions;
 use super::subject::Subject;
-use crate::Result;
-use crate::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity};
-use crate::film::{Film, column_of_layer};
-use crate::plan::{Plan, Table};
-use crate::scene::PerspectiveCamera;
+use pinhole::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity};
+use pinhole::film::{Film, column_of_layer};
+use pinhole::plan::{Plan, Table};
+use pinhole::scene::PerspectiveCamera;
 
 /// All of it, each in one sentence.
 pub fn warnings(subject: &Subject<'_>, options: &RenderOptions, film: &Film, plan: &Plan) -> Result<Vec<String>> {

@@ -1,12 +1,12 @@
 use super::arguments::RenderChapter;
+use super::error::{Error, Result};
 use super::find::{is_scene_file, shown};
 use super::format::Format;
 use super::interrupt::{EndsByItself, interrupted};
 use super::render::render_subject;
 use super::streams::Streams;
 use super::subject::Subject;
-use crate::chapter::Chapter;
-use crate::{Error, Result};
+use pinhole::Chapter;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, SystemTime};
@@ -59,8 +59,8 @@ pub fn render_at_every_save(
             Subject::find(chapters, file).and_then(|subject| render_subject(&subject, &options, Format::Text, streams));
         waits = EndsByItself::begin();
         match rendered {
-            Err(Error::Print(broken)) => return Err(Error::Print(broken)),
-            Err(Error::Interrupted | Error::Stopped(_)) => break,
+            Err(Error::Pinhole(pinhole::Error::Print(broken))) => return Err(broken.into()),
+            Err(Error::Pinhole(pinhole::Error::Interrupted | pinhole::Error::Stopped(_))) => break,
             Err(told) => writeln!(streams.out, "{told}")?,
             Ok(()) => {}
         }

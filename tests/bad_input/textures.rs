@@ -1,6 +1,6 @@
 //! Textures and backgrounds that are refused.
 
-use crate::cases::{Case, Field, edit, good, put};
+use super::cases::{Case, Field, edit, good, put};
 use crate::scenes::{Eye, named};
 use bevy_ecs::prelude::*;
 use glam::DVec3;

@@ -3,7 +3,7 @@
 //! `cargo bench --bench closed_forms` prints them; `-- --seed 7` takes other random numbers.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
-use pinhole::measure::closed_form::closed_forms;
+use pinhole_lab::measure::closed_form::closed_forms;
 
 /// 1 % after `few` samples, and a tenth of that after 100 times as many; a little more, for the error is itself measured.
 const TIMES: u32 = 110;

@@ -5,8 +5,6 @@
 //! Then what the timers of the stages cost: CPU time with them over that without.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
 #[path = "../report/coverage.rs"]
 mod coverage;
 #[path = "../report/synthetic.rs"]
@@ -14,9 +12,9 @@ mod synthetic;
 
 use pinhole::Asked;
 use pinhole::render::Execution;
-use pinhole::report::interval::{LEVEL, mean_of};
-use pinhole::report::runner::{Variant, timers};
 use pinhole::scene::{Resolution, Sampling};
+use pinhole_lab::report::interval::{LEVEL, mean_of};
+use pinhole_lab::report::runner::{Variant, timers};
 use synthetic::Noise;
 
 /// The half-width below which sixteen seeds tell nothing of an efficiency (NUMERICS.md, section 1).

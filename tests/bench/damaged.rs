@@ -4,8 +4,6 @@
 //! checkpoints through `render --resume`.
 //! The same code, and few of the same files, run in `cargo test --test scene_files`.
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
 #[path = "../scene_files/damaged.rs"]
 mod damaged;
 #[path = "../scene_files/fuzz.rs"]

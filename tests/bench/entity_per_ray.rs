@@ -7,22 +7,19 @@
 
 mod interval;
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
-
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
 use pinhole::Asked;
-use pinhole::measure::cost::made_from_these;
-use pinhole::naive::entity_per_ray::EntityPerRay;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, peak_memory, render};
 use pinhole::scene::Resolution;
+use pinhole_lab::measure::cost::made_from_these;
+use pinhole_lab::naive::entity_per_ray::EntityPerRay;
 use std::fmt::Write as _;
 use std::process::Command;
 
 const CHAPTER: &str = "12_how_it_is_built";
-const BESIDE: [&str; 2] = ["src/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
+const BESIDE: [&str; 2] = ["src/lab/naive/entity_per_ray.rs", "tests/bench/entity_per_ray.rs"];
 
 /// What a process is asked to hold, so that its peak can be told.
 const HELD: [(&str, &str); 4] = [

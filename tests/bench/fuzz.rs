@@ -2,8 +2,6 @@
 //!
 //! The same code, and few of the same cases, run in `cargo test --test scene_files`.
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
 #[path = "../scene_files/fuzz.rs"]
 mod fuzz;
 #[path = "../scenes/mod.rs"]

@@ -13,12 +13,12 @@ mod interval;
 mod scenes;
 
 use interval::interval;
-use pinhole::measure::image_error::{Numbers, image_error};
-use pinhole::measure::image_file::read_numbers;
 use pinhole::render::{Execution, RenderUnderWay};
-use pinhole::report::distribution::student_share;
-use pinhole::report::run::numbers;
 use pinhole::scene::{Filter, LightSampling, LightTracing, Sampler, Sampling};
+use pinhole_lab::measure::image_error::{Numbers, image_error};
+use pinhole_lab::measure::image_file::read_numbers;
+use pinhole_lab::report::distribution::student_share;
+use pinhole_lab::report::run::numbers;
 use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
 use std::path::PathBuf;

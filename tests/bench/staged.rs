@@ -8,8 +8,6 @@
 mod fused;
 mod interval;
 
-#[path = "../../chapters/mod.rs"]
-mod chapters;
 #[path = "../scenes/sunflower.rs"]
 mod sunflower;
 

@@ -1,6 +1,6 @@
 //! What pages 19 and 20 say of metal and glass, from their closed forms.
 
-use crate::page_says;
+use super::page_says;
 use pinhole::extract::SMOOTHEST_METAL;
 use pinhole::follow::{fresnel, fresnel_parts};
 

@@ -1,8 +1,8 @@
 //! What page 15 says of highlights, from their closed forms.
 
-use crate::page_says;
+use super::page_says;
 use pinhole::extract::{blinn_phong_peak, phong_peak};
-use pinhole::naive::light::short_blinn_phong_peak;
+use pinhole_lab::naive::light::short_blinn_phong_peak;
 
 #[test]
 fn highlights_send_on_what_page_15_says() {

@@ -4,13 +4,13 @@ use super::{chapter, page_says, refusal};
 use bevy_ecs::prelude::*;
 use pinhole::extract::{SMALLEST_PIXEL, tan_half, validate};
 use pinhole::intersect::{Hits, NO_SHAPE};
-use pinhole::naive::{field_of_view, ndc};
 use pinhole::plan::{Column, Stage, TileSystems};
 use pinhole::rays::{NdcPoints, RasterPoints};
 use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::Radiance;
 use pinhole::{Asked, extract};
+use pinhole_lab::naive::{field_of_view, ndc};
 
 #[test]
 fn the_naive_ways_to_ndc_are_as_far_off_as_page_06_says() {
@@ -91,7 +91,7 @@ fn the_naive_tangent_is_as_far_off_as_page_08_says() {
     let page = "08_field_of_view.md";
     let (naive, kit) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
     let steps = ((naive - kit) / kit).abs() * f64::from(1_u32 << 24);
-    // That the kit's own is good to less than a millionth of a step is judged in `src/naive/field_of_view.rs`.
+    // That the kit's own is good to less than a millionth of a step is judged in `src/lab/naive/field_of_view.rs`.
     let steps = thousands(steps.round() as usize);
     page_says(page, &format!("the tangent is off by {steps} u"));
     let flipped = field_of_view::tan_half_f32(180.0) / 1e7;
@@ -100,10 +100,10 @@ fn the_naive_tangent_is_as_far_off_as_page_08_says() {
 
 #[test]
 fn the_table_of_angles_says_what_each_axis_sees_and_refuses_a_camera_without_an_angle() {
-    let chapters = super::chapters::all();
+    let chapters = chapters::all();
     let run = |words: &str| {
         let (words, mut out) = (words.split(' ').map(String::from).collect::<Vec<_>>(), Vec::new());
-        let done = pinhole::command::run(&chapters, &words, &mut out).map_err(|error| error.to_string());
+        let done = pinhole_cli::command::run(&chapters, &words, &mut out).map_err(|error| error.to_string());
         done.map(|()| String::from_utf8(out).expect("text"))
     };
     let square = run("angles 08_field_of_view --size 300x300").expect("angles");

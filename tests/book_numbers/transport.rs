@@ -1,8 +1,8 @@
 //! What pages 22 and 25 say of rays to the sky and of ways of light, from closed forms and sums.
 
-use crate::page_says;
+use super::page_says;
 use pinhole::film::{Curve, byte_from_linear};
-use pinhole::naive::path::{
+use pinhole_lab::naive::path::{
     light_of_capped_way, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
 };
 

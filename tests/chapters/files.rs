@@ -2,7 +2,7 @@
 
 use crate::message::Mismatch;
 use crate::snapshots::folder;
-use pinhole::review::SNAPSHOT_FILES as FILES;
+use pinhole_lab::review::SNAPSHOT_FILES as FILES;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

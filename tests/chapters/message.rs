@@ -1,7 +1,7 @@
 //! What a reader is told whose chapter no longer computes what its snapshots hold.
 
 use crate::snapshots::folder;
-use pinhole::review::{
+use pinhole_lab::review::{
     ChangedRow, DEVELOP, PictureDifference, Place, SNAPSHOT_FILES as FILES, SNAPSHOT_SIZE as SIZE, Snapshots,
     changed_rows, compare_pictures,
 };
@@ -44,7 +44,7 @@ fn headline(before: &Snapshots, now: &Snapshots, missing: &[&str], refused: &[&s
     match before.first_difference(now) {
         Some(difference) if difference.stage == DEVELOP => {
             format!(
-                "{difference}: all columns of all stages are the same, so look at src/film/develop.rs and src/film/png.rs"
+                "{difference}: all columns of all stages are the same, so look at src/pinhole/film/develop.rs and src/pinhole/film/png.rs"
             )
         }
         Some(difference) => difference.to_string(),

@@ -1,10 +1,9 @@
 //! Every bug planted on purpose is found, and the message names the very stage it was planted at.
 
-use crate::chapters;
 use crate::message::{mismatch, what_to_do};
-use pinhole::review::planted::{PLANTED, Planted};
-use pinhole::review::{DEVELOP, Snapshots};
 use pinhole::{Asked, Chapter, intersect, rays, shade};
+use pinhole_lab::review::planted::{PLANTED, Planted};
+use pinhole_lab::review::{DEVELOP, Snapshots};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn chapter(name: &str) -> Chapter {
@@ -38,7 +37,7 @@ fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
         stages.extend(names.filter(|name| kit.iter().any(|stage| stage.name == *name)).map(String::from));
     }
     let planted: BTreeSet<String> = PLANTED.iter().map(|planted| planted.stage.to_string()).collect();
-    assert_eq!(planted, stages, "the stages with a planted bug (src/review/planted/table.rs), and those there are");
+    assert_eq!(planted, stages, "the stages with a planted bug (src/lab/review/planted/table.rs), and those there are");
     let names: BTreeSet<&str> = PLANTED.iter().map(|planted| planted.name).collect();
     assert_eq!(names.len(), PLANTED.len(), "two bugs have one name");
     eprintln!("planted: {} stages", stages.len());
@@ -60,7 +59,7 @@ fn the_book_shows_the_message_as_it_is() {
     let chapter = chapter(planted.chapter);
     let (before, now) = (Snapshots::of(&chapter).expect("renders"), planted.snapshots(&chapter).expect("renders"));
     let message = format!("{:?}", mismatch(chapter.name, &before, &now, &["digests"]));
-    let worst = pinhole::review::compare_pictures(&before.picture, &now.picture).expect("pictures").worst;
+    let worst = pinhole_lab::review::compare_pictures(&before.picture, &now.picture).expect("pictures").worst;
     let said = message + &what_to_do(chapter.name, worst, true);
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/reviewing.md");
     let page = std::fs::read_to_string(page).expect("the page can be read");

@@ -4,7 +4,7 @@
 
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Snapshot};
-use pinhole::review::compare_pictures;
+use pinhole_lab::review::compare_pictures;
 
 /// Two PNGs are the same where every pixel is, however an encoder packed them.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@ use crate::message::{Mismatch, mismatch};
 use crate::png_pixels::PngPixels;
 use insta::Settings;
 use pinhole::Chapter;
-use pinhole::review::{Snapshots, snapshot_folder};
+use pinhole_lab::review::{Snapshots, snapshot_folder};
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};

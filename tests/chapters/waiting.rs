@@ -1,8 +1,7 @@
 //! What insta writes to wait is what `review` accepts and rejects, in a folder of its own.
 
-use crate::chapters;
 use crate::snapshots::refused_by_insta;
-use pinhole::review::{Pending, SNAPSHOT_FILES, Snapshots, pending, snapshot_folder};
+use pinhole_lab::review::{Pending, SNAPSHOT_FILES, Snapshots, pending, snapshot_folder};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +31,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn changed(folder: &Path) -> [Snapshots; 2] {
     let kept = Snapshots::kept(folder);
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == CHAPTER).expect("a chapter");
-    let planted = pinhole::review::planted::Planted::named("half-pixel").expect("a bug");
+    let planted = pinhole_lab::review::planted::Planted::named("half-pixel").expect("a bug");
     let mut now = planted.snapshots(&chapter).expect("renders");
     now.plan = now.plan.replace("every picture needs it", "every picture needs it dearly");
     assert!(kept.probes != now.probes && kept.picture != now.picture);
@@ -152,7 +151,7 @@ fn command(chapters: &Path, words: &str) -> (bool, String) {
     let mut words: Vec<String> = words.split(' ').map(String::from).collect();
     words.extend(["--chapters".into(), chapters.display().to_string()]);
     let mut out = Vec::new();
-    match pinhole::command::run(&chapters::all(), &words, &mut out) {
+    match pinhole_cli::command::run(&chapters::all(), &words, &mut out) {
         Ok(()) => (true, String::from_utf8_lossy(&out).into_owned()),
         Err(error) => (false, error.to_string()),
     }

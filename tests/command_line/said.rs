@@ -1,7 +1,7 @@
 //! How much is said, where, and in what name.
 
-use super::{chapters, names, pinhole, run, text};
-use pinhole::command;
+use super::{names, pinhole, run, text};
+use pinhole_cli::command;
 use std::fs;
 use std::process::Stdio;
 use std::time::{Duration, Instant};

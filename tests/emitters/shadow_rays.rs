@@ -11,12 +11,12 @@ use pinhole::intersect::{
     MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_cuboids, intersect_disks, intersect_planes,
     intersect_rectangles, intersect_spheres, intersect_triangles, offset_bound,
 };
-use pinhole::measure::ray_aim::Draws;
 use pinhole::plan::{Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
 use pinhole::shade::emitter::point_on;
 use pinhole::shade::{LightDensities, LightRays, ShadowHits, aim_at_area_lights, area_light_density, start_shadows};
+use pinhole_lab::measure::ray_aim::Draws;
 
 /// Surfaces at once.
 const ROWS: u32 = 1024;

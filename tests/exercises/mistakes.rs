@@ -4,7 +4,7 @@ use super::solutions::depth_of_field::lens_direction;
 use super::solutions::hit::nearest_sphere_t;
 use super::solutions::motion_blur::moving_sphere_t;
 use pinhole::scene::FovAxis;
-use pinhole::{Attempt, StageWords};
+use pinhole_lab::{Attempt, StageWords};
 use std::f64::consts::{PI, TAU};
 
 /// The chapter, the wrong function, words of the remark that it must get.

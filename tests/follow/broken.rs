@@ -4,12 +4,12 @@ use super::*;
 use glam::DVec3;
 use pinhole::film::{Curve, byte_from_linear};
 use pinhole::follow::cosine_direction;
-use pinhole::measure::closed_form::{ClosedForm, every_stage};
-use pinhole::naive::lens::radius_at_random;
-use pinhole::naive::mistake::*;
-use pinhole::naive::path::{uniform_direction, weight_without_cosine, weight_without_pi};
 use pinhole::plan::{Plan, Stage};
 use pinhole::scene::Glass;
+use pinhole_lab::measure::closed_form::{ClosedForm, every_stage};
+use pinhole_lab::naive::lens::radius_at_random;
+use pinhole_lab::naive::mistake::*;
+use pinhole_lab::naive::path::{uniform_direction, weight_without_cosine, weight_without_pi};
 
 /// From so many standard errors on a mistake counts as seen.
 const SEEN: f64 = 10.0;

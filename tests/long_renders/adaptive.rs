@@ -1,9 +1,9 @@
 //! Adaptive sampling: right on average, where the naive way is not, and as exact as it says.
 
 use super::*;
-use pinhole::naive::adaptive::mean_until;
 use pinhole::render::Outcome;
 use pinhole::sample::{Purpose, uniform};
+use pinhole_lab::naive::adaptive::mean_until;
 
 const SIDE: u32 = 24;
 const RADIUS: f64 = 1.3;

@@ -1,7 +1,7 @@
 //! How often an interval at 95 % holds the truth.
 
 use super::synthetic::{Noise, Renderer};
-use pinhole::report::interval::{Interval, LEVEL};
+use pinhole_lab::report::interval::{Interval, LEVEL};
 
 /// What is estimated, how its interval is made, and how often it held the truth.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ pub fn coverage(noise: Noise, bias: f64, repetitions: usize) -> Vec<Coverage> {
         let top = &curve.levels[last].ensemble;
         let ratio = |samples| (other.mse(samples) * other.seconds / one.mse(samples) / one.seconds).ln();
         let slope = one.slope(&LADDER);
-        let t = |estimate: Option<pinhole::report::interval::Estimate>| estimate.map(|it| it.interval(LEVEL));
+        let t = |estimate: Option<pinhole_lab::report::interval::Estimate>| estimate.map(|it| it.interval(LEVEL));
         let tried: [(&'static str, Option<Interval>, f64); 9] = [
             ("MSE, 1 sample, t", t(curve.levels[0].ensemble.mse()), one.mse(1)),
             ("MSE, 8 samples, t", t(top.mse()), one.mse(8)),

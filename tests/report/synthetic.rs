@@ -1,9 +1,9 @@
 //! Renderers whose variance and bias are known: a ramp, a field of bias, and noise of a chosen kind.
 
-use pinhole::measure::image_error::Numbers;
-use pinhole::measure::ray_aim::Draws;
-use pinhole::report::curve::{Curve, Level};
-use pinhole::report::ensemble::{Ensemble, Reference};
+use pinhole_lab::measure::image_error::Numbers;
+use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::report::curve::{Curve, Level};
+use pinhole_lab::report::ensemble::{Ensemble, Reference};
 
 /// Pixels of the synthetic images.
 pub const PIXELS: usize = 120;

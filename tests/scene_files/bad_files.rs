@@ -1,7 +1,7 @@
 //! Every refusal of a file: one sentence that begins with file, line and column.
 
-use crate::bad_cases::{Case, FORM, MEANING, WORDS};
-use crate::typed;
+use super::bad_cases::{Case, FORM, MEANING, WORDS};
+use super::typed;
 use std::fs;
 use std::path::Path;
 

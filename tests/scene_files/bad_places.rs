@@ -1,8 +1,7 @@
 //! Files that are none, command lines that make no sense, and places that cannot be written to.
 
-use crate::bad_files::kept;
-use crate::typed;
-use pinhole::Error;
+use super::bad_files::kept;
+use super::typed;
 use std::fs;
 use std::io::Read;
 use std::path::Path;
@@ -56,7 +55,7 @@ fn bad_files_and_command_lines() {
         let error = typed(words).err().unwrap_or_else(|| panic!("`{shown}` is not refused"));
         let mut message = error.to_string().trim_end().replace(&path(""), "FOLDER/");
         match error {
-            Error::Clap(_) => message = message.replace("\n\n", "\n").replace('\n', "\n    "),
+            pinhole_cli::command::Error::Clap(_) => message = message.replace("\n\n", "\n").replace('\n', "\n    "),
             _ => assert!(!message.contains('\n') && !message.ends_with('.'), "{shown}: {message}"),
         }
         for word in *expected {

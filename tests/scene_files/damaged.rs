@@ -1,11 +1,11 @@
 //! Scene files, images and checkpoints that were damaged at random, given to the program's own commands.
 
-use crate::{chapters, fuzz};
+use super::fuzz;
 use cpu_time::ProcessTime;
 use fuzz::Dice;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
-use pinhole::command;
 use pinhole::render::peak_memory;
+use pinhole_cli::command;
 use std::fmt;
 use std::fs;
 use std::io::Cursor;
@@ -111,7 +111,7 @@ impl Bases {
         words
     }
 
-    fn run(&self, words: &[String]) -> pinhole::Result {
+    fn run(&self, words: &[String]) -> command::Result {
         command::run_with_notes(&self.chapters, words, &mut std::io::sink(), &mut std::io::sink())
     }
 

@@ -1,6 +1,7 @@
 //! A chapter exported and edited as a person would: what must change changes, and nothing else does.
 
-use crate::{scenes, typed};
+use super::typed;
+use crate::scenes;
 use pinhole::Asked;
 use pinhole::scene::{Resolution, SceneFile};
 use std::path::Path;

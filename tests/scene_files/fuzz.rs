@@ -1,6 +1,6 @@
 //! Scene files made at random: by changing exported ones, and by a grammar that knows the words.
 
-use crate::{chapters, scenes};
+use crate::scenes;
 use cpu_time::ThreadTime;
 use pinhole::scene::{Resolution, SceneFile, scene_text, words};
 use pinhole::{Asked, plan};

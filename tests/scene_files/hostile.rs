@@ -1,6 +1,6 @@
 //! Files that are made to hang, to fill the memory, or to speak to the terminal.
 
-use crate::{parsed, typed};
+use super::{parsed, typed};
 use bevy_ecs::prelude::*;
 use pinhole::extract::ImageTable;
 use pinhole::plan::Table;

@@ -1,12 +1,11 @@
 //! `--format json`: every command prints one JSON value and nothing else, and in it what its text says.
 
-use crate::chapters;
 use bevy_ecs::prelude::Query;
 use pinhole::Chapter;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Evidence, Stage, TileSystems};
-use pinhole::report::table::short;
 use pinhole::shade::Radiance;
+use pinhole_lab::report::table::short;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -58,7 +57,7 @@ fn printed(chapters: &[Chapter], line: &[&str], format: &str) -> (String, Option
     let mut words: Vec<String> = line.iter().map(|word| word.replace('@', &place)).collect();
     words.extend(["--format".into(), format.into()]);
     let mut out = Vec::new();
-    let ended = pinhole::command::run(chapters, &words, &mut out).err().map(|error| error.to_string());
+    let ended = pinhole_cli::command::run(chapters, &words, &mut out).err().map(|error| error.to_string());
     (String::from_utf8(out).expect("UTF-8").replace(&place, "@"), ended)
 }
 

@@ -10,7 +10,7 @@ const OTHERWISE: [(&str, &str); 2] =
 
 #[test]
 fn every_component_of_a_scene_has_a_word() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene");
     let mut components = Vec::new();
     for entry in fs::read_dir(folder).expect("a readable folder") {
         let path = entry.expect("an entry").path();
@@ -24,11 +24,15 @@ fn every_component_of_a_scene_has_a_word() {
             }
         }
     }
-    let list = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/file/word.rs")).expect("kept");
+    let list =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene/file/word.rs")).expect("kept");
     for component in &components {
         let listed = list.contains(&format!("Word::of::<{component}>("));
         let otherwise = OTHERWISE.iter().any(|(name, _)| name == component);
-        assert!(listed != otherwise, "{component} has no word in src/scene/file/word.rs, or is held otherwise too");
+        assert!(
+            listed != otherwise,
+            "{component} has no word in src/pinhole/scene/file/word.rs, or is held otherwise too"
+        );
     }
     assert_eq!(components.len(), words().count() + OTHERWISE.len(), "{components:?}");
     eprintln!("words: {} components, {} of them held otherwise", components.len(), OTHERWISE.len());

@@ -1,11 +1,12 @@
 //! Export → load: the same picture and the same digests, bit for bit, and the same text again.
 
+use super::{parsed, typed};
 use crate::scenes::{self, Setup};
-use crate::{chapters, parsed, typed};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use pinhole::Asked;
 use pinhole::scene::*;
-use pinhole::{Asked, review};
+use pinhole_lab::review;
 use std::fs;
 use std::path::Path;
 

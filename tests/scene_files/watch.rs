@@ -1,6 +1,6 @@
 //! `render … --watch`: renders at every save, survives what is wrong, and ends with Ctrl-C.
 
-use crate::typed;
+use super::typed;
 use std::fs;
 use std::io::{BufRead, BufReader, Lines};
 use std::process::{ChildStdout, Command, Stdio};

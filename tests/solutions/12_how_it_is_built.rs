@@ -1,6 +1,6 @@
 //! One way to do the exercise of chapter 12; look here when you have done yours.
 
-use pinhole::StageWords;
+use pinhole_lab::StageWords;
 
 pub fn kept(stages: &[StageWords], asked: &str) -> Vec<String> {
     let mut wanted = vec![asked];

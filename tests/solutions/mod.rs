@@ -1,6 +1,6 @@
 //! A kept solution of every chapter's exercise.
 
-use pinhole::Attempt;
+use pinhole_lab::Attempt;
 
 #[path = "01_image.rs"]
 pub mod image;

@@ -1,0 +1,68 @@
+use pinhole::Result;
+use pinhole::film::write_whole;
+use pinhole::scene::{FileError, FileKind, Unopened, printable_path, read_file};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+const PROGRESS: FileKind = FileKind { name: "a record of progress", most: 1 << 20 };
+
+/// How often each exercise was tried, and with what result, by the chapter's name.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Progress(pub BTreeMap<String, Tries>);
+
+/// The tries of one exercise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tries {
+    /// Tries altogether; looking at a stub is none.
+    pub tried: u32,
+    /// Wrong tries since it was last right; each brings a further hint.
+    pub wrong: u32,
+    /// Whether the last try was right.
+    pub done: bool,
+}
+
+impl Progress {
+    /// Reads the file; without it, nothing was tried yet.
+    ///
+    /// A file that cannot be understood is renamed, so that nothing in it is lost, and the second value says so.
+    pub fn read(file: &Path) -> (Self, Option<String>) {
+        let text = match read_file(file, PROGRESS) {
+            Ok(text) => text,
+            Err(FileError { why: Unopened::Missing, .. }) => return (Self::default(), None),
+            Err(refused) => return (Self::default(), Some(format!("progress is not read: {refused}"))),
+        };
+        match serde_json::from_slice(&text) {
+            Ok(progress) => (progress, None),
+            Err(wrong) => (Self::default(), Some(set_aside(file, &wrong.to_string()))),
+        }
+    }
+
+    /// Writes the file whole, or leaves what was there.
+    ///
+    /// Errors: the path and what the system said.
+    pub fn write(&self, file: &Path) -> Result {
+        write_whole(file, |out| {
+            serde_json::to_writer_pretty(&mut *out, self)?;
+            writeln!(out)
+        })
+    }
+
+    /// The tries of a chapter's exercise.
+    pub fn of(&self, chapter: &str) -> Tries {
+        self.0.get(chapter).copied().unwrap_or_default()
+    }
+}
+
+/// Renames a damaged file, and says what was done.
+fn set_aside(file: &Path, wrong: &str) -> String {
+    let aside = file.with_extension("damaged.json");
+    let damaged = format!("{} is damaged ({wrong})", printable_path(file));
+    match fs::rename(file, &aside) {
+        Ok(()) => format!("{damaged}; it is set aside as {}, and counting starts anew", printable_path(&aside)),
+        Err(refused) => format!("{damaged} and cannot be set aside ({refused}); counting starts anew"),
+    }
+}

@@ -1,0 +1,83 @@
+use super::judge::{Outcome, Report};
+use super::{PATIENCE, Progress, Tries, check};
+use crate::attempt::Attempt;
+use pinhole::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// One check of a reader's function, and what is remembered of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turn {
+    /// How the function did.
+    pub report: Report,
+    /// The tries so far, this one among them.
+    pub tries: Tries,
+    /// What is to be said of the file in which tries are remembered.
+    pub notes: Vec<String>,
+}
+
+/// Checks a chapter's exercise once, and remembers it in the file.
+pub fn turn(name: &str, attempt: Attempt, file: &Path) -> Turn {
+    let (mut progress, remark) = Progress::read(file);
+    let mut notes: Vec<String> = remark.into_iter().collect();
+    let report = check(attempt, PATIENCE);
+    let mut tries = progress.of(name);
+    if !report.is_stub() {
+        let done = matches!(report.outcome, Outcome::Right(_));
+        tries.tried = tries.tried.saturating_add(1);
+        tries.wrong = if done { 0 } else { tries.wrong.saturating_add(1) };
+        tries.done = done;
+        progress.0.insert(name.into(), tries);
+        if let Err(refused) = progress.write(file) {
+            notes.push(format!("this try will not be remembered: {refused}"));
+        }
+    }
+    Turn { report, tries, notes }
+}
+
+impl Turn {
+    /// The hints that the reader has earned: one for each wrong try.
+    pub fn hints(&self) -> &'static [&'static str] {
+        let all = self.report.hints;
+        let earns = !matches!(self.report.outcome, Outcome::Right(_)) && !self.report.is_stub();
+        &all[..if earns { all.len().min(self.tries.wrong as usize) } else { 0 }]
+    }
+}
+
+/// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
+///
+/// Errors: a wrong answer, a panic or no answer in time, in one sentence; printing failed.
+pub fn take_turn(name: &str, attempt: Attempt, file: &Path, out: &mut dyn Write) -> Result {
+    let Turn { report, tries, notes } = turn(name, attempt, file);
+    report.print(tries.wrong as usize, out)?;
+    let number = name.split('_').next().unwrap_or(name);
+    match report.outcome {
+        Outcome::Right(_) => writeln!(out, "next: `check` without a chapter shows what is left")?,
+        _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
+    }
+    notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
+    report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
+}
+
+/// The exercises of all chapters, and how far the reader has come.
+///
+/// Errors: printing failed.
+pub fn list_exercises(exercises: &[(&str, Attempt)], file: &Path, out: &mut dyn Write) -> Result {
+    let (progress, remark) = Progress::read(file);
+    writeln!(out, "functions for you to write, each checked against the kit's:")?;
+    for (chapter, attempt) in exercises {
+        let tries = progress.of(chapter);
+        let state = match (tries.done, tries.tried) {
+            (true, _) => "done".into(),
+            (false, 0) => "not tried".into(),
+            (false, 1) => "tried once".into(),
+            (false, times) => format!("tried {times} times"),
+        };
+        writeln!(out, "  {:<22} {:<24} {state}", chapter, attempt.function())?;
+    }
+    writeln!(out, "each lies in chapters/<chapter>/exercise.rs; `check 5` tries that of chapter 05")?;
+    if let Some(remark) = remark {
+        writeln!(out, "note: {remark}")?;
+    }
+    Ok(())
+}

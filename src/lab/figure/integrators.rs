@@ -1,0 +1,66 @@
+//! One scene by several integrators.
+
+use super::Figure;
+use super::gallery::{Exhibit, gallery_foot, hang};
+use super::picture::Picture;
+use super::svg::Drawing;
+use pinhole::Chapter;
+use pinhole::Result;
+use pinhole::scene::{Integrator, LightSampling, Sampling};
+
+/// Three in a row.
+const SMALL: [u32; 2] = [276, 155];
+/// Two in a row.
+const LARGE: [u32; 2] = [384, 216];
+
+/// The chapter's scene by an integrator, with so many samples.
+fn exhibit(
+    chapter: &Chapter,
+    size: [u32; 2],
+    samples: u32,
+    integrator: Integrator,
+    lines: [&str; 2],
+) -> Result<Exhibit> {
+    let picture = Picture::of(chapter, size, None, |camera| {
+        camera.insert((integrator, Sampling { samples, seed: 22, ..Sampling::default() }));
+    })?;
+    Ok(Exhibit { picture, lines: lines.map(str::to_owned).to_vec() })
+}
+
+/// What is near hides the sky, then what is farther too.
+pub fn draw_distance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let of = |distance, lines| exhibit(chapter, SMALL, 32, Integrator::AmbientOcclusion { distance }, lines);
+    let exhibits = [
+        of(0.25, ["distance 0.25", "only creases are dark"])?,
+        of(1.0, ["distance 1", "what is near darkens"])?,
+        of(f64::INFINITY, ["no distance", "all that hides the sky"])?,
+    ];
+    Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
+}
+
+/// Ray casting beside paths of more and more legs.
+pub fn draw_legs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let paths = |legs| Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 5 };
+    let of = |integrator, lines| exhibit(chapter, LARGE, 12, integrator, lines);
+    let exhibits = [
+        of(Integrator::RayCasting, ["ray casting", "the lamp is seen, and lights nothing"])?,
+        of(paths(2), ["paths of 2 legs", "lamp to surface to eye"])?,
+        of(paths(3), ["paths of 3 legs", "off one more surface"])?,
+        of(paths(1 << 20), ["paths of any length", "all the light there is"])?,
+    ];
+    Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, LARGE)))
+}
+
+/// Three ways to find the same lamps.
+pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let of = |lights, lines| {
+        let integrator = Integrator::Path { legs: 2, lights, roulette: 0 };
+        exhibit(chapter, SMALL, 16, integrator, lines)
+    };
+    let exhibits = [
+        of(LightSampling::ByChance, ["by chance", "as the metal sends light on"])?,
+        of(LightSampling::Aimed, ["aimed", "points on the lamps"])?,
+        of(LightSampling::Weighed, ["weighed", "both, each where it is dense"])?,
+    ];
+    Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
+}

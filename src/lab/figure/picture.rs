@@ -1,0 +1,117 @@
+use bevy_ecs::prelude::*;
+use pinhole::extract::camera_entity;
+use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by, png_url};
+use pinhole::plan::Stage;
+use pinhole::render::{Execution, Rendered, render};
+use pinhole::scene::Resolution;
+use pinhole::{Asked, Chapter};
+use pinhole::{Result, follow, intersect, rays, shade};
+
+/// A picture of a chapter's scene, within a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels from left to right and from top to bottom.
+    pub size: [u32; 2],
+    /// The PNG as a URL that holds it.
+    pub url: String,
+}
+
+impl Picture {
+    /// Renders a chapter's scene with all stages that the kit has, after `change` has had its camera.
+    ///
+    /// `instead` takes the place of the stages that stand where it stands in the order.
+    /// Errors: what a render of that scene would be refused for.
+    pub fn of(
+        chapter: &Chapter,
+        size: [u32; 2],
+        instead: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        if let Some(stage) = instead {
+            whole.offer.retain(|other| other.set != stage.set);
+            whole.offer.push(stage);
+        }
+        let rendered = rendered(&whole, size, change)?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// The same with a stage in the place of the one of its name.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn replacing(
+        chapter: &Chapter,
+        size: [u32; 2],
+        stage: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        for own in &mut whole.offer {
+            if let Some(stage) = stage.as_ref().filter(|stage| stage.name == own.name) {
+                *own = stage.clone();
+            }
+        }
+        let rendered = rendered(&whole, size, change)?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// The same with one stage more.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn beside(
+        chapter: &Chapter,
+        size: [u32; 2],
+        beside: Option<Stage>,
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let mut whole = all_stages(chapter);
+        whole.offer.extend(beside);
+        let rendered = rendered(&whole, size, change)?;
+        Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
+    }
+
+    /// The same without another stage, each byte encoded for the screen twice: what is shown is encoded light, taken for
+    /// light.
+    ///
+    /// Errors: what a render of that scene would be refused for.
+    pub fn encoded_twice(
+        chapter: &Chapter,
+        size: [u32; 2],
+        change: impl FnOnce(&mut EntityWorldMut<'_>),
+    ) -> Result<Self> {
+        let rendered = rendered(&all_stages(chapter), size, change)?;
+        let curve = rendered.curve();
+        let twice = |light: f32| byte_from_linear(f32::from(byte_from_linear(light, curve)) / 255.0, curve);
+        Ok(Self { size, url: png_url(&png_bytes_by(&rendered.film, curve, twice)?) })
+    }
+
+    /// A picture of these pixels, linear Rec. 709, row by row.
+    ///
+    /// Errors: the picture could not be encoded.
+    pub fn painted(size: [u32; 2], pixels: &[[f32; 3]]) -> Result<Self> {
+        let [width, height] = size;
+        let mut film = Film::new(width, height, width.max(height).max(1));
+        for (row, &radiance) in pixels.iter().enumerate() {
+            film.tiles.iter_mut().for_each(|tile| tile.add(row, radiance));
+        }
+        Ok(Self { size, url: png_url(&png_bytes(&film, Curve::Srgb)?) })
+    }
+}
+
+/// The chapter with every stage that the kit has.
+fn all_stages(chapter: &Chapter) -> Chapter {
+    let mut whole = chapter.clone();
+    whole.view = None;
+    whole.offer = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
+    whole
+}
+
+/// A chapter's scene, rendered after `change` has had its camera.
+fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorldMut<'_>)) -> Result<Rendered> {
+    let [width, height] = size;
+    let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
+    let mut scene = whole.world(&asked);
+    let camera = camera_entity(&scene)?;
+    change(&mut scene.entity_mut(camera));
+    render(&scene, &whole.stages(), &Execution::default(), &())
+}

@@ -1,0 +1,52 @@
+//! A closed room whose walls all shine and send light on alike: L = E + aE + a²E + … = E / (1 − a).
+
+use super::{ClosedForm, GREEN};
+use bevy_ecs::prelude::*;
+use pinhole::scene::{Emissive, Integrator, LightSampling, Matte, PerspectiveCamera, Placement, Rgb, Sphere};
+
+pub(super) const FORMS: &[ClosedForm] = &[
+    ClosedForm {
+        name: "furnace, albedo 0.5",
+        formula: "1 / (1 − a)",
+        truth: || 2.0,
+        few: 1 << 14,
+        lane: GREEN,
+        scene: |world| room(world, 0.5, WAYS),
+    },
+    ClosedForm {
+        name: "furnace, albedo 0.8",
+        formula: "1 / (1 − a)",
+        truth: || 5.0,
+        few: 1 << 15,
+        lane: GREEN,
+        scene: |world| room(world, 0.8, WAYS),
+    },
+    ClosedForm {
+        name: "furnace, albedo 0.99",
+        formula: "1 / (1 − a)",
+        truth: || 1.0 / (1.0 - 0.99),
+        few: 1 << 15,
+        lane: GREEN,
+        scene: |world| room(world, 0.99, WAYS),
+    },
+    ClosedForm {
+        name: "furnace, albedo 0.99, 64 legs at most",
+        formula: "(1 − a⁶⁴) / (1 − a)",
+        truth: || (1.0 - libm::pow(0.99, 64.0)) / (1.0 - 0.99),
+        few: 1 << 11,
+        lane: GREEN,
+        scene: |world| {
+            room(world, 0.99, Integrator::Path { legs: 64, lights: LightSampling::ByChance, roulette: 0 });
+        },
+    },
+];
+
+/// Ways that end by chance alone.
+const WAYS: Integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
+
+/// The camera stands off the middle of a hollow ball.
+fn room(world: &mut World, albedo: f64, integrator: Integrator) {
+    world.spawn((PerspectiveCamera::default(), Placement::at(0.2, -0.1, 0.3), integrator));
+    let wall = (Matte { colour: Rgb::grey(albedo) }, Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
+    world.spawn((Sphere { radius: 1.0 }, wall));
+}

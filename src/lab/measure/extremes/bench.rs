@@ -1,0 +1,92 @@
+//! The kit's own stages, run on rows that no camera made.
+
+use crate::measure::oracle_plane::Plane;
+use crate::measure::oracle_sphere::Sphere;
+use crate::measure::ray_aim::AimedRay;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::SingleThreadedExecutor;
+use pinhole::extract::{PlaneTable, SphereTable};
+use pinhole::plan::{Column, Sample, Shared, Slot, Stage, Table};
+use pinhole::rays::{Tile, WorldRays};
+
+/// A world with one tile, and stages that run on it in the order given.
+///
+/// The systems are those that a render runs, SIMD and all; only what they read is put there by hand.
+pub struct Bench {
+    world: World,
+    schedule: Schedule,
+    tile: Entity,
+}
+
+impl Bench {
+    /// A bench with the columns that the stages read and write, all empty.
+    pub fn new(stages: &[Stage]) -> Self {
+        let mut world = World::new();
+        let mut tile = world.spawn(Tile { width: 1, height: 1, ..Tile::default() });
+        let mut schedule = Schedule::new(Sample);
+        schedule.set_executor(SingleThreadedExecutor::new());
+        for (slot, stage) in stages.iter().enumerate() {
+            for column in stage.reads.iter().chain(&stage.writes) {
+                (column.insert)(&mut tile);
+            }
+            schedule.add_systems((stage.system)().in_set(Slot(slot)));
+            schedule.configure_sets(Slot(slot).before(Slot(slot + 1)));
+        }
+        let tile = tile.id();
+        Self { world, schedule, tile }
+    }
+
+    /// Puts a table where the stages look for it.
+    pub fn share<T: Table>(&mut self, table: T) {
+        self.world.insert_resource(Shared::new(table));
+    }
+
+    /// Puts a column, or the tile's rectangle, where the stages look for it.
+    pub fn put(&mut self, component: impl Component) {
+        self.world.entity_mut(self.tile).insert(component);
+    }
+
+    /// Makes these the tile's world rays.
+    pub fn aim(&mut self, rays: &[AimedRay]) {
+        let Some(mut column) = self.world.get_mut::<WorldRays>(self.tile) else { return };
+        let (ox, oy, oz, dx, dy, dz) = column.slices_mut(rays.len());
+        for (row, ray) in rays.iter().enumerate() {
+            (ox[row], oy[row], oz[row]) = ray.origin.into();
+            (dx[row], dy[row], dz[row]) = ray.direction.into();
+        }
+    }
+
+    /// Runs the stages once.
+    pub fn run(&mut self) {
+        self.schedule.run(&mut self.world);
+    }
+
+    /// What a stage has written.
+    ///
+    /// # Panics
+    /// When no stage reads or writes that column.
+    pub fn column<C: Column>(&self) -> &C {
+        self.world.get::<C>(self.tile).expect("the column of a stage on the bench")
+    }
+}
+
+/// The table of these spheres; a sphere's shape number is its place.
+pub fn sphere_table(spheres: &[Sphere]) -> SphereTable {
+    let part = |of: fn(&Sphere) -> f64| spheres.iter().map(of).collect();
+    SphereTable {
+        x: part(|sphere| sphere.centre.x),
+        y: part(|sphere| sphere.centre.y),
+        z: part(|sphere| sphere.centre.z),
+        radius: part(|sphere| sphere.radius),
+        shape: (0..spheres.len() as u32).collect(),
+    }
+}
+
+/// The table of these planes; a plane's shape number is its place.
+pub fn plane_table(planes: &[Plane]) -> PlaneTable {
+    PlaneTable {
+        normal: planes.iter().map(|plane| plane.normal).collect(),
+        offset: planes.iter().map(|plane| plane.offset).collect(),
+        shape: (0..planes.len() as u32).collect(),
+    }
+}

@@ -1,0 +1,187 @@
+//! One camera's chain raster → NDC → screen → camera → world through the kit's tables and stages, a pixel at a time.
+
+use super::Score;
+use super::bench::Bench;
+use crate::measure::enclosure::Enclosure;
+use crate::measure::exact::Dyadic;
+use crate::measure::exact_vector::Vector;
+use crate::measure::judge_camera::CameraJudge;
+use crate::measure::number::Number;
+use crate::measure::oracle_camera::length_error_in_u;
+use crate::naive::camera::viewport_f32;
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
+use pinhole::extract::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL};
+use pinhole::plan::Table;
+use pinhole::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
+use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement, Refusal, Resolution};
+
+/// How a camera stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pose {
+    /// Turned by a quaternion.
+    Turned(DVec3, DQuat),
+    /// Looking at something.
+    Looking(LookAt),
+}
+
+/// A camera as an author asks for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedCamera {
+    /// Pixels from left to right, from top to bottom.
+    pub size: [u32; 2],
+    /// The full angle.
+    pub fov: f64,
+    /// Across what the angle is measured.
+    pub axis: FovAxis,
+    /// How it stands.
+    pub pose: Pose,
+}
+
+/// What the stages wrote for one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelChain {
+    /// In pixels.
+    pub raster: DVec2,
+    /// From 0 to 1.
+    pub ndc: DVec2,
+    /// In half heights.
+    pub screen: DVec2,
+    /// The direction in camera space.
+    pub camera: DVec3,
+    /// The direction in the world.
+    pub world: Vec3,
+}
+
+/// A scene with one camera, and the stages of ray generation.
+pub struct CameraChain {
+    scene: World,
+    camera: Entity,
+    bench: Bench,
+    set: Option<(AskedCamera, DMat3)>,
+    judge: Option<(AskedCamera, CameraJudge)>,
+}
+
+impl CameraChain {
+    /// A camera still to be asked for.
+    pub fn new() -> Self {
+        let mut scene = World::new();
+        let camera = scene.spawn(PerspectiveCamera::default()).id();
+        let stages = [
+            rays::raster_stage(),
+            rays::ndc_stage(),
+            rays::screen_stage(),
+            rays::perspective_stage(),
+            rays::world_stage(),
+        ];
+        Self { scene, camera, bench: Bench::new(&stages), set: None, judge: None }
+    }
+
+    /// Extracts this camera's tables, unless it is the one that is there, and answers its axes.
+    ///
+    /// Errors: what the scene is refused for.
+    pub fn set(&mut self, asked: AskedCamera) -> Result<DMat3, Refusal> {
+        if let Some((_, axes)) = self.set.filter(|(there, _)| *there == asked) {
+            return Ok(axes);
+        }
+        self.set = None;
+        let [width, height] = asked.size;
+        let mut camera = self.scene.entity_mut(self.camera);
+        camera.insert((PerspectiveCamera { fov: Degrees(asked.fov), axis: asked.axis }, Resolution { width, height }));
+        match asked.pose {
+            Pose::Turned(position, orientation) => {
+                camera.remove::<LookAt>().insert(Placement { position, orientation, ..Placement::default() })
+            }
+            Pose::Looking(look) => camera.insert((look, Placement::default())),
+        };
+        let axes = CameraAxes::extract(&self.scene)?;
+        self.bench.share(ImageShape::extract(&self.scene)?);
+        self.bench.share(PinholeLens::extract(&self.scene)?);
+        self.bench.share(axes);
+        self.set = Some((asked, axes.world_from_camera));
+        Ok(axes.world_from_camera)
+    }
+
+    /// The judge of what was asked, with these axes; its tangent is kept for the next that asks the same.
+    pub fn judge(&mut self, asked: AskedCamera, rotation: DMat3) -> CameraJudge {
+        let same = |kept: &AskedCamera| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
+        if let Some((_, judge)) = self.judge.as_ref().filter(|(kept, _)| same(kept)) {
+            return judge.turned(rotation);
+        }
+        let judge = CameraJudge::new(asked.size[0], asked.size[1], asked.fov, asked.axis, rotation);
+        self.judge = Some((asked, judge.clone()));
+        judge
+    }
+
+    /// Runs the stages for `count` pixels of a row, from this one on.
+    pub fn pixels(&mut self, [x, y]: [u32; 2], count: u32) -> Vec<PixelChain> {
+        self.bench.put(Tile { x, y, width: count, height: 1 });
+        self.bench.run();
+        let bench = &self.bench;
+        let (raster, ndc) = (bench.column::<RasterPoints>(), bench.column::<NdcPoints>());
+        let (screen, camera) = (bench.column::<ScreenPoints>(), bench.column::<CameraRays>());
+        let world = bench.column::<WorldRays>();
+        let chain = |row: usize| PixelChain {
+            raster: DVec2::new(raster.x[row], raster.y[row]),
+            ndc: DVec2::new(ndc.x[row], ndc.y[row]),
+            screen: DVec2::new(screen.x[row], screen.y[row]),
+            camera: DVec3::new(camera.dx[row], camera.dy[row], camera.dz[row]),
+            world: Vec3::new(world.dx[row], world.dy[row], world.dz[row]),
+        };
+        (0..count as usize).map(chain).collect()
+    }
+}
+
+/// How far the raster, NDC, screen and camera points of a pixel are off, in pixels, into four scores.
+pub fn judge_stages(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    let size = DVec2::new(f64::from(judge.width), f64::from(judge.height));
+    scores[0].measure((wrote.raster - judge.raster(pixel)).length());
+    scores[1].measure(((wrote.ndc - judge.ndc(pixel)) * size).length());
+    scores[2].measure((wrote.screen - judge.screen(pixel)).length() * size.y / 2.0);
+    scores[3].measure(judge.camera_error_in_pixels(wrote.camera / -wrote.camera.z, pixel));
+}
+
+/// How wide a pixel is where it is narrowest, seen from the eye, in radians: towards the edge of a wide image its plane
+/// is both farther and slanted.
+pub fn seen_width(judge: &CameraJudge, wrote: &PixelChain) -> f64 {
+    judge.pixel_pitch() * wrote.camera.z * wrote.camera.z
+}
+
+/// How far a world ray is off into three scores: in pixels where these are wide enough for f32, in radians everywhere,
+/// its length in u.
+pub fn judge_world(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    if seen_width(judge, wrote) >= SMALLEST_PIXEL {
+        scores[0].measure(judge.world_error_in_pixels(wrote.world, pixel));
+    }
+    scores[1].measure(judge.world_error_in_radians(wrote.world, pixel));
+    scores[2].measure(length_error_in_u(wrote.world).abs());
+}
+
+/// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and the kit's axes, rounded to
+/// f32.
+pub fn viewport_error(judge: &CameraJudge, eye: DVec3, pixel: [u32; 2]) -> f64 {
+    let vertical = 2.0 * libm::atan(judge.tan_half_vertical()).to_degrees();
+    let size = [judge.width, judge.height];
+    let direction = viewport_f32(eye.as_vec3(), judge.rotation().as_mat3(), vertical as f32, size, pixel);
+    judge.world_error_in_pixels(direction, pixel)
+}
+
+/// How far the axes of a camera that looks at something are from where it looks and from upright, in radians.
+///
+/// The nearer up lies to the view, the less it says of what is upright, so that error counts times the sine between.
+pub fn axes_error(axes: DMat3, look: &LookAt) -> f64 {
+    let enclosed = axes_errors::<Enclosure>(axes, look);
+    let [back, right, sine] = enclosed.or_else(|| axes_errors::<Dyadic>(axes, look)).unwrap_or([f64::INFINITY; 3]);
+    let upright = (axes.x_axis.cross(axes.y_axis) - axes.z_axis).length();
+    back.max(sine * right.max(upright))
+}
+
+/// The angles by which back and right are off, and the sine between up and back.
+fn axes_errors<N: Number>(axes: DMat3, look: &LookAt) -> Option<[f64; 3]> {
+    let (up, back) = (Vector::<N>::of(look.up), Vector::<N>::of(look.eye).minus(&Vector::of(look.target)));
+    let right = up.cross(&back);
+    let sine = right.length_about()? / up.length_about()? / back.length_about()?;
+    let angle =
+        |axis: DVec3, exact: &Vector<N>| Some(Vector::of(axis).cross(exact).length_about()? / exact.length_about()?);
+    Some([angle(axes.z_axis, &back)?, angle(axes.x_axis, &right)?, sine])
+}

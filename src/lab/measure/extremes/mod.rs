@@ -1,0 +1,190 @@
+//! Extremes: the kit's own methods where numbers are hardest, beside the naive ones and the exact truth.
+//!
+//! Reads: aimed rays and cameras, each a function of (seed, index), so that every failure can be had again.
+//! Writes: [`Case`]s. Every case runs the kit's own functions and stages; nothing is copied here.
+//! Zero failures in N rays bound the rate at 3/N (with 95 % confidence), so every case says its N.
+
+mod bench;
+mod camera;
+mod camera_chain;
+mod camera_limits;
+mod camera_ndc;
+mod camera_table;
+mod case;
+mod cuboid;
+mod emitter;
+mod film;
+mod film_bytes;
+mod flat;
+mod frame;
+mod lamp;
+mod lens;
+mod light;
+mod light_albedo;
+mod matter;
+mod plane;
+mod print;
+mod sampling;
+mod shadow;
+mod shadow_stages;
+mod sphere;
+mod sphere_limits;
+mod texture;
+mod transform;
+mod transform_aim;
+mod transform_placement;
+mod transform_surface;
+mod transport;
+mod triangle;
+mod triangle_aim;
+mod triangle_limits;
+mod triangle_mesh;
+mod triangle_surface;
+
+pub use case::{Case, Method, Outcome, Score, Tally, Trial, Worst};
+pub use print::Words;
+
+use pinhole::render::Watch;
+use rayon::prelude::*;
+use std::fmt;
+use std::str::FromStr;
+
+/// What a case is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Rays against spheres.
+    Sphere,
+    /// Rays against planes.
+    Plane,
+    /// Shadow rays: where they start, how far they look.
+    Shadow,
+    /// Cameras: raster → NDC → screen → camera → world.
+    Camera,
+    /// Scaled spheres, their normals, placements through parents.
+    Transform,
+    /// Textures and environments: what a pixel covers, its mean, edges of images.
+    Texture,
+    /// Rays against triangles and meshes of them, and their surfaces.
+    Triangle,
+    /// Samples: their numbers, their places, what they count for.
+    Sampling,
+    /// Films: sums of samples, bytes of pictures.
+    Film,
+    /// Rays against disks, and shadow rays off them.
+    Disk,
+    /// Rays against rectangles, and shadow rays off them.
+    Rectangle,
+    /// Rays against cuboids, and shadow rays off them.
+    Cuboid,
+    /// Highlights, cones, suns: how much light there is.
+    Light,
+    /// Mirrors, glass and rough metal.
+    Matter,
+    /// Lights with an area: points on them, and how likely each was.
+    Emitter,
+    /// Lenses: where rays meet, where they start, how wide what is out of focus is.
+    Lens,
+    /// Ways of light: what they bring, how they end, what they count for.
+    Transport,
+}
+
+impl Group {
+    /// All groups in order.
+    pub const ALL: &[Self] = &[
+        Self::Sphere,
+        Self::Plane,
+        Self::Shadow,
+        Self::Camera,
+        Self::Transform,
+        Self::Triangle,
+        Self::Sampling,
+        Self::Film,
+        Self::Disk,
+        Self::Rectangle,
+        Self::Cuboid,
+        Self::Texture,
+        Self::Light,
+        Self::Matter,
+        Self::Emitter,
+        Self::Lens,
+        Self::Transport,
+    ];
+
+    /// Its cases.
+    fn trials(self) -> Vec<Trial> {
+        match self {
+            Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
+            Self::Plane => plane::trials(),
+            Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
+            Self::Camera => [camera::trials(), camera_table::trials(), camera_limits::trials(), camera_ndc::trials()]
+                .into_iter()
+                .flatten()
+                .collect(),
+            Self::Transform => transform::trials(),
+            Self::Texture => texture::trials(),
+            Self::Triangle => triangle::trials(),
+            Self::Sampling => sampling::trials(),
+            Self::Film => film::trials(),
+            Self::Disk => flat::trials(flat::Kind::Disk),
+            Self::Rectangle => flat::trials(flat::Kind::Rectangle),
+            Self::Cuboid => cuboid::trials(),
+            Self::Light => light::trials(),
+            Self::Matter => matter::trials(),
+            Self::Emitter => emitter::trials(),
+            Self::Lens => lens::trials(),
+            Self::Transport => transport::trials(),
+        }
+    }
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Sphere => "sphere",
+            Self::Plane => "plane",
+            Self::Shadow => "shadow",
+            Self::Camera => "camera",
+            Self::Transform => "transform",
+            Self::Texture => "texture",
+            Self::Triangle => "triangle",
+            Self::Sampling => "sampling",
+            Self::Film => "film",
+            Self::Disk => "disk",
+            Self::Rectangle => "rectangle",
+            Self::Cuboid => "cuboid",
+            Self::Light => "light",
+            Self::Matter => "matter",
+            Self::Emitter => "emitter",
+            Self::Lens => "lens",
+            Self::Transport => "transport",
+        })
+    }
+}
+
+impl FromStr for Group {
+    type Err = String;
+    fn from_str(word: &str) -> Result<Self, String> {
+        let known = |group: &Self| group.to_string() == word;
+        let names = || Self::ALL.iter().map(Self::to_string).collect::<Vec<_>>().join(", ");
+        Self::ALL.iter().copied().find(known).ok_or_else(|| format!("it must be one of {}", names()))
+    }
+}
+
+/// Tries every case of a group whose name holds `named` with so many rays, the same on any number of threads; fewer if the one who watches
+/// stops it.
+pub fn try_group(group: Group, named: &str, rays: u64, watch: &dyn Watch) -> Vec<Case> {
+    let trials: Vec<Trial> = group.trials().into_iter().filter(|trial| trial.name.contains(named)).collect();
+    trials.par_iter().map(|trial| trial.run(rays, watch)).collect()
+}
+
+/// The naive methods that no case shows to break: there, the cases prove nothing.
+pub fn unbroken(cases: &[Case]) -> Vec<&'static str> {
+    let naive = |passes: bool| {
+        let outcomes = cases.iter().flat_map(|case| &case.outcomes);
+        outcomes.filter(move |outcome| !outcome.method.of_kit && outcome.passes() == passes)
+    };
+    let breaks = |name: &str| naive(false).any(|outcome| outcome.method.name == name);
+    let mut unbroken: Vec<_> = naive(true).map(|outcome| outcome.method.name).filter(|name| !breaks(name)).collect();
+    unbroken.dedup();
+    unbroken
+}

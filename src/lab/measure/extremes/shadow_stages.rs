@@ -1,0 +1,182 @@
+//! From a ray to the shadow ray that leaves its hit, through the kit's stages.
+
+use super::bench::{Bench, plane_table, sphere_table};
+use crate::measure::oracle_plane::Plane;
+use crate::measure::oracle_sphere::Sphere;
+use crate::measure::ray_aim::{AimedRay, Draws};
+use glam::{DVec3, Vec3};
+use pinhole::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
+    ShapeKind, ShapeTable, TriangleTable,
+};
+use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
+use pinhole::plan::{Column, Stage};
+use pinhole::shade::{self, LightRays, ShadowHits};
+
+/// A shadow ray as the stages made it, and what they found on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shadow {
+    /// Where it starts.
+    pub origin: Vec3,
+    /// Where it goes.
+    pub direction: Vec3,
+    /// How far it looks.
+    pub reach: f32,
+    /// The number of the shape that it met within its reach.
+    pub blocked: Option<u32>,
+}
+
+/// Two benches: the stages up to the surface, and those from the surface to what lies before the light.
+pub struct ShadowStages {
+    to_surface: Bench,
+    to_light: Bench,
+}
+
+impl ShadowStages {
+    /// The stages for spheres, a light still to be placed.
+    pub fn of_spheres() -> Self {
+        let to_surface = [intersect::sphere_stage(), intersect::classify_stage(), intersect::sphere_surface_stage()];
+        Self::of(&to_surface, shade::sphere_shadow_stage())
+    }
+
+    /// The stages for planes, a light still to be placed.
+    pub fn of_planes() -> Self {
+        let to_surface = [intersect::plane_stage(), intersect::classify_stage(), intersect::plane_surface_stage()];
+        Self::of(&to_surface, shade::plane_shadow_stage())
+    }
+
+    /// The stages for ellipsoids, a light still to be placed.
+    pub fn of_ellipsoids() -> Self {
+        let of_hits = [intersect::ellipsoid_stage(), intersect::classify_stage(), intersect::ellipsoid_surface_stage()];
+        Self::of(&of_hits, shade::ellipsoid_shadow_stage())
+    }
+
+    /// The stages for disks, a light still to be placed.
+    pub fn of_disks() -> Self {
+        let of_hits = [intersect::disk_stage(), intersect::classify_stage(), intersect::disk_surface_stage()];
+        Self::of(&of_hits, shade::disk_shadow_stage())
+    }
+
+    /// The stages for rectangles, a light still to be placed.
+    pub fn of_rectangles() -> Self {
+        let of_hits = [intersect::rectangle_stage(), intersect::classify_stage(), intersect::rectangle_surface_stage()];
+        Self::of(&of_hits, shade::rectangle_shadow_stage())
+    }
+
+    /// The stages for cuboids, a light still to be placed.
+    pub fn of_cuboids() -> Self {
+        let of_hits = [intersect::cuboid_stage(), intersect::classify_stage(), intersect::cuboid_surface_stage()];
+        Self::of(&of_hits, shade::cuboid_shadow_stage())
+    }
+
+    /// The stages for triangles, a light still to be placed.
+    pub fn of_triangles() -> Self {
+        let of_hits = [intersect::triangle_stage(), intersect::classify_stage(), intersect::triangle_surface_stage()];
+        Self::of(&of_hits, shade::triangle_shadow_stage())
+    }
+
+    fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {
+        let to_surface = [&[intersect::start_stage()], to_surface].concat();
+        let to_light =
+            [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
+        let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
+        stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], row: vec![0], colour: vec![[0.5; 3]] });
+        let mut first = MaterialRows::default();
+        first.slices_mut(1)[0] = 0;
+        stages.to_light.put(first);
+        stages
+    }
+
+    /// The scene's spheres; a sphere's place is its number.
+    pub fn spheres(&mut self, spheres: &[Sphere]) {
+        self.shapes(ShapeKind::Sphere, spheres.len());
+        self.to_surface.share(sphere_table(spheres));
+        self.to_light.share(sphere_table(spheres));
+    }
+
+    /// The scene's planes; a plane's place is its number.
+    pub fn planes(&mut self, planes: &[Plane]) {
+        self.shapes(ShapeKind::Plane, planes.len());
+        self.to_surface.share(plane_table(planes));
+        self.to_light.share(plane_table(planes));
+    }
+
+    /// The scene's ellipsoids; an ellipsoid's place is its number.
+    pub fn ellipsoids(&mut self, table: EllipsoidTable) {
+        self.shapes(ShapeKind::Ellipsoid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's disks; a disk's place is its number.
+    pub fn disks(&mut self, table: DiskTable) {
+        self.shapes(ShapeKind::Disk, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's rectangles; a rectangle's place is its number.
+    pub fn rectangles(&mut self, table: RectangleTable) {
+        self.shapes(ShapeKind::Rectangle, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's cuboids; a cuboid's place is its number.
+    pub fn cuboids(&mut self, table: CuboidTable) {
+        self.shapes(ShapeKind::Cuboid, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    /// The scene's triangles; a triangle's place is its number.
+    pub fn triangles(&mut self, table: TriangleTable) {
+        self.shapes(ShapeKind::Triangle, table.shape.len());
+        self.to_surface.share(table.clone());
+        self.to_light.share(table);
+    }
+
+    fn shapes(&mut self, kind: ShapeKind, count: usize) {
+        let row = (0..count as u32).collect();
+        let (material, emissive) = (vec![0; count], vec![NO_ROW; count]);
+        let (spreads, name) = (vec![true; count], Vec::new());
+        let table = ShapeTable { kind: vec![kind; count], row, material, spreads, emissive, name };
+        self.to_surface.share(table);
+    }
+
+    /// The number of the shape that a ray meets first, and the surface there.
+    pub fn surface(&mut self, ray: AimedRay) -> Option<(u32, Surface)> {
+        self.to_surface.aim(&[ray]);
+        self.to_surface.run();
+        let shape = self.to_surface.column::<Hits>().shape[0];
+        (shape != NO_SHAPE).then(|| (shape, self.to_surface.column::<Surfaces>().get(0)))
+    }
+
+    /// The shadow ray from a surface to a light, if the surface faces it.
+    pub fn shadow(&mut self, surface: Surface, light: DVec3) -> Option<Shadow> {
+        let mut surfaces = Surfaces::default();
+        surfaces.slices_mut(1);
+        surfaces.set(0, surface);
+        self.to_light.put(surfaces);
+        self.to_light.share(PointLightTable {
+            position: vec![light],
+            intensity: vec![[1.0; 3]],
+            casts_shadows: vec![true],
+        });
+        self.to_light.run();
+        let (rays, hits) = (self.to_light.column::<LightRays>(), self.to_light.column::<ShadowHits>());
+        (rays.rows() == 1).then(|| Shadow {
+            origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
+            direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),
+            reach: rays.reach[0],
+            blocked: Some(hits.shape[0]).filter(|&shape| shape != NO_SHAPE),
+        })
+    }
+}
+
+/// A direction above the surface's tangent plane, not of unit length: often nearly along it.
+pub fn leaving(draws: &mut Draws, normal: Vec3, flattest: f64) -> DVec3 {
+    let normal = normal.as_dvec3();
+    let along = draws.unit_vector_across(normal.try_normalize().unwrap_or(DVec3::X));
+    along + normal * draws.power_of_ten(-flattest, 1.0)
+}

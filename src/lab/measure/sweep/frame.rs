@@ -1,0 +1,160 @@
+//! A frame of a sweep: every pixel's ray, hit and light, and how two frames differ.
+
+use crate::measure::film_bits::FilmBits;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use pinhole::Result;
+use pinhole::extract::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapeKind, ShapeTable, SphereTable,
+    TriangleTable,
+};
+use pinhole::film::FilmTile;
+use pinhole::intersect::{Hits, NO_SHAPE, face_of_point};
+use pinhole::plan::{Stage, Table};
+use pinhole::rays::{Tile, WorldRays};
+use pinhole::render::inspect;
+use serde::Serialize;
+
+/// The side of a tile.
+const SIDE: u32 = 32;
+
+/// What a pixel met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// How far away; infinite where nothing is met.
+    pub t: f64,
+    /// The shape's number.
+    pub shape: u32,
+    /// The cosine between ray and normal.
+    pub cosine: f64,
+}
+
+/// A frame as its stages left it.
+pub struct Frame {
+    /// The film.
+    pub film: FilmBits,
+    /// Whether the film holds a view of a column, whose numbers have units.
+    pub viewed: bool,
+    /// What each pixel met, tile by tile; empty where the scene has no shape or no stage looks for one.
+    pub met: Vec<Met>,
+    /// The directions of the rays along the middle line, left to right.
+    pub middle: Vec<DVec3>,
+}
+
+impl Frame {
+    /// Runs the stages over a scene.
+    ///
+    /// Errors: what a render would be refused for.
+    pub fn of(scene: &World, offer: &[Stage]) -> Result<Self> {
+        let frame = inspect(scene, offer, SIDE)?;
+        let tiles = || frame.tiles.iter().map(|&tile| frame.world.entity(tile));
+        let (width, height) = (frame.image.width, frame.image.height);
+        let shapes = Shapes::of(scene)?;
+        let film = FilmBits::of_tiles(width, height, tiles().filter_map(|tile| tile.get::<FilmTile>()));
+        let met = tiles().flat_map(|tile| met(&tile, &shapes)).collect();
+        let mut middle: Vec<(u32, DVec3)> = tiles().flat_map(|tile| on_line(&tile, height / 2)).collect();
+        middle.sort_by_key(|&(x, _)| x);
+        let middle = middle.into_iter().map(|(_, direction)| direction).collect();
+        Ok(Self { film, viewed: frame.plan.view.is_some(), met, middle })
+    }
+}
+
+/// The shapes of a scene, for the normals where its stages ask for none.
+struct Shapes {
+    all: ShapeTable,
+    spheres: SphereTable,
+    planes: PlaneTable,
+    ellipsoids: EllipsoidTable,
+    disks: DiskTable,
+    rectangles: RectangleTable,
+    cuboids: CuboidTable,
+    triangles: TriangleTable,
+}
+
+impl Shapes {
+    fn of(scene: &World) -> Result<Self> {
+        Ok(Self {
+            all: ShapeTable::extract(scene)?,
+            spheres: SphereTable::extract(scene)?,
+            planes: PlaneTable::extract(scene)?,
+            ellipsoids: EllipsoidTable::extract(scene)?,
+            disks: DiskTable::extract(scene)?,
+            rectangles: RectangleTable::extract(scene)?,
+            cuboids: CuboidTable::extract(scene)?,
+            triangles: TriangleTable::extract(scene)?,
+        })
+    }
+
+    /// Along the normal of a shape at a point, of no particular length.
+    fn normal(&self, shape: u32, point: DVec3) -> DVec3 {
+        let shape = shape as usize;
+        let row = self.all.row[shape] as usize;
+        match self.all.kind[shape] {
+            ShapeKind::Sphere => point - self.spheres.centre(row),
+            ShapeKind::Plane => self.planes.normal[row],
+            ShapeKind::Ellipsoid => {
+                let ellipsoid = &self.ellipsoids.ellipsoid[row];
+                let map = ellipsoid.unit_from_world;
+                map.transpose() * (map * (point - ellipsoid.centre))
+            }
+            ShapeKind::Disk => self.disks.flat[row].normal,
+            ShapeKind::Rectangle => self.rectangles.flat[row].normal,
+            ShapeKind::Cuboid => {
+                let slabs = &self.cuboids.slabs[row];
+                slabs.normal[face_of_point(slabs, point - slabs.centre)]
+            }
+            ShapeKind::Triangle => self.triangles.normal[row],
+            // Where it was depends on each ray's time: no normal is compared.
+            ShapeKind::Moving => DVec3::ZERO,
+        }
+    }
+}
+
+fn met(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<Met> {
+    let (Some(hits), Some(rays)) = (tile.get::<Hits>(), tile.get::<WorldRays>()) else { return Vec::new() };
+    let cosine = |row: usize| match hits.shape[row] {
+        NO_SHAPE => 1.0,
+        shape => {
+            let normal = shapes.normal(shape, rays.point_at(row, hits.t[row]));
+            let length = normal.length();
+            if length > 0.0 { normal.dot(rays.direction_of(row)).abs() / length } else { 1.0 }
+        }
+    };
+    (0..hits.t.len()).map(|row| Met { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()
+}
+
+fn on_line(tile: &EntityRef<'_>, line: u32) -> Vec<(u32, DVec3)> {
+    let (Some(place), Some(rays)) = (tile.get::<Tile>(), tile.get::<WorldRays>()) else { return Vec::new() };
+    let row = |x: u32| place.row_of(x, line).map(|row| (x, rays.direction_of(row)));
+    (place.x..place.x + place.width).filter_map(row).collect()
+}
+
+/// How two frames of one scene differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Difference {
+    /// Pixels that meet something in one of them.
+    pub hits: usize,
+    /// Pixels that meet another shape, or nothing any more.
+    pub changed_hands: usize,
+    /// Of the others: the most that the surface is farther or nearer, across itself and relative to its distance.
+    ///
+    /// Along a ray that grazes it, a surface's distance says little; across, cos θ |Δt|, no more than the ray's own error
+    /// remains.
+    #[serde(rename = "worst_relative_error")]
+    pub worst: f64,
+}
+
+/// Compares what the pixels of two frames met.
+pub fn difference(one: &Frame, other: &Frame) -> Difference {
+    let mut difference = Difference::default();
+    for (one, other) in one.met.iter().zip(&other.met) {
+        difference.hits += usize::from(one.shape != NO_SHAPE || other.shape != NO_SHAPE);
+        if one.shape != other.shape {
+            difference.changed_hands += 1;
+        } else if one.shape != NO_SHAPE {
+            let across = (one.t - other.t).abs() * one.cosine.max(other.cosine);
+            difference.worst = difference.worst.max(across / one.t);
+        }
+    }
+    difference
+}

@@ -1,0 +1,46 @@
+//! Light that is joined to the camera, with a factor forgotten.
+
+use bevy_ecs::prelude::*;
+use pinhole::extract::CameraJoinTable;
+use pinhole::follow::scatter_glass;
+use pinhole::intersect::Surfaces;
+use pinhole::plan::{Column, Shared, Stage};
+use pinhole::shade::{LightRays, aim_at_the_camera, camera_join_stage};
+use std::sync::Arc;
+
+// ANCHOR: forget_join_cosine
+/// Forgets that a surface sends the less to the camera the more it is turned away from there.
+pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+    for (surfaces, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let normal = surfaces.get(rays.path[ray] as usize).normal.as_dvec3();
+            let cosine = normal.dot(rays.direction_of(ray));
+            rays.weigh(ray, 1.0 / cosine);
+        }
+    }
+}
+// ANCHOR_END: forget_join_cosine
+
+/// Forgets how much of the image plane a pixel is.
+pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        (0..rays.rows()).for_each(|ray| rays.weigh(ray, join.pixel_area()));
+    }
+}
+
+/// The stage that joins light to the camera, and then forgets the cosine.
+pub fn join_without_cosine() -> Stage {
+    let system = || (aim_at_the_camera, forget_join_cosine).chain().into_configs();
+    Stage { system: Arc::new(system), ..camera_join_stage() }
+}
+
+/// The stage that joins light to the camera, and then forgets the pixel's area.
+pub fn join_without_area() -> Stage {
+    let system = || (aim_at_the_camera, forget_pixel_area).chain().into_configs();
+    Stage { system: Arc::new(system), ..camera_join_stage() }
+}
+
+/// The stage that sends light on at glass as if it were radiance, with 1/η².
+pub fn refract_as_radiance() -> Stage {
+    Stage { system: Arc::new(|| scatter_glass::<false>.into_configs()), ..pinhole::follow::glass_light_stage() }
+}

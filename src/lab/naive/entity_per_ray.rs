@@ -1,0 +1,232 @@
+//! The renderer that bevy_ecs seems to ask for: an entity for every ray, a component for every stage.
+//!
+//! It calls the kit's own functions of one row and reads the kit's own tables, so its image is the kit's to the last bit;
+//! what differs is where the numbers lie.
+//! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::SingleThreadedExecutor;
+use glam::{DVec2, DVec3, Vec3};
+use pinhole::extract::{
+    BackgroundTable, CameraAxes, ImageShape, MaterialTable, NO_ROW, PinholeLens, PlaneTable, ShapeKind, ShapeTable,
+    SphereTable,
+};
+use pinhole::film::Film;
+use pinhole::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
+use pinhole::plan::{Sample, Shared, Table};
+use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
+use pinhole::scene::Refusal;
+
+// ANCHOR: entity_per_ray
+/// Which pixel an entity is.
+#[derive(Component, Clone, Copy)]
+struct Pixel([u32; 2]);
+
+#[derive(Component, Clone, Copy, Default)]
+struct RasterPoint(DVec2);
+
+#[derive(Component, Clone, Copy, Default)]
+struct NdcPoint(DVec2);
+
+#[derive(Component, Clone, Copy, Default)]
+struct ScreenPoint(DVec2);
+
+#[derive(Component, Clone, Copy, Default)]
+struct CameraRay([DVec3; 2]);
+
+#[derive(Component, Clone, Copy, Default)]
+struct WorldRay([Vec3; 2]);
+
+#[derive(Component, Clone, Copy)]
+struct Hit {
+    t: f64,
+    shape: u32,
+}
+
+#[derive(Component, Clone, Copy, Default)]
+struct Surface(intersect::Surface);
+
+#[derive(Component, Clone, Copy, Default)]
+struct Radiance([f32; 3]);
+
+/// Sums and count, as the film has them.
+#[derive(Component, Clone, Copy, Default)]
+struct FilmSum([f64; 3], u32);
+// ANCHOR_END: entity_per_ray
+
+/// A world with an entity for each pixel, and the systems that carry each from its pixel to light.
+pub struct EntityPerRay {
+    world: World,
+    schedule: Schedule,
+    image: ImageShape,
+}
+
+impl EntityPerRay {
+    /// Reads the scene's tables and spawns the entities.
+    ///
+    /// Errors: what the kit refuses the scene for.
+    pub fn spawn(scene: &World) -> Result<Self, Refusal> {
+        pinhole::extract::validate(scene)?;
+        let kinds = ShapeTable::extract(scene)?.kind;
+        if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
+            let accepted = "one entity a ray knows evenly scaled spheres and planes only";
+            return Err(Refusal::new("the scene", "shapes", "another kind of shape", accepted));
+        }
+        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+            let accepted = "one entity a ray knows shapes that reflect light only";
+            return Err(Refusal::new("the scene", "shapes", "a shape without a material", accepted));
+        }
+        let mut world = World::new();
+        share::<PinholeLens>(&mut world, scene)?;
+        share::<CameraAxes>(&mut world, scene)?;
+        share::<SphereTable>(&mut world, scene)?;
+        share::<PlaneTable>(&mut world, scene)?;
+        share::<ShapeTable>(&mut world, scene)?;
+        share::<MaterialTable>(&mut world, scene)?;
+        share::<BackgroundTable>(&mut world, scene)?;
+        let image = share::<ImageShape>(&mut world, scene)?;
+        let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
+        let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
+        let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
+        let empty = (CameraRay::default(), WorldRay::default(), Surface::default(), Radiance::default());
+        world.spawn_batch(pixels.map(move |pixel| (pixel, points, rays, empty, FilmSum::default())));
+        let mut schedule = Schedule::new(Sample);
+        schedule.set_executor(SingleThreadedExecutor::new());
+        let to_world = (place, free_of_size, centre, aim, turn);
+        schedule.add_systems((to_world.chain(), (meet, describe, shade, add).chain()).chain());
+        Ok(Self { world, schedule, image })
+    }
+
+    /// Runs every system once over all entities.
+    pub fn run(&mut self) {
+        self.schedule.run(&mut self.world);
+    }
+
+    /// The light that arrived, as a film of the kit's.
+    pub fn film(&mut self) -> Film {
+        let mut film = Film::new(self.image.width, self.image.height, 32);
+        let across = self.image.width.div_ceil(32);
+        for (pixel, sum) in self.world.query::<(&Pixel, &FilmSum)>().iter(&self.world) {
+            let [x, y] = pixel.0;
+            let tile = &mut film.tiles[(y / 32 * across + x / 32) as usize];
+            if let Some(row) = tile.tile.row_of(x, y) {
+                [tile.r[row], tile.g[row], tile.b[row]] = sum.0;
+                tile.count[row] = sum.1;
+            }
+        }
+        film
+    }
+}
+
+/// Puts a table of the scene where systems find it.
+fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, Refusal> {
+    let table = T::extract(scene)?;
+    world.insert_resource(Shared::new(table.clone()));
+    Ok(table)
+}
+
+// ANCHOR: place
+fn place(mut rays: Query<(&Pixel, &mut RasterPoint)>) {
+    for (pixel, mut raster) in &mut rays {
+        raster.0 = raster_from_pixel(pixel.0[0], pixel.0[1]);
+    }
+}
+// ANCHOR_END: place
+
+fn free_of_size(image: Res<Shared<ImageShape>>, mut rays: Query<(&RasterPoint, &mut NdcPoint)>) {
+    for (raster, mut ndc) in &mut rays {
+        ndc.0 = ndc_from_raster(raster.0, image.size());
+    }
+}
+
+fn centre(image: Res<Shared<ImageShape>>, mut rays: Query<(&NdcPoint, &mut ScreenPoint)>) {
+    for (ndc, mut screen) in &mut rays {
+        screen.0 = screen_from_ndc(ndc.0, image.aspect());
+    }
+}
+
+fn aim(lens: Res<Shared<PinholeLens>>, mut rays: Query<(&ScreenPoint, &mut CameraRay)>) {
+    for (screen, mut camera) in &mut rays {
+        camera.0[1] = camera_ray_perspective(screen.0, lens.tan_half_vertical);
+    }
+}
+
+fn turn(axes: Res<Shared<CameraAxes>>, mut rays: Query<(&CameraRay, &mut WorldRay)>) {
+    for (camera, mut world) in &mut rays {
+        world.0[1] = (axes.world_from_camera * camera.0[1]).as_vec3();
+    }
+}
+
+fn meet(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut rays: Query<(&WorldRay, &mut Hit)>) {
+    for (ray, mut hit) in &mut rays {
+        let [origin, direction] = ray.0.map(|part| part.as_dvec3());
+        let inverse = 1.0 / direction.dot(direction);
+        *hit = Hit { t: f64::INFINITY, shape: NO_SHAPE };
+        for row in 0..spheres.x.len() {
+            let (centre, radius) = (spheres.centre(row), spheres.radius[row]);
+            if nearness(centre - origin, direction, inverse, radius) >= 0.0 {
+                hit.narrow(sphere_t(origin, direction, centre, radius), spheres.shape[row]);
+            }
+        }
+        for (row, &normal) in planes.normal.iter().enumerate() {
+            hit.narrow(plane_t(origin, direction, normal, planes.offset[row]), planes.shape[row]);
+        }
+    }
+}
+
+impl Hit {
+    fn narrow(&mut self, t: f64, shape: u32) {
+        if t < self.t || (t == self.t && shape < self.shape && t < f64::INFINITY) {
+            *self = Self { t, shape };
+        }
+    }
+}
+
+fn describe(
+    spheres: Res<Shared<SphereTable>>,
+    planes: Res<Shared<PlaneTable>>,
+    shapes: Res<Shared<ShapeTable>>,
+    mut rays: Query<(&WorldRay, &Hit, &mut Surface)>,
+) {
+    for (ray, hit, mut surface) in &mut rays {
+        if hit.shape == NO_SHAPE {
+            continue;
+        }
+        let shape = hit.shape as usize;
+        let (row, material) = (shapes.row[shape] as usize, shapes.material[shape]);
+        let [origin, direction] = ray.0.map(|part| part.as_dvec3());
+        let point = origin + hit.t * direction;
+        let (normal, size) = match shapes.kind[shape] {
+            ShapeKind::Sphere => {
+                let centre = spheres.centre(row);
+                let outward = (point - centre).try_normalize().unwrap_or(-direction);
+                (outward, sum_of_parts(centre) + spheres.radius[row])
+            }
+            // Nothing but planes is left, as `spawn` has made sure.
+            _ => (planes.normal[row], planes.offset[row].abs()),
+        };
+        surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), material);
+    }
+}
+
+fn shade(
+    materials: Res<Shared<MaterialTable>>,
+    background: Res<Shared<BackgroundTable>>,
+    mut rays: Query<(&Hit, &Surface, &mut Radiance)>,
+) {
+    for (hit, surface, mut radiance) in &mut rays {
+        radiance.0 = match hit.shape {
+            NO_SHAPE => background.radiance,
+            _ => materials.colour[surface.0.material as usize].map(|part| part as f32),
+        };
+    }
+}
+
+fn add(mut rays: Query<(&Radiance, &mut FilmSum)>) {
+    for (radiance, mut sum) in &mut rays {
+        for (sum, part) in sum.0.iter_mut().zip(radiance.0) {
+            *sum += f64::from(part);
+        }
+        sum.1 += 1;
+    }
+}

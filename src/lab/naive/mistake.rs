@@ -1,0 +1,232 @@
+//! Stages with one mistake each, to take the place of the kit's or to spoil what they wrote: for figures, and for tests
+//! that must notice.
+
+use super::emitter::{density_without_cosine, density_without_jacobian};
+use super::motion::time_of_frame;
+use super::path::uniform_direction;
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3, Vec3};
+use pinhole::extract::{
+    AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
+    ShutterTable, glass_evidence, material_evidence, metal_evidence, occlusion_evidence, weighed_evidence,
+};
+use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_density, frame_of};
+use pinhole::intersect::{Hits, MaterialRows, SurfaceSides, Surfaces, offset_origin};
+use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
+use pinhole::rays::{
+    Draws, Leg, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
+};
+use pinhole::sample::{Purpose, uniform};
+use pinhole::shade::emitter::{distance_to, parallelogram_area_density};
+use pinhole::shade::{LightRays, area_light_stage};
+use std::f64::consts::FRAC_1_PI;
+
+/// How a matte surface sends light on: a direction about +z by two numbers, and the share that it counts by albedo and
+/// cosine.
+#[derive(Clone, Copy)]
+pub struct MatteWay {
+    /// The direction.
+    pub direction: fn([f64; 2]) -> DVec3,
+    /// The share.
+    pub share: fn(f64, f64) -> f64,
+}
+
+/// Matte surfaces alone send light on, and by this way; in the place of all that scatter.
+pub fn scatter_matte_by(way: MatteWay) -> Stage {
+    type Known<'a> = (&'a Tile, &'a Leg, Option<&'a SampleNumber>, Option<&'a PixelSamples>, &'a Paths);
+    let scatter =
+        move |sampling: Res<Shared<SamplingTable>>,
+              materials: Res<Shared<MaterialTable>>,
+              mut points: Local<Vec<[f64; 2]>>,
+              mut tiles: Query<(Known<'static>, &Surfaces, &MaterialRows, &mut Scattered)>| {
+            for ((tile, &leg, number, samples, paths), surfaces, list, mut scattered) in &mut tiles {
+                let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+                draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
+                scattered.append(&list.row, |number, row| {
+                    let surface = surfaces.get(row);
+                    let local = (way.direction)(points[number]);
+                    let (share, colour) = (paths.share(row), materials.colour[surface.material as usize]);
+                    ScatteredRay {
+                        origin: offset_origin(surface.position, surface.normal, surface.bound),
+                        direction: frame_of(surface.normal.as_dvec3()) * local,
+                        share: [0, 1, 2].map(|part| share[part] * (way.share)(colour[part], local.z)),
+                        density: cosine_density(local.z),
+                    }
+                });
+            }
+        };
+    Stage::new("Scatter with a mistake", TileSystems::Scatter, scatter)
+        .kind(StageKind::Estimator)
+        .reads::<Paths>()
+        .reads_if::<PixelSamples>()
+        .reads::<Surfaces>()
+        .reads::<MaterialRows>()
+        .appends::<Scattered>()
+        .table::<SamplingTable>()
+        .table::<MaterialTable>()
+        .when(material_evidence)
+}
+
+/// A stage that spoils what was scattered, after all that scatter.
+fn spoils(stage: Stage) -> Stage {
+    stage.kind(StageKind::Alternative).reads::<Scattered>().writes::<Scattered>().reads::<Surfaces>()
+}
+
+fn spoil_ray(Scattered { r, g, b, .. }: &mut Scattered, ray: usize, factor: f64) {
+    [r, g, b].into_iter().for_each(|lane| lane[ray] *= factor);
+}
+
+fn direction(Scattered { dx, dy, dz, .. }: &Scattered, ray: usize) -> DVec3 {
+    DVec3::new(dx[ray].into(), dy[ray].into(), dz[ray].into())
+}
+
+/// The wrong density: rays off rough metal are drawn by its tiny mirrors, and divided by the density of the cosine.
+pub fn metal_counted_as_matte() -> Stage {
+    let spoil = |materials: Res<Shared<MaterialTable>>, mut tiles: Query<(&Surfaces, &mut Scattered)>| {
+        for (surfaces, mut scattered) in &mut tiles {
+            for ray in 0..scattered.rows() {
+                let surface = surfaces.get(scattered.path[ray] as usize);
+                let density = scattered.density[ray];
+                if materials.kind[surface.material as usize] == MaterialKind::Metal && density.is_finite() {
+                    let cosine = direction(&scattered, ray).dot(surface.normal.as_dvec3()).max(1e-6);
+                    spoil_ray(&mut scattered, ray, density / (cosine * FRAC_1_PI));
+                }
+            }
+        }
+    };
+    spoils(Stage::new("Forget how metal was drawn", TileSystems::Roulette, spoil))
+        .table::<MaterialTable>()
+        .when(metal_evidence)
+}
+
+/// A beam that enters glass narrows, and its radiance is divided by η² on the way back to the camera; here it is not
+/// multiplied again where it leaves.
+pub fn glass_that_keeps_beams_narrow() -> Stage {
+    let spoil = |glass: Res<Shared<GlassTable>>,
+                 mut of_row: Local<Vec<f64>>,
+                 mut tiles: Query<(&Surfaces, &SurfaceSides, &GlassRows, &mut Scattered)>| {
+        for (surfaces, sides, list, mut scattered) in &mut tiles {
+            of_row.clear();
+            of_row.resize(surfaces.rows(), 0.0);
+            list.row.iter().zip(&list.of).for_each(|(&row, &of)| of_row[row as usize] = glass.ior[of as usize]);
+            for ray in 0..scattered.rows() {
+                let row = scattered.path[ray] as usize;
+                let through = direction(&scattered, ray).dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
+                if through && of_row[row] > 0.0 && sides.outside[row] == 0 {
+                    spoil_ray(&mut scattered, ray, 1.0 / (of_row[row] * of_row[row]));
+                }
+            }
+        }
+    };
+    spoils(Stage::new("Forget the way out of glass", TileSystems::Roulette, spoil))
+        .reads::<SurfaceSides>()
+        .reads::<GlassRows>()
+        .table::<GlassTable>()
+        .when(glass_evidence)
+}
+
+/// The missing cosine: rays to the sky go in all directions alike, and each counts the same; in the place of all that aim.
+pub fn sky_in_all_directions_alike() -> Stage {
+    let aim = |sampling: Res<Shared<SamplingTable>>,
+               integrator: Res<Shared<IntegratorTable>>,
+               lists: Local<SkyLists>,
+               tiles: Query<SkyColumns>| {
+        aim_by(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
+    };
+    Stage::new("Aim in all directions alike", TileSystems::Aim, aim)
+        .kind(StageKind::Alternative)
+        .reads_if::<PixelSamples>()
+        .reads::<Hits>()
+        .reads::<Surfaces>()
+        .appends::<LightRays>()
+        .table::<SamplingTable>()
+        .table::<IntegratorTable>()
+        .when(occlusion_evidence)
+}
+
+/// Light that was aimed at counts in full, though chance finds it too; in the place of all that weigh.
+pub fn aimed_light_counted_in_full() -> Stage {
+    Stage::new("Count aimed light in full", TileSystems::Weigh, |_: Query<&mut LightRays>| ())
+        .kind(StageKind::Alternative)
+        .reads::<LightRays>()
+        .writes::<LightRays>()
+        .when(weighed_evidence)
+}
+
+/// How far a ray's end may lie from a light's plane, as a share of its length, and count as on it.
+const ON_LIGHT: f64 = 1e-5;
+
+/// The light's own cosine forgotten in the density of its area.
+pub fn light_without_cosine() -> Stage {
+    spoils_aimed("Forget the light's cosine", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, density_without_cosine));
+    })
+}
+
+/// The Jacobian forgotten: the density of an area taken for one of directions.
+pub fn light_without_jacobian() -> Stage {
+    spoils_aimed("Forget the Jacobian", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, |_, area| density_without_jacobian(area)));
+    })
+}
+
+/// After the rays to lights, before what is in their way.
+fn spoils_aimed(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
+    Stage::new(name, TileSystems::Aim, forget)
+        .kind(StageKind::Alternative)
+        .appends::<LightRays>()
+        .table::<AreaLightTable>()
+        .when(|scene| (area_light_stage().when)(scene))
+}
+
+/// Multiplies what each ray to a rectangle brings by the right density of a point of its area over another: on average
+/// that is what points of the area would bring, weighed by that other.
+fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, f64) -> f64) {
+    for ray in 0..rays.rows() {
+        let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+        let (direction, reach) = (rays.direction_of(ray), f64::from(rays.reach[ray]));
+        let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / reach - 1.0).abs() < ON_LIGHT;
+        let Some(Emitter::Rectangle(flat)) = lights.emitter.iter().find(ends_on) else { continue };
+        let to = direction * reach;
+        let factor = (parallelogram_area_density(flat, to) / naive(to, flat.area())) as f32;
+        for part in [&mut rays.r, &mut rays.g, &mut rays.b] {
+            part[ray] *= factor;
+        }
+    }
+}
+
+/// The stage that draws points on the lens, by another way of filling it.
+pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
+    let fill = move |lens: Res<Shared<LensTable>>, mut tiles: Query<(&RasterPoints, &mut LensPoints)>| {
+        for (raster, mut points) in &mut tiles {
+            let (x, y) = raster.slices();
+            let (lens_x, lens_y) = points.slices_mut(x.len());
+            for row in 0..x.len() {
+                // Where in its pixel a sample is decides; enough for a picture.
+                let key = [x[row].to_bits() as u32, y[row].to_bits() as u32];
+                let u = DVec2::new(uniform(1, key, 0, Purpose::Lens), uniform(2, key, 0, Purpose::Lens));
+                (lens_x[row], lens_y[row]) = (point(u) * lens.radius).into();
+            }
+        }
+    };
+    Stage::new("Draw points on the lens otherwise", TileSystems::Lens, fill)
+        .kind(StageKind::Alternative)
+        .reads::<RasterPoints>()
+        .writes::<LensPoints>()
+        .table::<LensTable>()
+}
+
+/// The stage that draws times, by so many moments in turn.
+pub fn moments_in_turn(frames: u32) -> Stage {
+    let fill = move |shutter: Res<Shared<ShutterTable>>, mut tiles: Query<(&PixelSamples, &mut RayTimes)>| {
+        for (samples, mut times) in &mut tiles {
+            times.time.clear();
+            times.time.extend(samples.sample.iter().map(|&sample| time_of_frame(sample, frames, shutter.length)));
+        }
+    };
+    Stage::new("Take moments in turn", TileSystems::Lens, fill)
+        .kind(StageKind::Alternative)
+        .reads::<PixelSamples>()
+        .writes::<RayTimes>()
+        .table::<ShutterTable>()
+}

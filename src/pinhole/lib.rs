@@ -1,0 +1,53 @@
+//! A ray tracing book you can run.
+//!
+//! The scene is a `bevy_ecs` world of plain components; a plan decides from them which stages exist; the stages are
+//! systems that fill the columns of small tiles, one space after another, until light lands on the film.
+//! The modules stand in that order, and each names only those above it:
+//!
+//! 1. [`scene`]: what an author writes.
+//! 2. [`plan`]: which stages the scene needs, and why.
+//! 3. [`extract`]: entities → tables.
+//! 4. [`sample`]: random numbers.
+//! 5. [`rays`]: raster → NDC → screen → camera → world.
+//! 6. [`intersect`]: rays → nearest surface.
+//! 7. [`shade`]: surface → light.
+//! 8. [`follow`]: light goes on, leg after leg.
+//! 9. [`film`]: light → pixels → files.
+//! 10. [`render`]: the loop over tiles.
+//! 11. [`look`]: trace, view, statistics.
+
+pub mod scene;
+
+pub mod plan;
+
+pub mod extract;
+
+pub mod sample;
+
+pub mod rays;
+
+pub mod intersect;
+
+pub mod shade;
+
+pub mod follow;
+
+pub mod film;
+
+pub mod render;
+
+pub mod look;
+
+mod chapter;
+mod error;
+mod example;
+
+pub use chapter::{Asked, AskedSampling, Chapter, Size};
+pub use error::{Error, Result};
+pub use example::run;
+
+// The unit tests share files of the laboratory, which name this crate from outside.
+#[cfg(test)]
+extern crate self as pinhole;
+#[cfg(test)]
+mod measure;

@@ -1,0 +1,12 @@
+//! What the book, its figures, its numbers and its exercises must hold.
+
+mod book;
+mod book_numbers;
+mod conventions;
+mod costs;
+mod entity_per_ray;
+mod exercises;
+mod extremes;
+mod figures;
+mod report;
+mod reports;

@@ -1,0 +1,9 @@
+//! What the program must hold: its command lines, its files, its long renders.
+
+mod bad_input;
+mod command_line;
+mod compare;
+mod long_renders;
+mod report_command;
+mod scene_files;
+mod scenes;

@@ -1,0 +1,14 @@
+//! What the renderer must hold, stage by stage and as a whole.
+
+mod cameras;
+mod emitters;
+mod film;
+mod follow;
+mod invariance;
+mod lens;
+mod motion;
+mod order;
+mod plan;
+mod sampling;
+mod scenes;
+mod textures;
