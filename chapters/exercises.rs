@@ -95,7 +95,7 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("08_field_of_view", Attempt::VerticalFov(field_of_view::vertical_fov)),
     ("09_camera_to_world", Attempt::NormalWorldFromObject(camera_to_world::normal_world_from_object)),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(light_and_shadow::reflected_radiance)),
-    ("11_conventions", Attempt::OursFromTheirs(conventions::ours_from_theirs)),
+    ("11_conventions", Attempt::PinholeFromTheirs(conventions::pinhole_from_theirs)),
     ("12_how_it_is_built", Attempt::Kept(how_it_is_built::kept)),
     ("13_shapes", Attempt::NearestBoxT(shapes::nearest_box_t)),
     ("14_transforms", Attempt::FallingCosine(transforms::falling_cosine)),
@@ -105,13 +105,13 @@ pub const ALL: &[(&str, Attempt)] = &[
     ("18_error_and_time", Attempt::VarianceAndBiasSquared(error_and_time::variance_and_bias_squared)),
     ("19_mirrors", Attempt::Mirrored(mirrors::mirrored)),
     ("20_glass", Attempt::Refracted(glass::refracted)),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(soft_shadows::solid_angle_density)),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(soft_shadows::solid_angle_pdf)),
     ("22_ambient_occlusion", Attempt::CosineDirection(ambient_occlusion::cosine_direction)),
     ("23_depth_of_field", Attempt::LensDirection(depth_of_field::lens_direction)),
     ("24_motion_blur", Attempt::MovingSphereT(motion_blur::moving_sphere_t)),
     ("25_path_tracing", Attempt::AfterRoulette(path_tracing::after_roulette)),
     ("26_choosing_samples", Attempt::PowerHeuristic(choosing_samples::power_heuristic)),
-    ("27_caustics", Attempt::PixelShare(caustics::pixel_share)),
+    ("27_caustics", Attempt::PixelFraction(caustics::pixel_fraction)),
 ];
 
 /// The function that a chapter asks for.

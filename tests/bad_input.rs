@@ -22,7 +22,7 @@ use std::fmt::Display;
 use std::fs;
 
 /// What preparing a scene is refused with.
-fn refusal(scene: &World, what: &str) -> String {
+fn scene_error(scene: &World, what: &str) -> String {
     match prepare(scene, &offer()) {
         Err(error) => sentence(&error, what),
         Ok(_) => panic!("{what} is not refused"),
@@ -53,7 +53,7 @@ fn bad_scenes() {
     let groups = [
         (Eye::Perspective, CAMERAS),
         (Eye::Perspective, SHAPES),
-        (Eye::Perspective, MATTER),
+        (Eye::Perspective, MATERIAL),
         (Eye::Orthographic, ORTHOGRAPHIC),
     ];
     for (eye, cases) in groups {
@@ -61,7 +61,7 @@ fn bad_scenes() {
         for (what, words, spoil) in cases {
             let mut scene = good(eye);
             spoil(&mut scene);
-            let message = refusal(&scene, what);
+            let message = scene_error(&scene, what);
             for word in *words {
                 assert!(message.contains(word), "{what}: no {word} in: {message}");
             }
@@ -79,7 +79,7 @@ fn bad_textures() {
     for (what, words, spoil) in textures::TEXTURES {
         let mut scene = textures::good_textures();
         spoil(&mut scene);
-        let message = refusal(&scene, what);
+        let message = scene_error(&scene, what);
         for word in *words {
             assert!(message.contains(word), "{what}: no {word} in: {message}");
         }
@@ -90,7 +90,7 @@ fn bad_textures() {
             let mut scene = textures::good_textures();
             set(&mut scene, value);
             let what = format!("{field} of \"{name}\" {shown}");
-            let message = refusal(&scene, &what);
+            let message = scene_error(&scene, &what);
             for word in [&format!("\"{name}\": "), &format!("{field} is "), shown] {
                 assert!(message.contains(word), "{what}: no {word} in: {message}");
             }
@@ -111,7 +111,7 @@ fn bad_numbers() {
             let mut scene = good(eye);
             set(&mut scene, value);
             let what = format!("{field} of \"{name}\" {shown}");
-            let message = refusal(&scene, &what);
+            let message = scene_error(&scene, &what);
             for word in [&format!("\"{name}\": "), &format!("{field} is "), shown] {
                 assert!(message.contains(word), "{what}: no {word} in: {message}");
             }
@@ -179,7 +179,7 @@ fn bad_views_and_pixels() {
     };
     let scene = view("colour");
     assert!(matches!(prepare(&scene, &offer()), Err(Error::Plan(PlanError::NoSuchView { .. }))));
-    lines.push(refusal(&scene, "an unknown column"));
+    lines.push(scene_error(&scene, "an unknown column"));
     let shapes = ["ball", "floor", "sail", "glossy", "satin", "glow"];
     let lights = ["lamp", "sun", "spot", "glow"];
     for (word, gone) in [("surface", shapes.as_slice()), ("shadow", &lights), ("light", &lights)] {
@@ -187,7 +187,7 @@ fn bad_views_and_pixels() {
         for name in gone {
             put(&mut scene, name, Disabled);
         }
-        let message = refusal(&scene, word);
+        let message = scene_error(&scene, word);
         // A message names the first three of a kind.
         assert!(message.contains(gone[0]), "{word}: {} is disabled, but: {message}", gone[0]);
         lines.push(message);
@@ -335,8 +335,8 @@ fn a_bad_place_is_refused_before_the_render() {
 #[test]
 fn shapes_that_no_stage_on_offer_meets() {
     let mut scene = good(Eye::Perspective);
-    let (matte, flat) = (Matte::default, Placement { scale: DVec3::new(1.0, 0.5, 1.0), ..Placement::default() });
-    scene.spawn((Name::new("egg"), Sphere::default(), matte(), flat));
+    let (matte, planar) = (Matte::default, Placement { scale: DVec3::new(1.0, 0.5, 1.0), ..Placement::default() });
+    scene.spawn((Name::new("egg"), Sphere::default(), matte(), planar));
     scene.spawn((Name::new("lid"), Disk::default(), matte()));
     scene.spawn((Name::new("board"), Rectangle::default(), matte()));
     scene.spawn((Name::new("crate"), Cuboid::default(), matte()));

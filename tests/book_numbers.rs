@@ -10,12 +10,12 @@ use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::{LightRays, ShadowHits};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::naive::euler::{pitch_yaw_roll, yaw_pitch_roll};
 use std::path::Path;
 
-#[path = "book_numbers/matter.rs"]
-mod matter;
+#[path = "book_numbers/material.rs"]
+mod material;
 #[path = "book_numbers/reflection.rs"]
 mod reflection;
 #[path = "book_numbers/spaces.rs"]
@@ -97,7 +97,7 @@ fn lengths_that_f32_cannot_square_are_as_page_02_says() {
 #[test]
 fn directions_are_as_long_as_page_02_says() {
     let chapter = chapter("02_ray");
-    let inspection = inspect(&chapter.world(&Asked::default()), &chapter.stages(), 32).expect("inspects");
+    let inspection = inspect(&chapter.world(&Overrides::default()), &chapter.stages(), 32).expect("inspects");
     let (mut worst, mut rays) = (0.0_f64, 0);
     for &tile in &inspection.tiles {
         let world_rays = inspection.world.get::<WorldRays>(tile).expect("a column");
@@ -114,8 +114,8 @@ fn directions_are_as_long_as_page_02_says() {
 }
 
 /// The one sentence that a chapter's scene is refused with after its camera was changed.
-fn refusal(name: &str, change: impl Fn(&mut EntityWorldMut<'_>)) -> String {
-    let mut world = chapter(name).world(&Asked::default());
+fn scene_error(name: &str, change: impl Fn(&mut EntityWorldMut<'_>)) -> String {
+    let mut world = chapter(name).world(&Overrides::default());
     let camera = pinhole::extract::camera_entity(&world).expect("a camera");
     change(&mut world.entity_mut(camera));
     validate(&world).expect_err("refused").to_string()
@@ -124,30 +124,30 @@ fn refusal(name: &str, change: impl Fn(&mut EntityWorldMut<'_>)) -> String {
 #[test]
 fn refusals_are_worded_as_the_pages_say() {
     let resolution = Resolution { width: 0, height: 270 };
-    let narrow = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
+    let keep_closest = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
     let eye = DVec3::new(0.0, 2.6, 6.0);
     let look = |target| LookAt { eye, target, ..LookAt::default() };
     let (stand, along) = (DVec3::new(3.0, 2.6, 4.5), DVec3::new(-30.0, -19.0, -45.0));
     for (page, sentence) in [
-        ("01_image.md", refusal("01_image", |camera| _ = camera.insert(resolution))),
-        ("02_ray.md", refusal("02_ray", |camera| _ = camera.insert(narrow(0.06)))),
+        ("01_image.md", scene_error("01_image", |camera| _ = camera.insert(resolution))),
+        ("02_ray.md", scene_error("02_ray", |camera| _ = camera.insert(keep_closest(0.06)))),
         (
             "04_orthographic.md",
-            refusal("04_orthographic", |camera| _ = camera.insert(OrthographicCamera { view_height: 0.0 })),
+            scene_error("04_orthographic", |camera| _ = camera.insert(OrthographicCamera { view_height: 0.0 })),
         ),
-        ("04_orthographic.md", refusal("04_orthographic", |camera| _ = camera.insert(look(eye)))),
+        ("04_orthographic.md", scene_error("04_orthographic", |camera| _ = camera.insert(look(eye)))),
         (
             "04_orthographic.md",
-            refusal("04_orthographic", |camera| _ = camera.insert(look(DVec3::new(0.0, -1.0, 6.0)))),
+            scene_error("04_orthographic", |camera| _ = camera.insert(look(DVec3::new(0.0, -1.0, 6.0)))),
         ),
-        ("05_pinhole.md", refusal("05_pinhole", |camera| _ = camera.insert(narrow(0.01)))),
+        ("05_pinhole.md", scene_error("05_pinhole", |camera| _ = camera.insert(keep_closest(0.01)))),
         (
             "09_camera_to_world.md",
-            refusal("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").target = stand),
+            scene_error("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").target = stand),
         ),
         (
             "09_camera_to_world.md",
-            refusal("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").up = along),
+            scene_error("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").up = along),
         ),
     ] {
         page_says(page, &sentence);
@@ -181,7 +181,7 @@ fn numbers_of_f32_are_as_far_apart_as_page_10_says() {
 /// Whether the warm lamp of chapter 10, standing here and alone, lights the slope, and whether it lights any ball.
 fn lit_from(place: [f64; 3]) -> [bool; 2] {
     let chapter = chapter("10_light_and_shadow");
-    let mut world = chapter.world(&Asked::default());
+    let mut world = chapter.world(&Overrides::default());
     let mut lamps = world.query_filtered::<Entity, With<PointLight>>();
     let [warm, cool] = lamps.iter(&world).collect::<Vec<_>>()[..] else { panic!("two lamps") };
     world.despawn(cool);
@@ -216,7 +216,7 @@ fn lamps_in_odd_places_are_as_page_10_says() {
 #[test]
 fn lamps_without_shadows_drop_what_page_10_says() {
     let chapter = chapter("10_light_and_shadow");
-    let mut world = chapter.world(&Asked::default());
+    let mut world = chapter.world(&Overrides::default());
     let kept = |world: &World| {
         let plan = plan(world, &chapter.stages()).expect("a plan");
         plan.stages.iter().map(|stage| stage.name).collect::<Vec<_>>()
@@ -231,6 +231,6 @@ fn lamps_without_shadows_drop_what_page_10_says() {
         let now = kept(&world);
         changed.push(all.iter().copied().filter(|name| !now.contains(name)).collect::<Vec<_>>());
     }
-    let three = vec!["Start with light seen", "Look for spheres in the way", "Look for planes in the way"];
+    let three = vec!["Clear shadow hits", "Trace shadow rays: spheres", "Trace shadow rays: planes"];
     assert_eq!(changed, [vec![], three]);
 }

@@ -5,7 +5,7 @@ use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
-use pinhole::extract::{ImageCircle, ImageShape, half_extent};
+use pinhole::extract::{ImageCircle, ImageFrame, half_extent};
 use pinhole::plan::{Column, Table};
 use pinhole::rays::{
     CameraRays, RasterPoints, camera_ray_equirectangular, camera_ray_fisheye, ndc_from_raster,
@@ -32,12 +32,12 @@ fn direction(number: u32) -> DVec3 {
     DVec3::new(across * cosine, across * sine, z)
 }
 
-fn raster_of(screen: DVec2, image: ImageShape) -> DVec2 {
+fn raster_of(screen: DVec2, image: ImageFrame) -> DVec2 {
     let ndc = DVec2::new(0.5 + 0.5 * screen.x / image.aspect(), 0.5 - 0.5 * screen.y);
     ndc * image.size()
 }
 
-fn screen_of(raster: DVec2, image: ImageShape) -> DVec2 {
+fn screen_of(raster: DVec2, image: ImageFrame) -> DVec2 {
     screen_from_ndc(ndc_from_raster(raster, image.size()), image.aspect())
 }
 
@@ -46,7 +46,7 @@ fn screen_of(raster: DVec2, image: ImageShape) -> DVec2 {
 fn directions_lead_to_their_places_and_back() {
     let (mut worst, mut worst_raster, mut tried) = (0.0_f64, 0.0_f64, 0);
     for (width, height) in [(512, 512), (1024, 512), (100, 1000), (65_536, 3)] {
-        let image = ImageShape { width, height };
+        let image = ImageFrame { width, height };
         for axis in AXES {
             for fov in [1.0_f64, 90.0, 180.0, 270.0, 360.0] {
                 let circle =
@@ -97,7 +97,7 @@ fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
 /// Triangles between the rays of a grid's corners: all directions are 4π, a fisheye's are 2π (1 − cos α/2).
 #[test]
 fn images_cover_what_they_say() {
-    let image = ImageShape { width: 256, height: 128 };
+    let image = ImageFrame { width: 256, height: 128 };
     let ray = |x: u32, y: u32| {
         camera_ray_equirectangular(screen_of(DVec2::new(f64::from(x), f64::from(y)), image), image.aspect())
     };
@@ -135,7 +135,8 @@ fn renders_aim_as_the_functions_say() {
     for scene in [fisheye(Setup::default()), all_round(Setup::default())] {
         let inspection = inspect(&scene, &offer(), 32).expect("inspects");
         let circle = ImageCircle::extract(&scene).expect("a circle");
-        let round = inspection.plan.rows.iter().any(|row| row.kept && row.stage == "Aim rays all round");
+        let round =
+            inspection.plan.rows.iter().any(|row| row.kept && row.stage == "Generate camera rays: equirectangular");
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);
             let (raster, rays) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<CameraRays>().expect("rays"));
@@ -169,7 +170,7 @@ fn outside_the_circle_all_is_black() {
             }
             world.spawn((Name::new("sky"), Background { colour: Rgb::grey(1.0) }));
             let circle = ImageCircle::extract(&world).expect("a circle");
-            let image = ImageShape::extract(&world).expect("an image");
+            let image = ImageFrame::extract(&world).expect("an image");
             let film = render(&world, &offer(), &one_world(), &()).expect("renders").film;
             assert_eq!(film.rejected().0, 0);
             for (x, y) in (0..24).flat_map(|y| (0..40).map(move |x| (x, y))) {

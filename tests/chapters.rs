@@ -8,8 +8,8 @@
 mod files;
 #[path = "chapters/message.rs"]
 mod message;
-#[path = "chapters/planted.rs"]
-mod planted;
+#[path = "chapters/mutation.rs"]
+mod mutation;
 #[path = "chapters/png_pixels.rs"]
 mod png_pixels;
 #[path = "chapters/snapshots.rs"]

@@ -8,7 +8,7 @@ mod said;
 use pinhole::film::{Curve, png_bytes};
 use pinhole::render::{Execution, render};
 use pinhole::scene::Resolution;
-use pinhole::{Asked, AskedSampling, Chapter};
+use pinhole::{Chapter, Overrides, SamplingOverrides};
 use std::fs;
 use std::io::Read;
 use std::path::Path;
@@ -122,7 +122,7 @@ fn statistics_are_json_and_nothing_else() {
     let stats: serde_json::Value = serde_json::from_slice(&told.stdout).expect("JSON");
     assert_eq!(stats["width"], 96);
     let stages = stats["stages"].as_array().expect("stages");
-    let camera_rays = stages.iter().find(|stage| stage["stage"] == "Turn rays into the world").expect("a stage");
+    let camera_rays = stages.iter().find(|stage| stage["stage"] == "Transform rays to world space").expect("a stage");
     assert_eq!(camera_rays["rows"], 96 * 54);
     assert!(stages.iter().all(|stage| stage["milliseconds"].as_f64().is_some_and(|time| time >= 0.0)));
     assert!(told.stderr.is_empty(), "{}", text(&told.stderr));
@@ -198,10 +198,10 @@ fn blocks(png: &[u8]) -> Vec<[f64; 3]> {
 #[test]
 fn the_readme_opens_with_the_cover_that_the_kit_renders_now() {
     let cover = chapter("cover");
-    let asked = Asked {
+    let asked = Overrides {
         resolution: Some(Resolution { width: 240, height: 135 }),
-        sampling: AskedSampling { samples: Some(16), ..AskedSampling::default() },
-        ..Asked::default()
+        sampling: SamplingOverrides { samples: Some(16), ..SamplingOverrides::default() },
+        ..Overrides::default()
     };
     let now = render(&cover.world(&asked), &cover.stages(), &Execution::default(), &()).expect("renders");
     let now = blocks(&png_bytes(&now.film, Curve::Srgb).expect("encodes"));

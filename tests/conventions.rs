@@ -5,8 +5,8 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
-use pinhole::Asked;
-use pinhole::extract::{PinholeLens, angle_of_tan_half, half_extent};
+use pinhole::Overrides;
+use pinhole::extract::{PerspectiveProjection, angle_of_tan_half, half_extent};
 use pinhole::look::convention::*;
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
@@ -15,7 +15,7 @@ use pinhole::scene::*;
 
 fn scene(name: &str, width: u32, height: u32) -> World {
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
-    chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() })
+    chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() })
 }
 
 /// The kit's own ray through a pixel's centre, in f64.
@@ -215,7 +215,7 @@ fn what_an_angle_is_across_is_what_extraction_takes_it_for() {
         for [width, height] in [[480, 270], [270, 480], [7, 7], [65_536, 1], [1, 65_536]] {
             let mut world = World::new();
             world.spawn((PerspectiveCamera { fov: Degrees(70.0), axis }, Resolution { width, height }));
-            let Ok(lens) = PinholeLens::extract(&world) else { continue };
+            let Ok(lens) = PerspectiveProjection::extract(&world) else { continue };
             let tan = lens.tan_half_vertical * half_extent(axis, f64::from(width) / f64::from(height));
             let back = angle_of_tan_half(tan).0;
             assert!((back - 70.0).abs() < 1e-12, "{axis:?} {width}x{height}: {back}");
@@ -310,11 +310,11 @@ fn cameras_come_back_within_the_rounding_of_their_words() {
     for step in 0..2_000 {
         let degrees = 1e-4 + (179.99 - 1e-4) * f64::from(step) / 1_999.0;
         for [width, height] in [[480, 270], [270, 480], [1, 1], [65_536, 1], [1, 65_536]] {
-            let image = pinhole::extract::ImageShape { width, height };
+            let image = pinhole::extract::ImageFrame { width, height };
             let tan_half_vertical = pinhole::extract::tan_half(Degrees(degrees));
             let ours = PlacedCamera { tan_half_vertical, image, ..right };
             for program in Program::ALL {
-                let back = ours_from_theirs(program, &theirs_from_ours(program, &ours), image);
+                let back = pinhole_from_theirs(program, &theirs_from_pinhole(program, &ours), image);
                 assert_eq!(back.world_from_camera, ours.world_from_camera, "{program}");
                 assert_eq!(back.look.eye, ours.look.eye, "{program}");
                 let (axis, angle) = match program.opening() {

@@ -2,10 +2,10 @@
 
 #[path = "emitters/closed_forms.rs"]
 mod closed_forms;
-#[path = "emitters/densities.rs"]
-mod densities;
 #[path = "emitters/environment.rs"]
 mod environment;
+#[path = "emitters/pdfs.rs"]
+mod pdfs;
 #[path = "emitters/pictures.rs"]
 mod pictures;
 #[path = "emitters/shadow_rays.rs"]
@@ -15,7 +15,7 @@ mod sides;
 
 use glam::DVec3;
 use pinhole::extract::{Emitter, EmittingCuboid, Parallelogram};
-use pinhole::shade::emitter::{LightPoint, density_towards, point_on};
+use pinhole::shade::emitter::{LightPoint, pdf_towards, point_on};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
@@ -29,14 +29,14 @@ struct Received {
 
 impl Received {
     fn of(emitter: &Emitter, from: DVec3, normal: DVec3, tried: u32, seed: u64) -> Self {
-        let again = |to: DVec3| density_towards(emitter, from, from + to);
+        let again = |to: DVec3| pdf_towards(emitter, from, from + to);
         Self::by(&|u| point_on(emitter, from, u), &again, normal, tried, seed)
     }
 
     /// The same by points chosen so, and the density of the way to one.
     fn by(
         choose: &dyn Fn([f64; 2]) -> LightPoint,
-        density: &dyn Fn(DVec3) -> f64,
+        pdf: &dyn Fn(DVec3) -> f64,
         normal: DVec3,
         tried: u32,
         seed: u64,
@@ -50,13 +50,13 @@ impl Received {
             let u = [draws.unit(), draws.unit()].map(|u| (u * 16_777_216.0).floor() / 16_777_216.0);
             let point = choose(u);
             let cosine = normal.dot(point.to / point.to.length()).max(0.0);
-            assert!(point.density > 0.0 && cosine.is_finite(), "{number} at {u:?}: {point:?}");
-            let told = cosine / point.density;
+            assert!(point.pdf > 0.0 && cosine.is_finite(), "{number} at {u:?}: {point:?}");
+            let told = cosine / point.pdf;
             let more = told - *first.get_or_insert(told);
             sum += more;
             squares += more * more;
-            if point.density.is_finite() {
-                mismatch = mismatch.max((density(point.to) / point.density - 1.0).abs());
+            if point.pdf.is_finite() {
+                mismatch = mismatch.max((pdf(point.to) / point.pdf - 1.0).abs());
             }
         }
         let more = sum / f64::from(tried);
@@ -111,8 +111,8 @@ fn polygon_irradiance(corners: &[DVec3], from: DVec3, normal: DVec3) -> f64 {
 /// The corners of a rectangle or triangle.
 fn corners_of(emitter: &Emitter) -> Vec<DVec3> {
     match emitter {
-        Emitter::Rectangle(flat) => {
-            let (centre, [x, y]) = (flat.centre, flat.half_edges);
+        Emitter::Rectangle(planar) => {
+            let (centre, [x, y]) = (planar.centre, planar.half_edges);
             vec![centre - x - y, centre + x - y, centre + x + y, centre - x + y]
         }
         Emitter::Triangle { corners, .. } => corners.to_vec(),

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{PointLight, Resolution};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::measure::cost::made_from_these;
 use pinhole_lab::naive::entity_per_ray::EntityPerRay;
 use std::path::Path;
@@ -16,7 +16,8 @@ fn unlit(name: &str, width: u32, height: u32) -> (Chapter, World) {
     let mut all = chapters::all().into_iter().chain([sunflower::sunflower()]);
     let mut chapter = all.find(|chapter| chapter.name == name).expect("a chapter");
     chapter.view = None;
-    let mut world = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
+    let mut world =
+        chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() });
     let lamps: Vec<Entity> = world.query_filtered::<Entity, With<PointLight>>().iter(&world).collect();
     lamps.into_iter().for_each(|lamp| _ = world.despawn(lamp));
     (chapter, world)

@@ -94,7 +94,7 @@ fn chapters_stubs_and_solutions_agree() {
         let report = check(*solution, PATIENCE);
         assert_eq!(report.function, attempt.function());
         assert!(report.hints.len() >= 3, "{name}: only {} hints", report.hints.len());
-        let (file, word) = report.kit_has;
+        let (file, word) = report.pinhole_has;
         let source = fs::read_to_string(root().join(file)).unwrap_or_else(|_| panic!("{name}: there is no {file}"));
         assert!(source.contains(word), "{name}: no {word} in {file}");
     }
@@ -175,9 +175,9 @@ fn a_damaged_file_of_progress_is_set_aside() {
         assert!(Progress::read(&file).0.of("05_pinhole").done);
         damaged += 1;
     }
-    let in_the_way = folder.path().join("folder");
-    fs::create_dir(&in_the_way).expect("made");
-    let (said, ended) = turn(RIGHT, &in_the_way);
+    let occluders = folder.path().join("folder");
+    fs::create_dir(&occluders).expect("made");
+    let (said, ended) = turn(RIGHT, &occluders);
     assert!(ended.is_none() && said.contains("will not be remembered"), "{said}");
     eprintln!("progress: {damaged} damaged files set aside");
 }

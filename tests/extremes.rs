@@ -5,7 +5,7 @@ use glam::Vec3;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Evidence, Stage, TileSystems};
 use pinhole::shade::Radiance;
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::measure::extremes::{Group, Outcome, try_group, unbroken};
 use pinhole_lab::measure::oracle_plane::{Plane, enclosed_plane_t, plane_hit};
 use pinhole_lab::measure::oracle_sphere::{Roots, Sphere, enclosed_line_ts, enclosed_sphere_t, line_roots, sphere_hit};
@@ -126,7 +126,7 @@ fn results_do_not_depend_on_threads() {
 fn a_kit_that_misses_would_be_seen() {
     let mut cases = try_group(Group::Plane, "", 512, &());
     let first: &mut Outcome = &mut cases[0].outcomes[0];
-    first.score.judge(false);
+    first.score.check(false);
     assert!(!cases[0].held() && cases[1].held());
 }
 
@@ -199,7 +199,7 @@ fn chapter(name: &str) -> Chapter {
 fn sweeps_of_chapters_hold() {
     for name in ["10_light_and_shadow", "02_ray", "03_hit", "04_orthographic", "05_pinhole"] {
         let chapter = chapter(name);
-        let lines = sweep(&|| chapter.world(&Asked::default()), &chapter.stages(), &()).expect("sweeps");
+        let lines = sweep(&|| chapter.world(&Overrides::default()), &chapter.stages(), &()).expect("sweeps");
         for line in &lines {
             assert!(line.held, "{name}: {line}");
             assert!(line.to_string().chars().count() <= 132, "{line}");
@@ -223,7 +223,7 @@ fn a_stage_with_a_length_of_its_own_does_not_survive_a_sweep() {
     let mut stages = chapter.stages();
     let fog = Stage::new("Add fog", TileSystems::Shade, add_fog).reads::<Hits>().reads::<Radiance>();
     stages.push(fog.writes::<Radiance>().when(|_| Evidence::always("the test asks for it")));
-    let lines = sweep(&|| chapter.world(&Asked::default()), &stages, &()).expect("sweeps");
+    let lines = sweep(&|| chapter.world(&Overrides::default()), &stages, &()).expect("sweeps");
     let broken: Vec<String> = lines.iter().filter(|line| !line.held).map(ToString::to_string).collect();
     eprintln!("with fog: {}", broken.join("\n"));
     assert!(broken.iter().any(|line| line.starts_with("scaled")), "{broken:?}");

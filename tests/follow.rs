@@ -15,11 +15,11 @@ mod preflight;
 use crate::scenes;
 
 use bevy_ecs::prelude::*;
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole::extract::integrator_of;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, render};
-use pinhole::scene::{Background, Gradient, Integrator, LightSampling, Resolution, Sampler, Sampling};
+use pinhole::scene::{Background, Gradient, Integrator, LightStrategy, Resolution, Sampler, Sampling};
 use pinhole_lab::measure::closed_form::closed_forms;
 use pinhole_lab::measure::image_error::Numbers;
 use pinhole_lab::report::agreement::{Agreement, agreement};
@@ -63,9 +63,9 @@ fn renders_by(
 }
 
 /// Renders of a scene by paths that find light so.
-fn renders(make: &dyn Fn() -> World, lights: LightSampling, samples: u32, seeds: std::ops::Range<u64>) -> Vec<Numbers> {
+fn renders(make: &dyn Fn() -> World, lights: LightStrategy, samples: u32, seeds: std::ops::Range<u64>) -> Vec<Numbers> {
     let integrator = match integrator_of(&make()).integrator {
-        Integrator::Path { legs, roulette, .. } => Integrator::Path { legs, lights, roulette },
+        Integrator::Path { max_depth, roulette, .. } => Integrator::Path { max_depth, lights, roulette },
         other => panic!("{other:?} finds lights in one way only"),
     };
     renders_by(make, integrator, samples, seeds)
@@ -83,14 +83,14 @@ fn assert_agree(what: &str, one: &[Numbers], other: &[Numbers], side: u32) {
 }
 
 /// All ways to find light, and those that do not wait for chance to meet a small lamp.
-const ALL: &[LightSampling] = &[LightSampling::ByChance, LightSampling::Aimed, LightSampling::Weighed];
-const NOT_BY_CHANCE: &[LightSampling] = &[LightSampling::Aimed, LightSampling::Weighed];
+const ALL: &[LightStrategy] = &[LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis];
+const NOT_BY_BSDF: &[LightStrategy] = &[LightStrategy::Light, LightStrategy::Mis];
 
 /// Whether these ways to find light bring the same to every block of pixels of a scene, pair by pair.
-fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightSampling], samples: u32, side: u32) {
+fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightStrategy], samples: u32, side: u32) {
     const SETS: u64 = 12;
-    let rendered = |(number, &lights): (usize, &LightSampling)| {
-        let more = if lights == LightSampling::ByChance { 4 } else { 1 };
+    let rendered = |(number, &lights): (usize, &LightStrategy)| {
+        let more = if lights == LightStrategy::Bsdf { 4 } else { 1 };
         let first = SETS * number as u64;
         (lights, renders(make, lights, more * samples, first..first + SETS))
     };
@@ -113,7 +113,7 @@ fn ways_to_find_light_agree_on_the_public_scenes() {
         ("spheres-sky", 4),
     ] {
         let make = || {
-            let mut world = public(name, LightSampling::Weighed);
+            let mut world = public(name, LightStrategy::Mis);
             let camera = named(&mut world, "camera");
             let Resolution { width, height } = *world.get::<Resolution>(camera).expect("a size");
             world.entity_mut(camera).insert(Resolution { width: width / 8, height: height / 8 });
@@ -129,16 +129,16 @@ fn ways_to_find_light_agree_on_the_chapters_scenes() {
         ways_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
     }
     // The others by paths too, whatever integrator they name; caustics come from the lamps where the scene has them so.
-    const PATH: Integrator = Integrator::Path { legs: 6, lights: LightSampling::Weighed, roulette: 3 };
+    const PATH: Integrator = Integrator::Path { max_depth: 6, lights: LightStrategy::Mis, roulette: 3 };
     for (name, ways) in [
-        ("cover", NOT_BY_CHANCE),
+        ("cover", NOT_BY_BSDF),
         ("19_mirrors", ALL),
         ("20_glass", ALL),
-        ("21_soft_shadows", NOT_BY_CHANCE),
+        ("21_soft_shadows", NOT_BY_BSDF),
         ("22_ambient_occlusion", ALL),
         ("23_depth_of_field", ALL),
         ("24_motion_blur", ALL),
-        ("27_caustics", NOT_BY_CHANCE),
+        ("27_caustics", NOT_BY_BSDF),
     ] {
         let make = || {
             let mut world = chapter_at(name, 24, 16);
@@ -152,7 +152,7 @@ fn ways_to_find_light_agree_on_the_chapters_scenes() {
 
 fn chapter_at(name: &str, width: u32, height: u32) -> World {
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == name).expect("a chapter");
-    chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() })
+    chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() })
 }
 
 /// Direct light by the integrators that seek nothing else is what paths of two legs bring, where no sky lights things.
@@ -170,9 +170,9 @@ fn integrators_of_direct_light_agree_with_short_paths() {
         let own = integrator_of(&make()).integrator;
         assert!(matches!(own, Integrator::RayCasting | Integrator::Distribution { .. }), "{name}: {own:?}");
         let own = renders_by(&make, own, 12, 0..SETS);
-        for (number, &lights) in NOT_BY_CHANCE.iter().enumerate() {
+        for (number, &lights) in NOT_BY_BSDF.iter().enumerate() {
             let first = SETS * (number as u64 + 1);
-            let short = Integrator::Path { legs: 2, lights, roulette: 0 };
+            let short = Integrator::Path { max_depth: 2, lights, roulette: 0 };
             let short = renders_by(&make, short, 12, first..first + SETS);
             assert_agree(&format!("{name}, by itself and by short paths, {lights:?}"), &own, &short, 4);
         }

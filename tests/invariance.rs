@@ -16,7 +16,7 @@ use pinhole_lab::measure::film_bits::digest;
 use pinhole_lab::measure::sweep::{scale, shift};
 use scenes::caustics::{caustics, traced};
 use scenes::followed::{INTEGRATORS, followed};
-use scenes::matter::{brushed, polished};
+use scenes::material::{brushed, specular};
 use scenes::{
     EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, pieces, shining,
     stretched, textured, ties, turned,
@@ -39,7 +39,7 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
-        ("polished", polished(Setup::default())),
+        ("polished", specular(Setup::default())),
         ("brushed", brushed_once()),
         ("moving", moving(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
@@ -298,7 +298,7 @@ fn scale_by_powers_of_two() {
     let some = [-LARGEST, -11, -2, -1, 1, 5, LARGEST];
     let straight: [fn(Setup) -> World; 9] =
         [full, turned, stretched, pieces, textured, shining, sampled, blurred, moving];
-    let followed: [fn(Setup) -> World; 5] = [paths, whitted, sky, polished, brushed];
+    let followed: [fn(Setup) -> World; 5] = [paths, whitted, sky, specular, brushed];
     let scenes = straight.map(|scene| (scene, &every[..])).into_iter().chain(followed.map(|scene| (scene, &some[..])));
     let scenes: Vec<_> = scenes.collect();
     for eye in EYES {
@@ -360,7 +360,7 @@ fn moved_by_two_to_the_twentieth() {
             paths,
             whitted,
             sky,
-            polished,
+            specular,
             brushed,
         ] {
             let expected = film(&scene(setup));
@@ -411,8 +411,10 @@ fn digests() {
         for column in &inspection.plan.columns {
             let mut bits = Vec::new();
             for &tile in &inspection.tiles {
-                for lane in (column.lanes)(&inspection.world.entity(tile)) {
-                    bits.extend((0..(column.rows)(&inspection.world.entity(tile))).map(|row| lane.values.bits(row)));
+                for component in (column.components)(&inspection.world.entity(tile)) {
+                    bits.extend(
+                        (0..(column.rows)(&inspection.world.entity(tile))).map(|row| component.values.bits(row)),
+                    );
                 }
             }
             let rows = bits.len();

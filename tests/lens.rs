@@ -4,7 +4,7 @@ use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
-use pinhole::extract::{ImageShape, LensTable, PinholeLens, tan_half};
+use pinhole::extract::{ImageFrame, LensTable, PerspectiveProjection, tan_half};
 use pinhole::intersect::{Hits, NO_SHAPE};
 use pinhole::plan::{Column, Table, plan};
 use pinhole::rays::{CameraRays, LensPoints, RasterPoints, WorldRays, camera_ray_lens, disk_point, polygon_point};
@@ -218,8 +218,8 @@ fn world_rays_meet_in_focus_to_a_pixel_s_tolerance() {
         let perspective = PerspectiveCamera { fov: Degrees(fov), ..Default::default() };
         scene.entity_mut(camera).insert((lens, perspective, Sampling { samples: 1, ..Sampling::default() }));
         let axes = pinhole::extract::CameraAxes::extract(&scene).expect("axes").world_from_camera;
-        let pinhole = PinholeLens::extract(&scene).expect("a pinhole");
-        let image = ImageShape::extract(&scene).expect("an image");
+        let pinhole = PerspectiveProjection::extract(&scene).expect("a pinhole");
+        let image = ImageFrame::extract(&scene).expect("an image");
         let pixel = 2.0 * pinhole.tan_half_vertical / f64::from(image.height) * focus;
         let inspection = inspect(&scene, &offer(), 32).expect("inspects");
         for &tile in &inspection.tiles {
@@ -258,9 +258,11 @@ fn radius_0_is_the_pinhole() {
                 let closed = with_lens(plain, Lens { aperture, ..Lens::default() });
                 film(&closed).assert_is(&expected, "aperture 0");
                 let plan = plan(&closed, &offer()).expect("plans");
-                let row = plan.rows.iter().find(|row| row.stage == "Aim rays through the lens").expect("on offer");
+                let row =
+                    plan.rows.iter().find(|row| row.stage == "Generate camera rays: thin lens").expect("on offer");
                 assert!(!row.kept && row.reason == "aperture 0: the lens of \"camera\" is a pinhole", "{row:?}");
-                let pinhole = plan.rows.iter().find(|row| row.stage == "Aim rays from the eye").expect("on offer");
+                let pinhole =
+                    plan.rows.iter().find(|row| row.stage == "Generate camera rays: perspective").expect("on offer");
                 assert!(pinhole.kept, "{pinhole:?}");
                 tried += 1;
             }

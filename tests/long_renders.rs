@@ -16,7 +16,9 @@ mod stopped;
 use bevy_ecs::prelude::*;
 use pinhole::Error;
 use pinhole::film::{Film, read_checkpoint, write_checkpoint};
-use pinhole::render::{Execution, Limits, RenderUnderWay, Watch, Worlds, film_key, render, render_in_passes, steps_of};
+use pinhole::render::{
+    Execution, Limits, RenderInProgress, Watch, Worlds, film_key, render, render_in_passes, steps_of,
+};
 use pinhole::scene::*;
 use pinhole_lab::measure::film_bits::FilmBits;
 use scenes::{Setup, full, named};
@@ -64,34 +66,34 @@ fn passes_of_any_lengths_make_the_same_film() {
             for worlds in [Worlds::PerWorker, Worlds::One] {
                 let threads = Some(1 + number % 3);
                 let execution = Execution { threads, worlds, ..Execution::default() };
-                let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+                let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
                 for &step in cut.iter().chain([&steps_of(7)]) {
-                    under_way.advance(step, &()).expect("goes on");
+                    in_progress.advance(step, &()).expect("goes on");
                 }
-                assert!(everything_of(&under_way.film) == everything_of(&whole), "{sampler:?}, {cut:?}, {worlds:?}");
+                assert!(everything_of(&in_progress.film) == everything_of(&whole), "{sampler:?}, {cut:?}, {worlds:?}");
                 tried += 1;
             }
         }
         for tile_side in [8, 31, 64] {
             let execution = Execution { tile_side, ..Execution::default() };
-            let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+            let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
             for step in [1, 2, 3, 6, steps_of(7)] {
-                under_way.advance(step, &()).expect("goes on");
+                in_progress.advance(step, &()).expect("goes on");
             }
-            FilmBits::of(&under_way.film).assert_is(&FilmBits::of(&whole), &format!("tiles of {tile_side}"));
+            FilmBits::of(&in_progress.film).assert_is(&FilmBits::of(&whole), &format!("tiles of {tile_side}"));
             tried += 1;
         }
         let limits = Limits { write_every: Some(Duration::ZERO), ..Limits::default() };
-        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         let mut kept = 0;
         let mut keep = |_: &Film| {
             kept += 1;
             Ok(())
         };
-        let outcome = render_in_passes(&mut under_way, &limits, &(), &mut keep).expect("renders");
+        let outcome = render_in_passes(&mut in_progress, &limits, &(), &mut keep).expect("renders");
         assert_eq!((outcome.samples, outcome.stopped, outcome.out_of_time), (7, false, false));
         assert!(kept >= 3, "kept {kept} times");
-        assert!(everything_of(&under_way.film) == everything_of(&whole), "{sampler:?} in passes");
+        assert!(everything_of(&in_progress.film) == everything_of(&whole), "{sampler:?} in passes");
         tried += 1;
     }
     eprintln!("passes: {tried} ways to cut {} films of 7 samples, every bit the same", Sampler::ALL.len());
@@ -100,11 +102,11 @@ fn passes_of_any_lengths_make_the_same_film() {
 #[test]
 fn the_first_pass_shows_every_eighth_pixel_and_the_others_show_it_too() {
     let scene = sampled(SIZE, seven(Sampler::Sobol), ());
-    let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
     let mut seen = Vec::new();
     for (step, lattice) in [(1, 8), (2, 4), (3, 2), (4, 1)] {
-        under_way.advance(step, &()).expect("goes on");
-        let film = &under_way.film;
+        in_progress.advance(step, &()).expect("goes on");
+        let film = &in_progress.film;
         let traced: u32 = film.tiles.iter().flat_map(|tile| &tile.count).sum();
         assert_eq!(traced, SIZE[0].div_ceil(lattice) * SIZE[1].div_ceil(lattice));
         for y in 0..SIZE[1] {
@@ -137,15 +139,15 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
     let path = folder.path().join("picture.checkpoint");
     let sampling = seven(Sampler::Sobol);
     let scene = sampled(SIZE, sampling, Layers::all());
-    let key = film_key(&scene, &RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins").plan);
+    let key = film_key(&scene, &RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins").plan);
     let whole = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
     let mut stops = 0;
     for tiles in 1..20 {
         let execution = Execution { threads: Some(2), tile_side: 16, ..Execution::default() };
-        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
         let watch = StopAfter(AtomicU64::new(tiles));
         for step in [1, 4, 6, steps_of(7)] {
-            match under_way.advance(step, &watch) {
+            match in_progress.advance(step, &watch) {
                 Ok(()) => {}
                 Err(Error::Interrupted) => {
                     stops += 1;
@@ -154,10 +156,10 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
                 Err(error) => panic!("{error}"),
             }
         }
-        write_checkpoint(&under_way.film, key, &path).expect("written");
-        let kept = read_checkpoint(key, &under_way.film, false, &path).expect("read");
-        assert!(kept == under_way.film, "a checkpoint holds all of a film");
-        let mut next = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        write_checkpoint(&in_progress.film, key, &path).expect("written");
+        let kept = read_checkpoint(key, &in_progress.film, false, &path).expect("read");
+        assert!(kept == in_progress.film, "a checkpoint holds all of a film");
+        let mut next = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         next.take(kept);
         next.advance(steps_of(7), &()).expect("goes on");
         FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped after {tiles} tiles"));
@@ -166,8 +168,8 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
             let bits = |(x, y)| {
                 let (tile, row) = film.place(x, y);
                 let (layers, moments) = (&film.layers[tile], &film.moments[tile]);
-                let sums = layers.sums.iter().map(|lane| lane[row].to_bits());
-                let counts = layers.counts().map(|lane| u64::from(lane[row]));
+                let sums = layers.sums.iter().map(|component| component[row].to_bits());
+                let counts = layers.counts().map(|component| u64::from(component[row]));
                 sums.chain(counts).chain([moments.r[row].to_bits(), moments.b[row].to_bits()]).collect()
             };
             places.map(bits).collect()
@@ -182,7 +184,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
 fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("picture.checkpoint");
-    let plan_of = |scene: &World| RenderUnderWay::begin(scene, &offer(), &Execution::default()).expect("begins").plan;
+    let plan_of = |scene: &World| RenderInProgress::begin(scene, &offer(), &Execution::default()).expect("begins").plan;
     let key_of = |sampling: Sampling, more: Layers| {
         let scene = sampled(SIZE, sampling, more);
         film_key(&scene, &plan_of(&scene))
@@ -289,10 +291,10 @@ fn a_time_is_kept_to_within_a_pass() {
     let sampling = Sampling { samples: 1 << 20, ..seven(Sampler::Sobol) };
     let scene = sampled(SIZE, sampling, ());
     for time in [50, 200, 600].map(Duration::from_millis) {
-        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         let began = Instant::now();
         let limits = Limits { time: Some(time), ..Limits::default() };
-        let outcome = render_in_passes(&mut under_way, &limits, &(), &mut |_| Ok(())).expect("renders");
+        let outcome = render_in_passes(&mut in_progress, &limits, &(), &mut |_| Ok(())).expect("renders");
         let took = began.elapsed();
         assert!(outcome.out_of_time && outcome.samples >= 1);
         // A machine that others work on too may take a pass out of turn.

@@ -227,7 +227,7 @@ fn what_stands_still_is_left_alone() {
         film(&world).assert_is(&expected, &format!("{shutter:?} {motion:?}"));
     }
     let told = plan(&with((moment, Some(fast))), &offer()).expect("plans");
-    let row = told.rows.iter().find(|row| row.stage == "Draw times").expect("on offer");
+    let row = told.rows.iter().find(|row| row.stage == "Sample times").expect("on offer");
     assert!(!row.kept && row.reason.contains("the shutter is open for no time"), "{row:?}");
     // At another moment it is elsewhere, and still nothing is drawn at random.
     let later = with((Shutter { open: 0.1, close: 0.1 }, Some(fast)));
@@ -238,7 +238,7 @@ fn what_stands_still_is_left_alone() {
     film(&later).assert_is(&film(&there), "at the moment 0.1");
     assert!(film(&later) != expected);
     let moves = with((shutter, Some(fast)));
-    assert!(names(&moves).contains(&"Draw times") && names(&moves).contains(&"Look for what moves in the way"));
+    assert!(names(&moves).contains(&"Sample times") && names(&moves).contains(&"Trace shadow rays: moving shapes"));
     assert!(film(&moves) != expected);
 }
 

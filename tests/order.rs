@@ -38,7 +38,7 @@ const ROOT: [&str; 3] = ["Error", "Result", "repository"];
 const REEXPORTED: [(&str, &str); 7] = [
     ("Chapter", "chapter"),
     ("Asked", "chapter"),
-    ("AskedSampling", "chapter"),
+    ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("Attempt", "attempt"),
     ("StageWords", "attempt"),
@@ -210,13 +210,12 @@ fn each_library_lists_its_modules_in_that_order() {
             .lines()
             .filter_map(|line| line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')))
             .collect();
-        let places: Vec<usize> = listed
-            .iter()
-            .map(|name| place(package, name).unwrap_or_else(|| panic!("{name} has no place")))
-            .collect();
+        let places: Vec<usize> =
+            listed.iter().map(|name| place(package, name).unwrap_or_else(|| panic!("{name} has no place"))).collect();
         assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "lib.rs lists {listed:?}, the order is {order:?}");
         assert!(listed.len() >= 5, "only {listed:?}");
-        let told: Vec<&str> = lib.text.lines().filter_map(|line| line.split(". [`").nth(1)?.split("`]").next()).collect();
+        let told: Vec<&str> =
+            lib.text.lines().filter_map(|line| line.split(". [`").nth(1)?.split("`]").next()).collect();
         assert_eq!(told, listed, "the list that lib.rs tells in words");
         eprintln!("{package}: {listed:?}");
     }

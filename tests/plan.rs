@@ -19,10 +19,10 @@ use bevy_ecs::system::SystemAccess;
 use bevy_ecs::world::EntityRef;
 use glam::DVec3;
 use pinhole::Error;
-use pinhole::extract::ImageShape;
+use pinhole::extract::ImageFrame;
 use pinhole::film::FilmTile;
 use pinhole::plan::{
-    ColumnKind, Evidence, LaneValues, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan, view_names,
+    ColumnKind, ComponentValues, Evidence, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan, view_names,
 };
 use pinhole::rays::Tile;
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
@@ -144,7 +144,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
             assert_eq!((table.present)(&frame.world), of_plan.contains(table.name), "{on:?}: table {}", table.name);
         }
         // Only light that is followed can be given up.
-        let stops = plan.stages.iter().any(|stage| stage.set == TileSystems::Follow);
+        let stops = plan.stages.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
         let entities = bare + 1 + plan.tables.len() as u32 + u32::from(timed) + u32::from(stops);
         assert_eq!(frame.world.entities().count_spawned(), entities, "{on:?}: a tile and the tables, no more");
 
@@ -214,7 +214,7 @@ fn stages_declare_what_their_systems_touch() {
         let beside = stage.tables_with.iter().map(|(table, _)| table);
         reads.extend(stage.tables.iter().chain(asked).chain(beside).map(|table| format!("table {}", table.name)));
         reads.retain(|word| !writes.contains(word));
-        if stage.name == "Turn rays into the world" {
+        if stage.name == "Transform rays to world space" {
             // Its rays have origins only where another stage, an alternative, has brought its table.
             reads.extend(["table view rectangle".into(), "table lens".into()]);
         }
@@ -298,14 +298,14 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
     let kinds: [(&str, &[&str]); 9] = [
-        ("ball", &["Intersect spheres", "Describe sphere surfaces", "Look for spheres in the way"]),
-        ("egg", &["Intersect ellipsoids", "Describe ellipsoid surfaces", "Look for ellipsoids in the way"]),
-        ("ground", &["Intersect planes", "Describe plane surfaces", "Look for planes in the way"]),
-        ("coin", &["Intersect disks", "Describe disk surfaces", "Look for disks in the way"]),
-        ("mat", &["Intersect rectangles", "Describe rectangle surfaces", "Look for rectangles in the way"]),
-        ("brick", &["Intersect cuboids", "Describe cuboid surfaces", "Look for cuboids in the way"]),
-        ("sail", &["Intersect triangles", "Describe triangle surfaces", "Look for triangles in the way"]),
-        ("lamp", &["Aim at point lights", "Start with light seen", "Add the light that arrives"]),
+        ("ball", &["Intersect spheres", "Compute surfaces: spheres", "Trace shadow rays: spheres"]),
+        ("egg", &["Intersect ellipsoids", "Compute surfaces: ellipsoids", "Trace shadow rays: ellipsoids"]),
+        ("ground", &["Intersect planes", "Compute surfaces: planes", "Trace shadow rays: planes"]),
+        ("coin", &["Intersect disks", "Compute surfaces: disks", "Trace shadow rays: disks"]),
+        ("mat", &["Intersect rectangles", "Compute surfaces: rectangles", "Trace shadow rays: rectangles"]),
+        ("brick", &["Intersect cuboids", "Compute surfaces: cuboids", "Trace shadow rays: cuboids"]),
+        ("sail", &["Intersect triangles", "Compute surfaces: triangles", "Trace shadow rays: triangles"]),
+        ("lamp", &["Sample point lights", "Clear shadow hits", "Evaluate direct light"]),
         ("sky", &["Add the background"]),
     ];
     let on = [
@@ -331,11 +331,11 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         film(&scene);
     }
     let kinds: [(&str, &str); 5] = [
-        ("sun", "Aim at directional lights"),
-        ("spot", "Aim at spot lights"),
+        ("sun", "Sample directional lights"),
+        ("spot", "Sample spot lights"),
         ("glossy ball", "Add Phong highlights"),
         ("satin ball", "Add Blinn–Phong highlights"),
-        ("glow", "Add what surfaces emit, as far as not aimed at"),
+        ("glow", "Add emission, weighted by MIS"),
     ];
     for (name, stage) in kinds {
         let mut scene = toggled(&[&on[..], &scenes::MORE].concat());
@@ -353,18 +353,18 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let second = (Name::new("second camera"), OrthographicCamera::default(), Disabled);
     scene.spawn(second);
     let plan = plan_of(&scene);
-    let row_of_second = row(&plan, "Start rays on the rectangle");
+    let row_of_second = row(&plan, "Generate camera rays: orthographic");
     assert!(!row_of_second.kept && row_of_second.reason.contains("\"second camera\", disabled"), "{row_of_second:?}");
 
     let mut scene = toggled(&[Toggle::Sphere]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    let flat = row(&plan, "Show surfaces unlit");
-    assert!(flat.kept && flat.count == 1 && !flat.reason.contains("spare"), "{flat:?}");
+    let planar = row(&plan, "Show unlit surfaces");
+    assert!(planar.kept && planar.count == 1 && !planar.reason.contains("spare"), "{planar:?}");
     let mut scene = toggled(&[Toggle::Light, Toggle::Shadow]);
     scene.spawn((Name::new("spare"), Matte::default()));
     let plan = plan_of(&scene);
-    for stage in ["Start with no light on its way", "Aim at point lights", "Add the light that arrives"] {
+    for stage in ["Clear light rays", "Sample point lights", "Evaluate direct light"] {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\"") && row.reason.contains("unused"), "{row:?}");
     }
@@ -392,25 +392,25 @@ fn reasons_name_the_first_three() {
     let mattes = "\"ball 1\", \"egg 1\", \"pane 1\", …".to_string();
     let spheres = "\"ball 1\", \"egg 1\", \"ball 2\", …".to_string();
     let expected: [(&str, Vec<&String>); 19] = [
-        ("Start with nothing met", vec![&spheres, &panes, &sails]),
+        ("Clear hits", vec![&spheres, &panes, &sails]),
         ("Intersect triangles", vec![&sails]),
-        ("Describe triangle surfaces", vec![&sails]),
-        ("Look for triangles in the way", vec![&sails, &lamps]),
+        ("Compute surfaces: triangles", vec![&sails]),
+        ("Trace shadow rays: triangles", vec![&sails, &lamps]),
         ("Intersect ellipsoids", vec![&eggs]),
-        ("Describe ellipsoid surfaces", vec![&eggs]),
-        ("Look for ellipsoids in the way", vec![&eggs, &lamps]),
+        ("Compute surfaces: ellipsoids", vec![&eggs]),
+        ("Trace shadow rays: ellipsoids", vec![&eggs, &lamps]),
         ("Intersect spheres", vec![&balls]),
         ("Intersect planes", vec![&panes]),
         ("Classify hits", vec![&spheres, &panes, &sails]),
-        ("Describe sphere surfaces", vec![&balls]),
-        ("Describe plane surfaces", vec![&panes]),
-        ("Aim at point lights", vec![&lamps, &mattes]),
-        ("Start with light seen", vec![&lamps, &mattes]),
-        ("Look for spheres in the way", vec![&balls, &lamps]),
-        ("Look for planes in the way", vec![&panes, &lamps]),
-        ("Add the light that arrives", vec![&lamps, &mattes]),
-        ("Show surfaces unlit", vec![&lamps]),
-        ("Aim rays from the eye", vec![]),
+        ("Compute surfaces: spheres", vec![&balls]),
+        ("Compute surfaces: planes", vec![&panes]),
+        ("Sample point lights", vec![&lamps, &mattes]),
+        ("Clear shadow hits", vec![&lamps, &mattes]),
+        ("Trace shadow rays: spheres", vec![&balls, &lamps]),
+        ("Trace shadow rays: planes", vec![&panes, &lamps]),
+        ("Evaluate direct light", vec![&lamps, &mattes]),
+        ("Show unlit surfaces", vec![&lamps]),
+        ("Generate camera rays: perspective", vec![]),
     ];
     let plan = plan_of(&scene);
     for (stage, names) in &expected {
@@ -419,7 +419,7 @@ fn reasons_name_the_first_three() {
             assert!(row.reason.contains(names.as_str()), "\"{stage}\" must name {names}: {}", row.reason);
         }
     }
-    assert!(row(&plan, "Aim rays from the eye").reason.contains("\"camera\""));
+    assert!(row(&plan, "Generate camera rays: perspective").reason.contains("\"camera\""));
     assert!(row(&plan, "Add the background").reason.contains("\"sky\""));
     for row in plan.rows.iter().filter(|row| row.count > 0) {
         assert!(row.reason.contains('"'), "\"{}\" counts {} and names none: {}", row.stage, row.count, row.reason);
@@ -436,15 +436,15 @@ fn three(noun: &str) -> String {
 fn an_emissive_surface_is_seen_and_lights_nothing() {
     let mut scene = toggled(&[Toggle::Emissive, Toggle::Plane]);
     let aimed = plan_of(&scene);
-    assert_eq!(row(&aimed, "Add what surfaces emit").reason, "added as far as it is not aimed at");
-    assert!(row(&aimed, "Add what surfaces emit, as far as not aimed at").kept);
-    assert!(row(&aimed, "Aim at lights with area").kept && row(&aimed, "Add the light that arrives").kept);
+    assert_eq!(row(&aimed, "Add emission").reason, "added as far as it is not aimed at");
+    assert!(row(&aimed, "Add emission, weighted by MIS").kept);
+    assert!(row(&aimed, "Sample area lights").kept && row(&aimed, "Evaluate direct light").kept);
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert(Integrator::RayCasting);
     let plan = plan_of(&scene);
-    let emission = row(&plan, "Add what surfaces emit");
+    let emission = row(&plan, "Add emission");
     assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else");
-    assert!(emission.kept && !row(&plan, "Show surfaces unlit").kept && !row(&plan, "Add the light that arrives").kept);
+    assert!(emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();
     assert!(!columns.contains(&"surface") && !columns.contains(&"material rows"), "{columns:?}");

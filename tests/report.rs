@@ -10,7 +10,7 @@ use pinhole_lab::measure::image_error::Numbers;
 use pinhole_lab::report::curve::{Curve, Level};
 use pinhole_lab::report::ensemble::{Ensemble, Reference};
 use pinhole_lab::report::interval::LEVEL;
-use pinhole_lab::report::refusal::{Refused, disjoint};
+use pinhole_lab::report::refused::{Refused, disjoint};
 use synthetic::{Noise, PIECES, Renderer};
 
 /// Repetitions of each case here; `cargo bench --bench coverage` makes 4,000.

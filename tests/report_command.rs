@@ -3,7 +3,7 @@
 use pinhole::plan::Stage;
 use pinhole::render::Watch;
 use pinhole::scene::{Filter, Resolution, Sampler, Sampling};
-use pinhole::{Asked, Chapter, Error};
+use pinhole::{Chapter, Error, Overrides};
 use pinhole_cli::command::run;
 use pinhole_lab::measure::cost::fingerprint;
 use pinhole_lab::report::deviation::RELATIVE_MSE;
@@ -23,7 +23,7 @@ fn little_ladder() -> Ladder {
 }
 
 fn variant<'a>(chapter: &'a Chapter, stages: Vec<Stage>, sampler: Sampler) -> Variant<'a> {
-    let asked = Asked { resolution: Some(Resolution { width: 24, height: 14 }), ..Asked::default() };
+    let asked = Overrides { resolution: Some(Resolution { width: 24, height: 14 }), ..Overrides::default() };
     let sampling = Sampling { sampler, filter: Filter::BOX, ..Sampling::default() };
     Variant { name: "one".into(), sampling, stages, scene: Box::new(move || chapter.world(&asked)), reference: 0 }
 }
@@ -119,8 +119,8 @@ fn what_cannot_be_compared_is_refused_in_a_sentence() {
             "there is no way to find lights \"magic\"; there are chance, aimed, weighed",
         ),
         (
-            "report 18 --against lights=aimed",
-            "--against lights=aimed: 18_error_and_time has no paths to find lights by",
+            "report 18 --against lights=light",
+            "--against lights=light: 18_error_and_time has no paths to find lights by",
         ),
         ("report 18 --against filter=magic", "there is no filter \"magic\"; there are "),
         (

@@ -305,8 +305,8 @@ fn files_that_are_no_images_are_refused_in_a_sentence() {
         let file = ImageTexture { file: name.into(), ..ImageTexture::default() };
         world.entity_mut(floor).remove::<Checker>().insert(file);
         world.insert_resource(SceneFolder(folder.path().into()));
-        let refusal = pinhole::extract::validate(&world).expect_err(name).to_string();
-        let shown = refusal.replace(&folder.path().display().to_string(), "…");
+        let scene_error = pinhole::extract::validate(&world).expect_err(name).to_string();
+        let shown = scene_error.replace(&folder.path().display().to_string(), "…");
         eprintln!("{shown}");
         assert!(shown.starts_with("image texture \"floor\": file is ") && !shown.contains('\n'), "{shown}");
         assert!(!shown.ends_with('.') && shown.contains(", but "), "{shown}");

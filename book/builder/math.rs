@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// A formula, or a `$` that belongs to none, that cannot be shown.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Slip {
+pub struct Mistake {
     /// Where in the text.
     pub at: usize,
     /// One sentence.
@@ -27,8 +27,8 @@ fn options() -> Options {
 }
 
 /// Finds every formula of a markdown text outside code, and what to put in its place.
-pub fn edits(text: &str) -> (Vec<Edit>, Vec<Slip>) {
-    let (mut edits, mut slips) = (Vec::new(), Vec::new());
+pub fn edits(text: &str) -> (Vec<Edit>, Vec<Mistake>) {
+    let (mut edits, mut mistakes) = (Vec::new(), Vec::new());
     let mut in_code = false;
     for (event, range) in Parser::new_ext(text, options()).into_offset_iter() {
         let found = match event {
@@ -43,34 +43,34 @@ pub fn edits(text: &str) -> (Vec<Edit>, Vec<Slip>) {
             Event::InlineMath(latex) => formula(&latex, false),
             Event::DisplayMath(latex) => formula(&latex, true),
             Event::Text(_) if !in_code => {
-                slips.extend(stray(text, range));
+                mistakes.extend(stray(text, range));
                 continue;
             }
             _ => continue,
         };
         match found {
             Ok(text) => edits.push(Edit { range, text }),
-            Err(what) => slips.push(Slip { at: range.start, what }),
+            Err(what) => mistakes.push(Mistake { at: range.start, what }),
         }
     }
-    (edits, slips)
+    (edits, mistakes)
 }
 
 /// A short text with its formulas converted.
 pub fn expand(text: &str) -> Result<String, String> {
-    let (edits, slips) = edits(text);
-    match slips.into_iter().next() {
-        Some(slip) => Err(slip.what),
+    let (edits, mistakes) = edits(text);
+    match mistakes.into_iter().next() {
+        Some(mistake) => Err(mistake.what),
         None => Ok(apply(text, edits)),
     }
 }
 
 /// A `$` that markdown took for plain text is most often half a formula.
-fn stray(text: &str, range: Range<usize>) -> Option<Slip> {
+fn stray(text: &str, range: Range<usize>) -> Option<Mistake> {
     let here = |at: &usize| !text[..*at].ends_with('\\');
     let at = text[range.clone()].match_indices('$').map(|(at, _)| range.start + at).find(here)?;
     let what = "a `$` stands alone: a formula is $x$, without a space just inside; for a dollar sign write `\\$`.";
-    Some(Slip { at, what: what.to_owned() })
+    Some(Mistake { at, what: what.to_owned() })
 }
 
 fn formula(latex: &str, display: bool) -> Result<String, String> {
@@ -153,7 +153,7 @@ mod tests {
         for latex in ["$x\\cos^2 y$", "$2\\sin_a\\cos^{n+1}\\beta$", "$x\\log_2^3 y$"] {
             let text = expand(latex).expect("a formula");
             assert!(
-                !["<msup><mspace", "<msub><mspace", "<msubsup><mspace"].iter().any(|slip| text.contains(slip)),
+                !["<msup><mspace", "<msub><mspace", "<msubsup><mspace"].iter().any(|mistake| text.contains(mistake)),
                 "{text}"
             );
         }
@@ -187,9 +187,9 @@ mod tests {
 
     #[test]
     fn half_a_formula_is_named() {
-        let (_, slips) = edits("one\n\nx $ y\n\n`$`\n");
-        assert_eq!(slips.len(), 1);
-        assert_eq!(slips[0].at, 7);
-        assert!(slips[0].what.starts_with("a `$` stands alone"));
+        let (_, mistakes) = edits("one\n\nx $ y\n\n`$`\n");
+        assert_eq!(mistakes.len(), 1);
+        assert_eq!(mistakes[0].at, 7);
+        assert!(mistakes[0].what.starts_with("a `$` stands alone"));
     }
 }

@@ -52,9 +52,9 @@ pub fn told(problems: &[Problem]) -> String {
 /// A page with its listings, formulas, outputs and figures in place.
 pub fn expand(page: &Page, kit: &mut Kit, pictures: &mut Pictures) -> std::result::Result<String, Vec<Problem>> {
     let scan = Scan::new(&page.text);
-    let (mut edits, slips) = math::edits(&without_directives(&page.text, &scan));
+    let (mut edits, mistakes) = math::edits(&without_directives(&page.text, &scan));
     let line_of = |at: usize| page.text[..at].matches('\n').count() + 1;
-    let formulas = slips.into_iter().map(|slip| Problem::new(&page.label, line_of(slip.at), slip.what));
+    let formulas = mistakes.into_iter().map(|mistake| Problem::new(&page.label, line_of(mistake.at), mistake.what));
     let mut problems: Vec<Problem> = formulas.collect();
     for line in &scan.lines {
         let made = match (parse(line.text), line.fence) {

@@ -60,7 +60,7 @@ fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
 
 /// The stage on offer.
 fn facing_stage() -> Stage {
-    Stage::new("See how surfaces face the eye", TileSystems::Shade, fill_facing)
+    Stage::new("Compute facing ratios", TileSystems::Shade, fill_facing)
         .reads::<WorldRays>()
         .reads::<Surfaces>()
         .writes::<Facing>()

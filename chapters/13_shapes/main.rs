@@ -54,8 +54,8 @@ fn scene(world: &mut World) {
     world.spawn((Name::new("ball"), Sphere { radius: 0.45 }, Placement::at(-1.6, 1.65, 0.2), matte(0.85, 0.7, 0.3)));
     // The leg ends in the very plane of the table top.
     world.spawn((Name::new("table top"), Disk { radius: 1.0 }, Placement::at(1.2, 0.875, 0.0), UsesMaterial(wood)));
-    let leg = Cuboid { size: [0.14, 0.875, 0.14].into() };
-    world.spawn((Name::new("leg"), leg, Placement::at(1.2, 0.4375, 0.0), UsesMaterial(wood)));
+    let depth = Cuboid { size: [0.14, 0.875, 0.14].into() };
+    world.spawn((Name::new("leg"), depth, Placement::at(1.2, 0.4375, 0.0), UsesMaterial(wood)));
     let top = [1.45, 1.5, -0.4].into();
     let foot = [[1.1, 0.875, -0.15], [1.85, 0.875, -0.15], [1.5, 0.875, -0.8]];
     for side in 0..3 {

@@ -27,7 +27,7 @@ fn scene(world: &mut World) {
         Name::new("camera"),
         PerspectiveCamera { fov: Degrees(32.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.4, 2.2, 6.2].into(), target: [0.0, 0.85, 0.0].into(), ..LookAt::default() },
-        Integrator::Whitted { legs: 20 },
+        Integrator::Whitted { max_depth: 20 },
     ));
     let ball = Placement::at(-1.3, 1.0, 0.0);
     world.spawn((Name::new("ball"), Sphere { radius: 1.0 }, ball, Glass::default()));

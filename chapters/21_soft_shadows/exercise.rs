@@ -1,13 +1,13 @@
 //! The exercise of chapter 21; `cargo run --release -- check 21` compares it with the kit.
 
-// ANCHOR: solid_angle_density
+// ANCHOR: solid_angle_pdf
 /// How likely a direction is, per unit of solid angle at `from`, where a point of a flat light of this area is chosen evenly
 /// and turns out to be `at`.
 ///
 /// `normal` is the light's unit normal there; both of its sides shine. 0 where the light is seen from its edge.
-pub fn solid_angle_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+pub fn solid_angle_pdf(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
     // Yours to write: put your own lines for the two below.
     let _ = (from, at, normal, area);
     f64::MAX
 }
-// ANCHOR_END: solid_angle_density
+// ANCHOR_END: solid_angle_pdf

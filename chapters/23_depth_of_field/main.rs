@@ -1,6 +1,6 @@
 //! Depth of field: an opening in place of the pinhole, so that what lies at one distance is sharp and all else is blurred.
 //! A row of balls runs into the distance, and far behind them small lamps show the opening's shape.
-//! New here: the `Lens` on the camera, and the stages "Draw points on the lens" and "Aim rays through the lens".
+//! New here: the `Lens` on the camera, and the stages "Sample the lens" and "Generate camera rays: thin lens".
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -1,6 +1,6 @@
 //! Motion blur: each ray has a time of its own while the shutter is open, and meets what moves where it is then.
 //! A ball flies by, a coin falls, and their shadows go with them; what stands still stays sharp.
-//! New here: the `Shutter` on the camera, `Motion` on shapes, and the stages "Draw times" and "Intersect moving shapes".
+//! New here: the `Shutter` on the camera, `Motion` on shapes, and the stages "Sample times" and "Intersect moving shapes".
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

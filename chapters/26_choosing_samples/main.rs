@@ -1,6 +1,6 @@
 //! Which rays tell most? Four plates of metal, smooth to rough, show four lamps, small to large, of equal power.
 //! Rays that chance finds suit the smooth plate, points on lamps the rough one; neither suits both.
-//! New here: `LightSampling::Weighed`, which uses both and counts every way once.
+//! New here: `LightStrategy::Mis`, which uses both and counts every way once.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -28,7 +28,7 @@ fn scene(world: &mut World) {
         PerspectiveCamera { fov: Degrees(32.0), axis: FovAxis::Vertical },
         LookAt { eye: [0.0, 2.0, 7.5].into(), target: [0.0, 1.3, 0.0].into(), ..LookAt::default() },
         Sampling { samples: 32, seed: 26, ..Sampling::default() },
-        Integrator::Path { legs: 100, lights: LightSampling::Weighed, roulette: 5 },
+        Integrator::Path { max_depth: 100, lights: LightStrategy::Mis, roulette: 5 },
     ));
     let grey = Matte { colour: Rgb::grey(0.3) };
     world.spawn((Name::new("floor"), Plane::default(), grey));

@@ -35,7 +35,7 @@ fn scene(world: &mut World) {
         Resolution { width: 960, height: 540 },
         Sampling { samples: 80, ..Sampling::default() },
         // Paths that survive roulette count for more, and one that then hits the lamp is a speck: so roulette begins late.
-        Integrator::Path { legs: 1 << 12, lights: LightSampling::Weighed, roulette: 8 },
+        Integrator::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 8 },
         LightTracing { paths: 0.5 },
     ));
     world.spawn((Name::new("globe"), Sphere { radius: 1.5 }, Placement::at(0.0, 1.5, 0.0), Glass::default()));

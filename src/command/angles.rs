@@ -2,7 +2,7 @@ use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use pinhole::extract::{ImageShape, PinholeLens, angle_across, camera_entity, half_extent, validate};
+use pinhole::extract::{ImageFrame, PerspectiveProjection, angle_across, camera_entity, half_extent, validate};
 use pinhole::plan::Table;
 use pinhole::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
 use serde_json::json;
@@ -14,7 +14,7 @@ use std::io::Write;
 pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Format, out: &mut dyn Write) -> Result {
     let asked = options.asked(false);
     let scene = subject.world(&asked);
-    validate(&scene).map_err(|refusal| subject.placed(refusal.into(), &asked))?;
+    validate(&scene).map_err(|scene_error| subject.placed(scene_error.into(), &asked))?;
     let camera = camera_entity(&scene)?;
     let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera) else {
         let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
@@ -22,7 +22,7 @@ pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Forma
             if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
         return Err(Error::usage(format!("the camera of {} {told}", subject.name())));
     };
-    let (lens, image) = (PinholeLens::extract(&scene)?, ImageShape::extract(&scene)?);
+    let (lens, image) = (PerspectiveProjection::extract(&scene)?, ImageFrame::extract(&scene)?);
     let aspect = image.aspect();
     let word = |axis: FovAxis| format!("{axis:?}").to_lowercase();
     let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];

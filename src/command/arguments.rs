@@ -98,12 +98,12 @@ pub struct ReviewSnapshots {
     pub chapter: Option<String>,
     /// Show the page as it would look with a bug planted (all: a table of all bugs)
     #[arg(long, value_name = "BUG")]
-    pub plant: Option<String>,
+    pub mutate: Option<String>,
     /// Write one picture instead of the page
-    #[arg(long, requires = "plant")]
+    #[arg(long, requires = "mutate")]
     pub picture: Option<Picture>,
-    /// With --plant all: a drawing instead of a table
-    #[arg(long, requires = "plant")]
+    /// With --mutate all: a drawing instead of a table
+    #[arg(long, requires = "mutate")]
     pub gallery: bool,
     /// Where to write (default: out/review/index.html)
     #[arg(short, long, value_name = "FILE")]

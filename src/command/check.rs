@@ -79,7 +79,7 @@ struct Told<'t> {
 impl<'t> Told<'t> {
     fn of(chapter: &'static str, turn: &'t Turn) -> Self {
         let report = &turn.report;
-        let ((file, name), (allowed_error, error_unit)) = (report.kit_has, report.allowed);
+        let ((file, name), (allowed_error, error_unit)) = (report.pinhole_has, report.allowed);
         let (outcome, error, asked, answer) = match &report.outcome {
             Outcome::Right(worst) => ("right", Some(*worst), None, None),
             Outcome::Wrong(found) => {

@@ -9,7 +9,7 @@ use pinhole::film::{check_place, write_png};
 use pinhole::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
 use pinhole::render::{Execution, render};
 use pinhole::scene::printable_path;
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -22,9 +22,9 @@ pub fn print_conventions(
     out: &mut dyn Write,
 ) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
-    let size = Asked { size: asked.size, ..Asked::default() };
+    let size = Overrides { size: asked.size, ..Overrides::default() };
     let scene = subject.world(&size);
-    validate(&scene).map_err(|refusal| subject.placed(refusal.into(), &size))?;
+    validate(&scene).map_err(|scene_error| subject.placed(scene_error.into(), &size))?;
     match (asked.mistake, asked.round_trips) {
         (Some(mistake), _) => render_mistake(&subject, scene, mistake, asked, format, out),
         (None, Some(cameras)) => print_round_trips(cameras, format, out),
@@ -42,8 +42,8 @@ fn print_lines(subject: &Subject<'_>, camera: &PlacedCamera, format: Format, out
         for line in lines(program, camera) {
             writeln!(out, "    {line}")?;
         }
-        let [wide, place] = back(program);
-        writeln!(out, "  back: {wide};\n        {place}")?;
+        let [double_double, place] = back(program);
+        writeln!(out, "  back: {double_double};\n        {place}")?;
     }
     Ok(())
 }

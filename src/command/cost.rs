@@ -8,7 +8,7 @@ use pinhole::film::write_whole;
 use pinhole::plan::Table;
 use pinhole::render::Execution;
 use pinhole::scene::{Resolution, printable_path};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::measure::cost::{Cost, PROBES, RENDERS, StageCost, made_from, measure};
 use pinhole_lab::report::provenance::{compiler, load, processor};
 use serde_json::{Value, json};
@@ -73,10 +73,10 @@ struct Measured {
 impl Measured {
     fn of(chapter: &Chapter) -> Result<Self> {
         let made_from = made_from(chapter.name)?;
-        let samples = SamplingTable::extract(&chapter.world(&Asked::default()))?.samples;
+        let samples = SamplingTable::extract(&chapter.world(&Overrides::default()))?.samples;
         let smaller = samples.isqrt().max(1);
         let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
-        let asked = Asked { resolution: Some(size), statistics: true, ..Asked::default() };
+        let asked = Overrides { resolution: Some(size), statistics: true, ..Overrides::default() };
         let side = Execution::default().tile_side;
         let tiles = u64::from(size.width.div_ceil(side) * size.height.div_ceil(side) * samples.max(1));
         let waiting = Waiting::new(tiles * RENDERS as u64, false);

@@ -1,5 +1,5 @@
 use pinhole::plan::PlanError;
-use pinhole::scene::{FileProblem, Refusal};
+use pinhole::scene::{FileProblem, SceneError};
 use std::{fmt, io};
 use thiserror::Error;
 
@@ -33,8 +33,8 @@ impl From<io::Error> for Error {
     }
 }
 
-impl From<Refusal> for Error {
-    fn from(error: Refusal) -> Self {
+impl From<SceneError> for Error {
+    fn from(error: SceneError) -> Self {
         Self::Pinhole(error.into())
     }
 }

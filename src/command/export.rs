@@ -7,7 +7,7 @@ use super::format::{Format, print_json, shown};
 use super::subject::Subject;
 use pinhole::film::write_whole;
 use pinhole::scene::{printable_path, scene_text};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;
@@ -22,7 +22,7 @@ use std::path::Path;
 /// cannot be copied.
 pub fn export(chapters: &[Chapter], asked: &ExportScene, format: Format, out: &mut dyn Write) -> Result {
     let subject = Subject::find(chapters, &asked.chapter)?;
-    let mut world = subject.world(&Asked { sampling: asked.sampling.asked(), ..Asked::default() });
+    let mut world = subject.world(&Overrides { sampling: asked.sampling.asked(), ..Overrides::default() });
     let note = subject.own_view(&mut world).map_or(String::new(), |column| {
         format!(
             "// {} shows `{column}`, a column of its own, which no scene file has: here is its picture.\n",

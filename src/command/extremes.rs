@@ -5,7 +5,7 @@ use super::format::{Format, number_or_word, print_json, shown};
 use super::interrupt::{Waiting, interrupted};
 use pinhole::film::{check_place, write_whole};
 use pinhole::scene::printable_path;
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::measure::extremes::{Case, Group, Outcome, Worst, try_group, unbroken};
 use pinhole_lab::measure::extremes_page::{page, strips};
 use serde::Serialize;
@@ -70,7 +70,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
 
 fn write_page(chapters: &[Chapter], cases: &[Case], file: &Path) -> Result {
     let chapter = find::chapter(chapters, SHOWN)?;
-    let make = || chapter.world(&Asked::default());
+    let make = || chapter.world(&Overrides::default());
     let page = page(cases, &strips(&make, &chapter.stages())?, chapter.name)?;
     Ok(write_whole(file, |file| file.write_all(page.as_bytes()))?)
 }
@@ -89,7 +89,7 @@ struct ToldCase<'c> {
     group: String,
     case: &'c str,
     inputs: u64,
-    judged: u64,
+    checked: u64,
     held: bool,
     methods: Vec<ToldMethod>,
     naive_at_its_worst: Option<Value>,
@@ -100,7 +100,7 @@ struct ToldCase<'c> {
 struct ToldMethod {
     name: &'static str,
     is_naive: bool,
-    verdict: String,
+    intersection: String,
     wrong: u64,
     first_wrong_input: Option<u64>,
     unit: Option<&'static str>,
@@ -116,7 +116,7 @@ impl<'c> ToldCase<'c> {
             group: case.group.to_string(),
             case: &case.name,
             inputs: case.rays,
-            judged: case.hits,
+            checked: case.hits,
             held: case.held(),
             methods: case.outcomes.iter().map(ToldMethod::of).collect(),
             naive_at_its_worst: case.worst.as_ref().map(|worst| at_worst(case, worst)),
@@ -130,8 +130,8 @@ impl ToldMethod {
         let unit = Some(method.unit).filter(|unit| !unit.is_empty());
         Self {
             name: method.name,
-            is_naive: !method.of_kit,
-            verdict: outcome.words().verdict.to_lowercase().replace(' ', "_"),
+            is_naive: !method.of_pinhole,
+            intersection: outcome.words().intersection.to_lowercase().replace(' ', "_"),
             wrong: score.wrong,
             first_wrong_input: score.first_wrong,
             unit,

@@ -1,5 +1,5 @@
 use super::progress::Progress;
-use pinhole::film::writes_under_way;
+use pinhole::film::writes_in_progress;
 use pinhole::render::Watch;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -40,7 +40,7 @@ pub fn stop_on_interrupt() {
 /// Ends the program, but lets a file that is being written become whole.
 fn end() {
     let asked = Instant::now();
-    while writes_under_way() > 0 && asked.elapsed() < WAIT_FOR_FILES {
+    while writes_in_progress() > 0 && asked.elapsed() < WAIT_FOR_FILES {
         thread::sleep(LOOK_AGAIN);
     }
     // A terminal shows ^C, or a bar, on the line that the cursor is on.

@@ -5,7 +5,7 @@ use super::options::RenderOptions;
 use bevy_ecs::prelude::*;
 use pinhole::extract::adaptive_of;
 use pinhole::film::{Film, check_place, read_checkpoint, write_checkpoint};
-use pinhole::render::{Limits, Outcome, RenderUnderWay, film_key, render_in_passes};
+use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -19,7 +19,7 @@ const WORTH_KEEPING: Duration = Duration::from_secs(2);
 ///
 /// Errors: what a render or a file is refused for, or a stop by Ctrl-C, after which all is written.
 pub fn render_long(
-    render: &mut RenderUnderWay,
+    render: &mut RenderInProgress,
     scene: &World,
     options: &RenderOptions,
     files: &Files,
@@ -68,7 +68,7 @@ pub fn render_long(
 }
 
 /// Takes up what a checkpoint holds, if there is one, and says so.
-fn resume(render: &mut RenderUnderWay, key: u64, adaptive: bool, checkpoint: &Path) -> Result<String> {
+fn resume(render: &mut RenderInProgress, key: u64, adaptive: bool, checkpoint: &Path) -> Result<String> {
     if !checkpoint.exists() {
         return Ok(format!("there is no {} to continue from, so the render begins anew", checkpoint.display()));
     }

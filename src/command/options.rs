@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::styling::{AnsiColor, Styles};
 use pinhole::extract::MOST_SAMPLES;
 use pinhole::scene::{Filter, Layers, Resolution, Sampler, TracePixel};
-use pinhole::{Asked, AskedSampling, Size};
+use pinhole::{Overrides, SamplingOverrides, Size};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -84,8 +84,8 @@ pub struct RenderOptions {
 }
 
 impl SceneOptions {
-    pub fn asked(&self, statistics: bool) -> Asked {
-        Asked {
+    pub fn asked(&self, statistics: bool) -> Overrides {
+        Overrides {
             resolution: None,
             size: self.pixels(),
             view: self.view.clone(),
@@ -138,14 +138,14 @@ impl SceneOptions {
 }
 
 impl RenderOptions {
-    pub fn asked(&self, statistics: bool) -> Asked {
-        Asked { endless: self.time.is_some(), ..self.scene.asked(statistics) }
+    pub fn asked(&self, statistics: bool) -> Overrides {
+        Overrides { endless: self.time.is_some(), ..self.scene.asked(statistics) }
     }
 }
 
 impl SamplingOptions {
-    pub fn asked(&self) -> AskedSampling {
-        AskedSampling { samples: self.samples, seed: self.seed, sampler: self.sampler, filter: self.filter }
+    pub fn asked(&self) -> SamplingOverrides {
+        SamplingOverrides { samples: self.samples, seed: self.seed, sampler: self.sampler, filter: self.filter }
     }
 }
 
@@ -258,7 +258,9 @@ mod tests {
         ] {
             assert_eq!(of(text), Ok(expected), "{text}");
         }
-        for bad in ["", "x", "960x", "-1x5", "1.5x5", "99999999999x5", "0%", "-5%", "NaN%", "%", "p", "wide", "1e9%"] {
+        for bad in
+            ["", "x", "960x", "-1x5", "1.5x5", "99999999999x5", "0%", "-5%", "NaN%", "%", "p", "double_double", "1e9%"]
+        {
             assert!(size(bad).is_err(), "{bad}");
         }
         assert_eq!(Size::Height(54).of(own), Resolution { width: 96, height: 54 });

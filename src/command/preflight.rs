@@ -4,7 +4,7 @@ use super::format::{Format, print_json};
 use super::subject::{Subject, every_stage};
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
-use pinhole::look::{Preflight, SLIPS, preflight};
+use pinhole::look::{MISTAKES, Preflight, preflight};
 use pinhole::plan::Stage;
 use pinhole::render::{check_film_fits, prepare};
 use serde_json::json;
@@ -28,19 +28,19 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
     }
     let stages = every_stage().stages();
     let mut scenes = Vec::new();
-    for slip in SLIPS {
+    for mistake in MISTAKES {
         let mut scene = World::new();
-        (slip.scene)(&mut scene);
+        (mistake.scene)(&mut scene);
         let (warnings, refused) = match said(&scene, &stages, Instant::now()) {
             Ok(told) => (told, None),
-            Err(pinhole::Error::Refusal(refusal)) => (Vec::new(), Some(refusal.to_string())),
+            Err(pinhole::Error::SceneError(scene_error)) => (Vec::new(), Some(scene_error.to_string())),
             Err(error) => return Err(error.into()),
         };
         if format.is_json() {
-            scenes.push(json!({ "scene": slip.what, "warnings": warnings, "refused": refused }));
+            scenes.push(json!({ "scene": mistake.what, "warnings": warnings, "refused": refused }));
             continue;
         }
-        writeln!(out, "{}", slip.what)?;
+        writeln!(out, "{}", mistake.what)?;
         match refused {
             None => print_lines(&warnings, "  ", out)?,
             Some(refused) => writeln!(out, "  refused: {refused}")?,

@@ -16,7 +16,7 @@ use pinhole::Chapter;
 use pinhole::extract::{LayerTable, adaptive_of, camera_entity, validate};
 use pinhole::film::check_place;
 use pinhole::look::{Preflight, RenderStats, preflight};
-use pinhole::render::{Execution, RenderUnderWay};
+use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::Sampling;
 use std::time::Instant;
 
@@ -41,9 +41,9 @@ pub fn render_subject(
     let asked = options.asked(!options.quiet);
     let scene = subject.world(&asked);
     let placed = |error| subject.placed(error, &asked);
-    validate(&scene).map_err(|refusal| placed(refusal.into()))?;
+    validate(&scene).map_err(|scene_error| placed(scene_error.into()))?;
     check_requests(&scene, options, &targets, streams)?;
-    let mut render = RenderUnderWay::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
+    let mut render = RenderInProgress::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
@@ -100,7 +100,7 @@ pub fn render_subject(
 fn before_rendering(
     scene: &World,
     options: &RenderOptions,
-    (render, began): (&RenderUnderWay, Instant),
+    (render, began): (&RenderInProgress, Instant),
     json: bool,
     streams: &mut Streams<'_>,
 ) -> Result<Vec<String>> {
@@ -114,7 +114,7 @@ fn before_rendering(
 }
 
 /// What shows how far the render is.
-fn waiting(what: Option<&str>, options: &RenderOptions, render: &RenderUnderWay, streams: &Streams<'_>) -> Waiting {
+fn waiting(what: Option<&str>, options: &RenderOptions, render: &RenderInProgress, streams: &Streams<'_>) -> Waiting {
     // Where samples are counted, their number is told later.
     let steps = if render.is_sampled() { 0 } else { render.film.tiles.len() as u64 };
     let progress = match what {
@@ -147,7 +147,7 @@ fn check_requests(scene: &World, options: &RenderOptions, targets: &Targets, str
 }
 
 /// One ray through each pixel: all or nothing.
-fn render_at_once(render: &mut RenderUnderWay, waiting: &Waiting, files: &Files) -> Result {
+fn render_at_once(render: &mut RenderInProgress, waiting: &Waiting, files: &Files) -> Result {
     let rendered = render.advance(render.steps(), waiting);
     waiting.done();
     rendered?;

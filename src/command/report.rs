@@ -5,12 +5,12 @@ use super::interrupt::{EndsByItself, interrupted, stop_flag};
 use super::report_arguments::ReportErrors;
 use super::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
-use pinhole::extract::{ImageShape, camera_entity, integrator_of, validate};
+use pinhole::extract::{ImageFrame, camera_entity, integrator_of, validate};
 use pinhole::film::{check_place, write_whole};
 use pinhole::plan::Table;
 use pinhole::render::Watch;
-use pinhole::scene::{Filter, Integrator, LightSampling, Resolution, Sampler, Sampling, scene_text};
-use pinhole::{Asked, Chapter};
+use pinhole::scene::{Filter, Integrator, LightStrategy, Resolution, Sampler, Sampling, scene_text};
+use pinhole::{Chapter, Overrides};
 use pinhole_lab::report::kept::{keep, kept, made_from};
 use pinhole_lab::report::ladder::Ladder;
 use pinhole_lab::report::page::page;
@@ -172,7 +172,7 @@ enum Rival<'c> {
     Subject(Subject<'c>),
     Sampler(&'static str, Sampler),
     Filter(&'static str, Filter),
-    Lights(&'static str, LightSampling),
+    Lights(&'static str, LightStrategy),
 }
 
 fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'c>>> {
@@ -188,10 +188,10 @@ fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'
             found.map(|(word, filter)| Rival::Filter(word, filter)).ok_or_else(|| no_such("filter", name, &Filter::ALL))
         }
         Some(("lights", name)) => {
-            let found = LightSampling::ALL.into_iter().find(|(word, _)| *word == name);
+            let found = LightStrategy::ALL.into_iter().find(|(word, _)| *word == name);
             found
                 .map(|(word, lights)| Rival::Lights(word, lights))
-                .ok_or_else(|| no_such("way to find lights", name, &LightSampling::ALL))
+                .ok_or_else(|| no_such("way to find lights", name, &LightStrategy::ALL))
         }
         Some((other, _)) => Err(Error::usage(format!(
             "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and {other} is none of \
@@ -209,11 +209,11 @@ fn no_such<T>(kind: &str, name: &str, all: &[(&'static str, T)]) -> Error {
 
 /// The subject itself, then each rival: the subject with another sampler or filter, or another scene.
 fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolution) -> Result<Vec<Variant<'c>>> {
-    let asked = move || Asked { resolution: Some(size), view: None, ..Asked::default() };
+    let asked = move || Overrides { resolution: Some(size), view: None, ..Overrides::default() };
     let of =
         |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
             let world = subject.world(&asked());
-            validate(&world).map_err(|refusal| subject.placed(refusal.into(), &asked()))?;
+            validate(&world).map_err(|scene_error| subject.placed(scene_error.into(), &asked()))?;
             let camera = camera_entity(&world)?;
             let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
             change(&mut sampling);
@@ -251,9 +251,9 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
 }
 
 /// The subject's paths with another way to find lights.
-fn paths_with(subject: &Subject<'_>, word: &str, lights: LightSampling) -> Result<Integrator> {
-    match integrator_of(&subject.world(&Asked::default())).integrator {
-        Integrator::Path { legs, roulette, .. } => Ok(Integrator::Path { legs, lights, roulette }),
+fn paths_with(subject: &Subject<'_>, word: &str, lights: LightStrategy) -> Result<Integrator> {
+    match integrator_of(&subject.world(&Overrides::default())).integrator {
+        Integrator::Path { max_depth, roulette, .. } => Ok(Integrator::Path { max_depth, lights, roulette }),
         _ => Err(Error::usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
     }
 }
@@ -267,9 +267,9 @@ fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) 
         rivals.iter().any(|rival| matches!(rival, Rival::Filter(..))),
     ];
     if !samplers && !filters && rivals.iter().any(|rival| matches!(rival, Rival::Lights(..))) {
-        let own = integrator_of(&subject.world(&Asked::default())).integrator;
-        let named = |(_, it): &&(&str, LightSampling)| matches!(own, Integrator::Path { lights, .. } if lights == *it);
-        return LightSampling::ALL.iter().find(named).map_or_else(|| subject.stem(), |(word, _)| (*word).into());
+        let own = integrator_of(&subject.world(&Overrides::default())).integrator;
+        let named = |(_, it): &&(&str, LightStrategy)| matches!(own, Integrator::Path { lights, .. } if lights == *it);
+        return LightStrategy::ALL.iter().find(named).map_or_else(|| subject.stem(), |(word, _)| (*word).into());
     }
     match (samplers, filters) {
         (true, false) => sampler.into(),
@@ -284,9 +284,9 @@ fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> 
     if let Some(size) = asked {
         return Ok(size);
     }
-    let world = subject.world(&Asked::default());
-    validate(&world).map_err(|refusal| subject.placed(refusal.into(), &Asked::default()))?;
-    let ImageShape { width, height, .. } = ImageShape::extract(&world)?;
+    let world = subject.world(&Overrides::default());
+    validate(&world).map_err(|scene_error| subject.placed(scene_error.into(), &Overrides::default()))?;
+    let ImageFrame { width, height, .. } = ImageFrame::extract(&world)?;
     let aspect = f64::from(width) / f64::from(height);
     let across = (PIXELS * aspect).sqrt().round().clamp(1.0, PIXELS);
     let down = (across / aspect).round().max(1.0);

@@ -16,14 +16,14 @@ use std::path::{Path, PathBuf};
 /// Lists the snapshots that wait and writes the page that shows them; or keeps them, or throws them away.
 pub fn review(chapters: &[Chapter], asked: &ReviewSnapshots, format: Format, out: &mut dyn Write) -> Result {
     let folder = asked.chapters.clone().unwrap_or_else(|| pinhole_lab::repository().join("chapters"));
-    match (&asked.action, &asked.plant) {
+    match (&asked.action, &asked.mutate) {
         (Some(ReviewAction::Accept { chapter }), _) => {
             settle(chapters, &folder, chapter.as_deref(), "accepted", |pending| Ok(pending.accept()?), format, out)
         }
         (Some(ReviewAction::Reject { chapter }), _) => {
             settle(chapters, &folder, chapter.as_deref(), "rejected", |pending| Ok(pending.reject()?), format, out)
         }
-        (None, Some(name)) => super::planted::plant(chapters, name, asked, format, out),
+        (None, Some(name)) => super::mutation::mutate(chapters, name, asked, format, out),
         (None, None) => show(chapters, &folder, asked, format, out),
     }
 }

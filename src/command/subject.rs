@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, validate};
 use pinhole::plan::{PlanError, Stage};
 use pinhole::scene::{FileProblem, SceneFile, View};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole::{follow, intersect, rays, shade};
 use std::ffi::OsStr;
 use std::path::Path;
@@ -88,7 +88,7 @@ impl<'c> Subject<'c> {
     }
 
     /// The scene, with what a reader asks of it.
-    pub fn world(&self, asked: &Asked) -> World {
+    pub fn world(&self, asked: &Overrides) -> World {
         match self {
             Self::Chapter(chapter) => chapter.world(asked),
             Self::File { file, .. } => {
@@ -112,13 +112,13 @@ impl<'c> Subject<'c> {
     }
 
     /// The same error with file, line and column, where it is the file that is at fault.
-    pub fn placed(&self, error: pinhole::Error, asked: &Asked) -> Error {
+    pub fn placed(&self, error: pinhole::Error, asked: &Overrides) -> Error {
         let Self::File { file, .. } = self else { return error.into() };
         let place = match &error {
-            pinhole::Error::Refusal(refusal) if asked.names_pixels() && refusal.field == "resolution" => {
+            pinhole::Error::SceneError(scene_error) if asked.names_pixels() && scene_error.field == "resolution" => {
                 return error.into();
             }
-            pinhole::Error::Refusal(_) => file.place_of(|world| {
+            pinhole::Error::SceneError(_) => file.place_of(|world| {
                 asked.put_on_camera(world);
                 validate(world).err()
             }),

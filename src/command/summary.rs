@@ -165,13 +165,13 @@ fn count(number: u64) -> String {
 
 /// A line that is not too wide; of a wider one the end is left, where a path has its file's name.
 fn cut(line: &str) -> String {
-    let wide = line.chars().count();
-    if wide <= WIDEST {
+    let double_double = line.chars().count();
+    if double_double <= WIDEST {
         return line.into();
     }
     let half = (WIDEST - 1) / 2;
     let letters = || line.chars();
-    letters().take(half).chain(['…']).chain(letters().skip(wide - half)).collect()
+    letters().take(half).chain(['…']).chain(letters().skip(double_double - half)).collect()
 }
 
 #[cfg(test)]
@@ -182,7 +182,7 @@ mod tests {
 
     fn stats(stages: usize) -> RenderStats {
         let stage = |number: usize| StageStats {
-            stage: ["Aim at lights", "Intersect spheres", "Turn rays into the world", "Classify"][number % 4],
+            stage: ["Aim at lights", "Intersect spheres", "Transform rays to world space", "Classify"][number % 4],
             rows: 1,
             milliseconds: number as f64,
             nanoseconds_a_row: None,
@@ -224,7 +224,7 @@ mod tests {
             summary(&stats(5), None).lines(),
             [
                 "out/05_pinhole.png and .exr: 480 × 270 pixels, 1 sample each, 244 thousand rays in 41 ms",
-                "slowest stages: Aim at lights 40 %, Classify 30 %, Turn rays into the world 20 %",
+                "slowest stages: Aim at lights 40 %, Classify 30 %, Transform rays to world space 20 %",
                 "5 stages ran, 1 left out: pinhole plan 5 says why",
                 "try next: pinhole trace 5 --pixel 1,1",
             ]

@@ -2,7 +2,7 @@ use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::interrupt::{Waiting, interrupted};
 use super::subject::Subject;
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole_lab::measure::sweep::{Line, SIZE, sweep};
 use serde::Serialize;
 use std::io::Write;
@@ -11,7 +11,7 @@ use std::io::Write;
 ///
 /// Errors: what a render of the scene would be refused for; a line that does not hold.
 pub fn print_sweep(subject: &Subject<'_>, format: Format, out: &mut dyn Write) -> Result {
-    let make = || subject.world(&Asked::default());
+    let make = || subject.world(&Overrides::default());
     let lines = sweep(&make, &subject.stages(), &Waiting::new(0, true))?;
     if interrupted() {
         return Err(pinhole::Error::Interrupted.into());

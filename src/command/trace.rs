@@ -3,7 +3,7 @@ use super::format::{Format, number_or_word, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
 use pinhole::look::{self, Trace};
-use pinhole::plan::LaneNumber;
+use pinhole::plan::ComponentNumber;
 use pinhole::scene::TracePixel;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -54,15 +54,15 @@ struct Wrote {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Number {
-    Number(LaneNumber),
+    Number(ComponentNumber),
     Word(Value),
 }
 
 impl Number {
-    fn of(number: LaneNumber) -> Self {
+    fn of(number: ComponentNumber) -> Self {
         match number {
-            LaneNumber::F64(value) if value.is_infinite() => Self::Word(number_or_word(value)),
-            LaneNumber::F32(value) if value.is_infinite() => Self::Word(number_or_word(value.into())),
+            ComponentNumber::F64(value) if value.is_infinite() => Self::Word(number_or_word(value)),
+            ComponentNumber::F32(value) if value.is_infinite() => Self::Word(number_or_word(value.into())),
             number => Self::Number(number),
         }
     }
@@ -70,18 +70,18 @@ impl Number {
 
 impl<'t> Traced<'t> {
     fn of(scene: &'t str, trace: &'t Trace) -> Self {
-        let lane = |&(name, number): &(&'static str, LaneNumber)| match name {
+        let component = |&(name, number): &(&'static str, ComponentNumber)| match name {
             "path" => None,
             "shape" => Some((name, Number::Word(json!(trace.shape_name(number))))),
             _ => Some((name, Number::of(number))),
         };
         let wrote = |recorded: &'t look::Recorded| Wrote {
             stage: recorded.stage,
-            bounce: recorded.leg,
+            bounce: recorded.depth,
             column: recorded.column.name,
             space: recorded.column.space,
             unit: recorded.column.unit,
-            rows: recorded.rows.iter().map(|lanes| lanes.iter().filter_map(lane).collect()).collect(),
+            rows: recorded.rows.iter().map(|components| components.iter().filter_map(component).collect()).collect(),
         };
         let stages = trace.stages.iter().map(wrote).collect();
         Self { scene, pixel: [trace.pixel.x, trace.pixel.y], sample: trace.sample, stages }

@@ -3,7 +3,7 @@
 use super::error::Result;
 use super::options::RenderOptions;
 use super::subject::Subject;
-use pinhole::extract::{ImageShape, PinholeLens, SMALLEST_PIXEL, camera_entity};
+use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity};
 use pinhole::film::{Film, column_of_layer};
 use pinhole::plan::{Plan, Table};
 use pinhole::scene::PerspectiveCamera;
@@ -74,10 +74,10 @@ fn narrow_pixels(subject: &Subject<'_>, options: &RenderOptions) -> Result<Optio
     if !perspective {
         return Ok(None);
     }
-    let narrowest = PinholeLens::extract(&scene)?.narrowest_pixel(ImageShape::extract(&scene)?);
+    let narrowest = PerspectiveProjection::extract(&scene)?.narrowest_pixel(ImageFrame::extract(&scene)?);
     Ok((narrowest < SMALLEST_PIXEL).then(|| {
         format!(
-            "so wide an angle leaves pixels in the corners {narrowest:.1e} rad wide, and world rays in f32 can be off by \
+            "so double_double an angle leaves pixels in the corners {narrowest:.1e} rad double_double, and world rays in f32 can be off by \
              about {:.2} of such a pixel",
             f64::from(f32::EPSILON) / narrowest
         )

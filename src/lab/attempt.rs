@@ -25,7 +25,7 @@ pub enum Attempt {
     /// Chapter 10: colour, intensity, position, normal, light.
     ReflectedRadiance(fn(f64, f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 11: a direction, and whether their x points right, their y up, their z ahead.
-    OursFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
+    PinholeFromTheirs(fn([f64; 3], bool, bool, bool) -> [f64; 3]),
     /// Chapter 12: stages in order, the column asked for.
     Kept(fn(&[StageWords], &str) -> Vec<String>),
     /// Chapter 13: origin, direction, the box's corners of least and of most coordinates.
@@ -45,7 +45,7 @@ pub enum Attempt {
     /// Chapter 20: a direction, a normal, the far side's index over the near side's.
     Refracted(fn([f64; 3], [f64; 3], f64) -> Option<[f64; 3]>),
     /// Chapter 21: the lit point, a light's point, its normal, its area.
-    SolidAngleDensity(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
+    SolidAnglePdf(fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64),
     /// Chapter 23: a screen point, the tangent of half the vertical angle, a point of the lens, the focus distance.
     LensDirection(fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3]),
     /// Chapter 24: origin, direction, centre, radius, velocity, time.
@@ -57,7 +57,7 @@ pub enum Attempt {
     /// Chapter 26: two densities, that of the way's own chance first.
     PowerHeuristic(fn(f64, f64) -> f64),
     /// Chapter 27: a point in camera space, the tangent of half the vertical angle, the image's height in pixels.
-    PixelShare(fn([f64; 3], f64, f64) -> f64),
+    PixelFraction(fn([f64; 3], f64, f64) -> f64),
 }
 
 impl Attempt {
@@ -74,7 +74,7 @@ impl Attempt {
             Self::VerticalFov(_) => "vertical_fov",
             Self::NormalWorldFromObject(_) => "normal_world_from_object",
             Self::ReflectedRadiance(_) => "reflected_radiance",
-            Self::OursFromTheirs(_) => "ours_from_theirs",
+            Self::PinholeFromTheirs(_) => "pinhole_from_theirs",
             Self::Kept(_) => "kept",
             Self::NearestBoxT(_) => "nearest_box_t",
             Self::VarianceAndBiasSquared(_) => "variance_and_bias_squared",
@@ -84,13 +84,13 @@ impl Attempt {
             Self::TentOffset(_) => "tent_offset",
             Self::Mirrored(_) => "mirrored",
             Self::Refracted(_) => "refracted",
-            Self::SolidAngleDensity(_) => "solid_angle_density",
+            Self::SolidAnglePdf(_) => "solid_angle_pdf",
             Self::LensDirection(_) => "lens_direction",
             Self::MovingSphereT(_) => "moving_sphere_t",
             Self::CosineDirection(_) => "cosine_direction",
             Self::AfterRoulette(_) => "after_roulette",
             Self::PowerHeuristic(_) => "power_heuristic",
-            Self::PixelShare(_) => "pixel_share",
+            Self::PixelFraction(_) => "pixel_fraction",
         }
     }
 }

@@ -50,18 +50,18 @@ impl Chapter {
     }
 
     /// The chapter's scene, with what a reader asks of it.
-    pub fn world(&self, asked: &Asked) -> World {
+    pub fn world(&self, asked: &Overrides) -> World {
         let mut world = World::new();
         (self.scene)(&mut world);
         let view = asked.view.clone().or(self.view.map(String::from));
-        Asked { view, ..asked.clone() }.put_on_camera(&mut world);
+        Overrides { view, ..asked.clone() }.put_on_camera(&mut world);
         world
     }
 }
 
 /// What a reader may change about a chapter's scene from the command line.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct Overrides {
     /// Another number of pixels.
     pub resolution: Option<Resolution>,
     /// Another number of pixels, which may be measured by the one that the scene has.
@@ -71,7 +71,7 @@ pub struct Asked {
     /// Whether stages are timed and counted.
     pub statistics: bool,
     /// How pixels are sampled.
-    pub sampling: AskedSampling,
+    pub sampling: SamplingOverrides,
     /// Whether samples go on for as long as there is time, where their number is not asked for.
     pub endless: bool,
     /// The error that each pixel is to have.
@@ -112,7 +112,7 @@ impl Size {
 /// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
 /// default and then what is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AskedSampling {
+pub struct SamplingOverrides {
     /// Samples a pixel.
     pub samples: Option<u32>,
     /// Another seed.
@@ -123,7 +123,7 @@ pub struct AskedSampling {
     pub filter: Option<Filter>,
 }
 
-impl AskedSampling {
+impl SamplingOverrides {
     /// What it makes of a camera's sampling; nothing where nothing is asked.
     pub fn of(&self, own: Option<&Sampling>) -> Option<Sampling> {
         let Sampling { samples, seed, sampler, filter } = own.copied().unwrap_or_default();
@@ -136,7 +136,7 @@ impl AskedSampling {
     }
 }
 
-impl Asked {
+impl Overrides {
     /// Whether another number of pixels is asked for.
     pub fn names_pixels(&self) -> bool {
         self.resolution.is_some() || self.size.is_some()

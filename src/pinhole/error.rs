@@ -1,5 +1,5 @@
 use crate::plan::PlanError;
-use crate::scene::{FileProblem, Refusal, printable_path};
+use crate::scene::{FileProblem, SceneError, printable_path};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ pub type Result<T = ()> = std::result::Result<T, Error>;
 pub enum Error {
     /// The scene cannot be rendered.
     #[error(transparent)]
-    Refusal(#[from] Refusal),
+    SceneError(#[from] SceneError),
     /// A scene file cannot be used.
     #[error(transparent)]
     File(#[from] FileProblem),

@@ -3,7 +3,7 @@ use crate::film::{write_exr, write_layered_exr, write_png};
 use crate::plan::Table;
 use crate::render::{Execution, render};
 use crate::scene::{Resolution, printable_message};
-use crate::{Asked, Chapter, Error, Result, Size};
+use crate::{Chapter, Error, Overrides, Result, Size};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub fn run(chapter: Chapter) -> Result {
 /// What the command line of an example asks for.
 #[derive(Debug, Default, PartialEq)]
 struct Wanted {
-    asked: Asked,
+    asked: Overrides,
     file: Option<PathBuf>,
 }
 

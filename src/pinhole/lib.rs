@@ -42,7 +42,7 @@ mod chapter;
 mod error;
 mod example;
 
-pub use chapter::{Asked, AskedSampling, Chapter, Size};
+pub use chapter::{Chapter, Overrides, SamplingOverrides, Size};
 pub use error::{Error, Result};
 pub use example::run;
 

@@ -1,7 +1,7 @@
 //! What is refused of lenses, shutters and motion.
 
 use super::cases::{Case, Field, child_of, edit, good, put};
-use super::{kept, refusal};
+use super::{kept, scene_error};
 use crate::scenes::Eye;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -100,7 +100,7 @@ fn bad_cameras() {
         for (what, words, spoil) in cases {
             let mut scene = good(eye);
             spoil(&mut scene);
-            let message = refusal(&scene, what);
+            let message = scene_error(&scene, what);
             for word in *words {
                 assert!(message.contains(word), "{what}: no {word} in: {message}");
             }
@@ -112,7 +112,7 @@ fn bad_cameras() {
             let mut scene = good(Eye::Perspective);
             set(&mut scene, value);
             let what = format!("{field} of \"{name}\" {shown}");
-            let message = refusal(&scene, &what);
+            let message = scene_error(&scene, &what);
             for word in [&format!("\"{name}\": "), &format!("{field} is "), shown] {
                 assert!(message.contains(word), "{what}: no {word} in: {message}");
             }

@@ -296,7 +296,7 @@ fn coin(w: &mut World, shape: impl Bundle) {
     w.spawn((Name::new("coin"), shape, Matte::default()));
 }
 
-pub const MATTER: &[Case] = &[
+pub const MATERIAL: &[Case] = &[
     ("no material", &["\"ball\"", "material", "missing", "Matte"], |w| {
         let ball = named(w, "ball");
         w.entity_mut(ball).remove::<Matte>();
@@ -349,25 +349,25 @@ pub const MATTER: &[Case] = &[
         edit::<BlinnPhong>(w, "satin", |p| p.exponent = 1e10);
     }),
     ("a mirror brighter than its light", &["mirror \"matter\"", "colour", "(1.1, 1.1, 1.1)", "from 0 to 1"], |w| {
-        matter(w, Mirror { colour: Rgb::grey(1.1) });
+        material(w, Mirror { colour: Rgb::grey(1.1) });
     }),
     ("an index of refraction of 0", &["glass \"matter\"", "ior", "is 0,", "from 0.001 to 1000"], |w| {
-        matter(w, Glass { ior: 0.0, ..Glass::default() });
+        material(w, Glass { ior: 0.0, ..Glass::default() });
     }),
     ("an index of refraction of −1.5", &["glass \"matter\"", "ior", "is -1.5,"], |w| {
-        matter(w, Glass { ior: -1.5, ..Glass::default() });
+        material(w, Glass { ior: -1.5, ..Glass::default() });
     }),
     ("glass that gives light", &["glass \"matter\"", "absorption", "(0, -1, 0)", "from 0"], |w| {
-        matter(w, Glass { absorption: Rgb::new(0.0, -1.0, 0.0), ..Glass::default() });
+        material(w, Glass { absorption: Rgb::new(0.0, -1.0, 0.0), ..Glass::default() });
     }),
     ("metal brighter than its light", &["metal \"matter\"", "colour", "(0, 2, 0)", "from 0 to 1"], |w| {
-        matter(w, Metal { colour: Rgb::new(0.0, 2.0, 0.0), ..Metal::default() });
+        material(w, Metal { colour: Rgb::new(0.0, 2.0, 0.0), ..Metal::default() });
     }),
     ("roughness 1.01", &["metal \"matter\"", "roughness", "is 1.01,", "from 0 to 1"], |w| {
-        matter(w, Metal { roughness: 1.01, ..Metal::default() });
+        material(w, Metal { roughness: 1.01, ..Metal::default() });
     }),
     ("roughness −0.1", &["metal \"matter\"", "roughness", "is -0.1,"], |w| {
-        matter(w, Metal { roughness: -0.1, ..Metal::default() });
+        material(w, Metal { roughness: -0.1, ..Metal::default() });
     }),
     ("a mirror and glass at once", &["\"matter\"", "Mirror and Glass at once", "one material only"], |w| {
         w.spawn((Name::new("matter"), Mirror::default(), Glass::default()));
@@ -433,7 +433,7 @@ fn filter(world: &mut World, filter: Filter) {
 }
 
 /// Matter that no shape is made of; it is checked all the same.
-fn matter(world: &mut World, component: impl Component) {
+fn material(world: &mut World, component: impl Component) {
     world.spawn((Name::new("matter"), component));
 }
 
@@ -500,11 +500,11 @@ pub const FIELDS: &[Field] = &[
     ("colour", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.colour.b = v)),
     ("specular", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.specular.r = v)),
     ("exponent", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.exponent = v)),
-    ("colour", "matter", |w, v| matter(w, Mirror { colour: Rgb::new(0.5, v, 0.5) })),
-    ("ior", "matter", |w, v| matter(w, Glass { ior: v, ..Glass::default() })),
-    ("absorption", "matter", |w, v| matter(w, Glass { absorption: Rgb::new(v, 0.0, 0.0), ..Glass::default() })),
-    ("colour", "matter", |w, v| matter(w, Metal { colour: Rgb::new(0.5, 0.5, v), ..Metal::default() })),
-    ("roughness", "matter", |w, v| matter(w, Metal { roughness: v, ..Metal::default() })),
+    ("colour", "matter", |w, v| material(w, Mirror { colour: Rgb::new(0.5, v, 0.5) })),
+    ("ior", "matter", |w, v| material(w, Glass { ior: v, ..Glass::default() })),
+    ("absorption", "matter", |w, v| material(w, Glass { absorption: Rgb::new(v, 0.0, 0.0), ..Glass::default() })),
+    ("colour", "matter", |w, v| material(w, Metal { colour: Rgb::new(0.5, 0.5, v), ..Metal::default() })),
+    ("roughness", "matter", |w, v| material(w, Metal { roughness: v, ..Metal::default() })),
     ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.r = v)),
     ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.b = v)),
     ("irradiance", "sun", |w, v| edit::<DirectionalLight>(w, "sun", |l| l.irradiance.g = v)),

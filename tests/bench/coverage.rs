@@ -10,7 +10,7 @@ mod coverage;
 #[path = "../report/synthetic.rs"]
 mod synthetic;
 
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole::render::Execution;
 use pinhole::scene::{Resolution, Sampling};
 use pinhole_lab::report::interval::{LEVEL, mean_of};
@@ -42,7 +42,7 @@ fn main() {
 
 fn timers_on_and_off() {
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "18_error_and_time").expect("chapter 18");
-    let asked = Asked { resolution: Some(Resolution { width: 192, height: 108 }), ..Asked::default() };
+    let asked = Overrides { resolution: Some(Resolution { width: 192, height: 108 }), ..Overrides::default() };
     let scene = Box::new(|| chapter.world(&asked));
     let (sampling, stages) = (Sampling::default(), chapter.stages());
     let variant = Variant { name: "18".into(), sampling, stages, scene, reference: 0 };

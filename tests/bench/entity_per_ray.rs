@@ -9,7 +9,7 @@ mod interval;
 
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, peak_memory, render};
 use pinhole::scene::Resolution;
@@ -57,7 +57,7 @@ fn main() {
 fn scene(resolution: Resolution) -> (World, Vec<Stage>) {
     let mut chapter = chapters::all().into_iter().find(|chapter| chapter.name == CHAPTER).expect("the chapter");
     chapter.view = None;
-    (chapter.world(&Asked { resolution: Some(resolution), ..Asked::default() }), chapter.stages())
+    (chapter.world(&Overrides { resolution: Some(resolution), ..Overrides::default() }), chapter.stages())
 }
 
 /// Naive over kit, interleaved ABBA, after a check that the images are the same.
@@ -72,7 +72,7 @@ fn time(resolution: Resolution, pairs: usize, report: &mut String) {
     drop(entities);
 
     let (mut all, mut runs) = (Vec::new(), Vec::new());
-    let (mut kit_ms, mut spawn_ms, mut run_ms) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut pinhole_ms, mut spawn_ms, mut run_ms) = (Vec::new(), Vec::new(), Vec::new());
     for pair in 0..pairs {
         let mut a = (pair % 2 == 0).then(|| cpu(&kit).as_secs_f64() * 1e3);
         let spawned = cpu(&spawn).as_secs_f64() * 1e3;
@@ -82,11 +82,11 @@ fn time(resolution: Resolution, pairs: usize, report: &mut String) {
         let kit = *a.get_or_insert_with(|| cpu(&kit).as_secs_f64() * 1e3);
         all.push(((spawned + ran) / kit).ln());
         runs.push((ran / kit).ln());
-        kit_ms.push(kit);
+        pinhole_ms.push(kit);
         spawn_ms.push(spawned);
         run_ms.push(ran);
     }
-    let [kit, spawn, run] = [kit_ms, spawn_ms, run_ms].map(|mut values| median(&mut values));
+    let [kit, spawn, run] = [pinhole_ms, spawn_ms, run_ms].map(|mut values| median(&mut values));
     let _ = writeln!(report, "the two images are the same to the last bit");
     let _ = writeln!(
         report,

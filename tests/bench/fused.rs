@@ -8,8 +8,9 @@ use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, DirectionalLightTable, FilterTable, ImageShape, MaterialKind, MaterialTable,
-    PinholeLens, PlaneTable, PointLightTable, SamplingTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable,
+    BackgroundTable, CameraAxes, DirectionalLightTable, FilterTable, ImageFrame, MaterialKind, MaterialTable,
+    PerspectiveProjection, PlaneTable, PointLightTable, SamplingTable, ShapeKind, ShapeTable, SphereTable,
+    SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
@@ -18,8 +19,8 @@ use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, 
 use pinhole::sample::{
     Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
 };
-use pinhole::scene::{Filter, Refusal, Sampler};
-use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
+use pinhole::scene::{Filter, Sampler, SceneError};
+use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
 use std::sync::{Mutex, PoisonError};
 
 /// Spheres tested together.
@@ -27,8 +28,8 @@ const LANES: usize = 16;
 
 /// Everything the loop reads.
 pub struct Scene {
-    image: ImageShape,
-    lens: PinholeLens,
+    image: ImageFrame,
+    lens: PerspectiveProjection,
     axes: CameraAxes,
     spheres: SphereTable,
     planes: PlaneTable,
@@ -46,7 +47,7 @@ impl Scene {
     ///
     /// # Panics
     /// When the scene holds a shape that this loop does not know.
-    pub fn extract(world: &World) -> Result<Self, Refusal> {
+    pub fn extract(world: &World) -> Result<Self, SceneError> {
         let kinds = ShapeTable::extract(world)?.kind;
         let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
         assert!(known, "the scenes that are measured hold spheres and planes only");
@@ -189,7 +190,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
 
 #[inline(always)]
 fn blocked(scene: &Scene, light: usize, origin: Vec3, direction: DVec3, distance: f64) -> bool {
-    let reach = f64::from(shadow_reach(distance));
+    let reach = f64::from(shadow_t_max(distance));
     scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, reach, true).1 != NO_SHAPE
 }
 
@@ -199,7 +200,7 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
     let (mut t, mut shape) = (reach, NO_SHAPE);
     for (plane, &normal) in scene.planes.normal.iter().enumerate() {
         let found = plane_t(origin, direction, normal, scene.planes.offset[plane]);
-        narrow(found, scene.planes.shape[plane], &mut t, &mut shape);
+        keep_closest(found, scene.planes.shape[plane], &mut t, &mut shape);
     }
     let spheres = &scene.spheres;
     let count = spheres.x.len();
@@ -211,13 +212,18 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
         let (x, y, z) =
             (&spheres.x[start..start + here], &spheres.y[start..start + here], &spheres.z[start..start + here]);
         let radius = &spheres.radius[start..start + here];
-        for lane in 0..here {
-            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, inverse, radius[lane]);
+        for component in 0..here {
+            near[component] = nearness(
+                DVec3::new(x[component], y[component], z[component]) - origin,
+                direction,
+                inverse,
+                radius[component],
+            );
         }
-        for lane in 0..here {
-            if near[lane] >= 0.0 {
-                let found = sphere_t(origin, direction, spheres.centre(start + lane), radius[lane]);
-                narrow(found, spheres.shape[start + lane], &mut t, &mut shape);
+        for component in 0..here {
+            if near[component] >= 0.0 {
+                let found = sphere_t(origin, direction, spheres.centre(start + component), radius[component]);
+                keep_closest(found, spheres.shape[start + component], &mut t, &mut shape);
             }
         }
         start += LANES;
@@ -226,7 +232,7 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
 }
 
 #[inline(always)]
-fn narrow(found: f64, number: u32, t: &mut f64, shape: &mut u32) {
+fn keep_closest(found: f64, number: u32, t: &mut f64, shape: &mut u32) {
     if found < *t || (found == *t && number < *shape && found < f64::INFINITY) {
         (*t, *shape) = (found, number);
     }

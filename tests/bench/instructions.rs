@@ -9,7 +9,7 @@
 
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
 use pinhole::plan::{Stage, plan};
-use pinhole::render::{Execution, Limits, RenderUnderWay, WHOLE, film_key, render_in_passes};
+use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
 use pinhole::{follow, intersect, rays, shade};
 use std::fs;
@@ -82,7 +82,7 @@ const VARIED: &str = r#"[
 /// Ways of light beyond the first surface, by the kinds of matter and light that are there and no others.
 const FOLLOWED: &str = r#"[
     (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
-        sampling: (samples: 4), integrator: Path(legs: 5, lights: Weighed, roulette: 3)),
+        sampling: (samples: 4), integrator: Path(legs: 5, lights: Mis, roulette: 3)),
     (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
     (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), mirror: ()),
     (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
@@ -99,7 +99,7 @@ fn unlit() -> Vec<Stage> {
     let mut stages = perspective();
     stages.extend([rays::raster_stage(), intersect::start_stage(), intersect::sphere_stage()]);
     stages.extend([intersect::classify_stage(), intersect::sphere_surface_stage()]);
-    stages.extend([shade::start_stage(), shade::flat_stage(), film_stage()]);
+    stages.extend([shade::start_stage(), shade::unlit_stage(), film_stage()]);
     stages
 }
 
@@ -143,12 +143,12 @@ fn followed() -> Vec<Stage> {
     stages.extend([rays::place_samples_stage(), intersect::start_stage(), shade::start_stage()]);
     stages.extend([shade::start_light_stage(), follow::start_paths_stage(), follow::start_scattered_stage()]);
     stages.extend([intersect::sphere_stage(), intersect::plane_stage(), intersect::classify_stage()]);
-    stages.extend([follow::classify_matter_stage(), follow::last_leg_stage()]);
+    stages.extend([follow::classify_materials_stage(), follow::max_depth_stage()]);
     stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
     stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
-    stages.extend([shade::plane_shadow_stage(), follow::weigh_matte_stage(), shade::light_stage()]);
-    stages.extend([follow::weighed_emission_stage(), follow::mirror_stage(), follow::matte_stage()]);
-    stages.extend([follow::roulette_stage(), follow::add_leg_stage(), follow::step_stage()]);
+    stages.extend([shade::plane_shadow_stage(), follow::mis_matte_stage(), shade::light_stage()]);
+    stages.extend([follow::mis_emission_stage(), follow::mirror_stage(), follow::matte_stage()]);
+    stages.extend([follow::roulette_stage(), follow::add_bounce_stage(), follow::step_stage()]);
     stages.extend([follow::follow_stage(), follow::gather_stage(), film_stage()]);
     stages
 }
@@ -178,15 +178,15 @@ fn render_only(words: &[String]) {
     let kept = plan(&world, &offer).expect("a plan");
     assert!(kept.rows.iter().all(|row| row.kept), "a stage is offered that the scene does not need:\n{kept}");
     let execution = Execution { threads: Some(1), ..Execution::default() };
-    let mut under_way = RenderUnderWay::begin(&world, &offer, &execution).expect("a plan");
-    if under_way.is_sampled() {
-        render_in_passes(&mut under_way, &Limits::default(), &(), &mut |_| Ok(())).expect("renders");
-        let key = film_key(&world, &under_way.plan);
-        write_checkpoint(&under_way.film, key, &Path::new(output).with_extension("checkpoint")).expect("a file");
+    let mut in_progress = RenderInProgress::begin(&world, &offer, &execution).expect("a plan");
+    if in_progress.is_sampled() {
+        render_in_passes(&mut in_progress, &Limits::default(), &(), &mut |_| Ok(())).expect("renders");
+        let key = film_key(&world, &in_progress.plan);
+        write_checkpoint(&in_progress.film, key, &Path::new(output).with_extension("checkpoint")).expect("a file");
     } else {
-        under_way.advance(WHOLE, &()).expect("renders");
+        in_progress.advance(WHOLE, &()).expect("renders");
     }
-    write_exr(&under_way.finish().film, Path::new(output)).expect("a file");
+    write_exr(&in_progress.finish().film, Path::new(output)).expect("a file");
 }
 
 /// Prints a case's slopes, and gives the ratio of instructions.

@@ -13,8 +13,8 @@ mod interval;
 mod scenes;
 
 use interval::interval;
-use pinhole::render::{Execution, RenderUnderWay};
-use pinhole::scene::{Filter, LightSampling, LightTracing, Sampler, Sampling};
+use pinhole::render::{Execution, RenderInProgress};
+use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling};
 use pinhole_lab::measure::image_error::{Numbers, image_error};
 use pinhole_lab::measure::image_file::read_numbers;
 use pinhole_lab::report::distribution::student_share;
@@ -70,7 +70,7 @@ impl Options {
 
 /// One render: seconds, and the image.
 fn ours(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
-    let mut world = public(scene, LightSampling::Weighed);
+    let mut world = public(scene, LightStrategy::Mis);
     let camera = named(&mut world, "camera");
     // The references have each sample in its own pixel only.
     let filter = Filter::Box { radius: 0.5 };
@@ -79,7 +79,7 @@ fn ours(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sample
         world.entity_mut(camera).insert(LightTracing { paths });
     }
     let started = Instant::now();
-    let mut render = RenderUnderWay::begin(&world, &offer(), &Execution::default()).expect("begins");
+    let mut render = RenderInProgress::begin(&world, &offer(), &Execution::default()).expect("begins");
     render.advance(render.steps(), &()).expect("renders");
     let seconds = started.elapsed().as_secs_f64();
     (seconds, numbers(&render.finish().film))

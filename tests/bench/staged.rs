@@ -13,11 +13,11 @@ mod sunflower;
 
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
-use pinhole::extract::ImageShape;
+use pinhole::extract::ImageFrame;
 use pinhole::plan::Table;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Resolution, Sampler};
-use pinhole::{Asked, AskedSampling, Chapter};
+use pinhole::{Chapter, Overrides, SamplingOverrides};
 
 fn main() {
     let options = Options::read();
@@ -56,7 +56,7 @@ impl Options {
     }
 
     fn world(&self, chapter: &Chapter, statistics: bool) -> World {
-        chapter.world(&Asked { resolution: Some(self.size), statistics, ..Asked::default() })
+        chapter.world(&Overrides { resolution: Some(self.size), statistics, ..Overrides::default() })
     }
 }
 
@@ -68,8 +68,8 @@ const SAMPLES: u32 = 4;
 fn sampled(sampler: Sampler, options: &Options) {
     let size = Resolution { width: options.size.width / 2, height: options.size.height / 2 };
     let chapter = sunflower::sunflower();
-    let sampling = AskedSampling { samples: Some(SAMPLES), sampler: Some(sampler), ..AskedSampling::default() };
-    let world = chapter.world(&Asked { resolution: Some(size), sampling, ..Asked::default() });
+    let sampling = SamplingOverrides { samples: Some(SAMPLES), sampler: Some(sampler), ..SamplingOverrides::default() };
+    let world = chapter.world(&Overrides { resolution: Some(size), sampling, ..Overrides::default() });
     let word = Sampler::ALL.into_iter().find(|(_, other)| *other == sampler).expect("a sampler's name").0;
     for threads in [1, 2] {
         let ms = compare(&chapter, &world, threads, &format!("{SAMPLES} {word} samples"), options);
@@ -84,7 +84,7 @@ fn sampled(sampler: Sampler, options: &Options) {
 fn compare(chapter: &Chapter, world: &World, threads: usize, work: &str, options: &Options) -> f64 {
     let offer = chapter.stages();
     let execution = Execution { threads: Some(threads), ..Execution::default() };
-    let size = ImageShape::extract(world).map(|image| [image.width, image.height]).expect("a size");
+    let size = ImageFrame::extract(world).map(|image| [image.width, image.height]).expect("a size");
     let staged = || render(world, &offer, &execution, &()).expect("renders").film;
     let fused = || fused::render(world, threads);
     assert!(staged().tiles == fused().tiles, "the two images differ");

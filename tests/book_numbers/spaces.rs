@@ -1,6 +1,6 @@
 //! The numbers of pages 06 to 08: NDC, the screen, the field of view.
 
-use super::{chapter, page_says, refusal};
+use super::{chapter, page_says, scene_error};
 use bevy_ecs::prelude::*;
 use pinhole::extract::{SMALLEST_PIXEL, tan_half, validate};
 use pinhole::intersect::{Hits, NO_SHAPE};
@@ -9,7 +9,7 @@ use pinhole::rays::{NdcPoints, RasterPoints};
 use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::Radiance;
-use pinhole::{Asked, extract};
+use pinhole::{Overrides, extract};
 use pinhole_lab::naive::{field_of_view, ndc};
 
 #[test]
@@ -27,7 +27,7 @@ fn the_naive_ways_to_ndc_are_as_far_off_as_page_06_says() {
     assert!(ndc::raster_of_sample(65_535, 1.0 - ulp * 0.51) < 65_536.0);
     assert_eq!(ulp / 2.0, 1.0 / 512.0);
     page_says("06_ndc.md", "One sample in 512 is rounded there.");
-    page_says("06_ndc.md", &refusal("06_ndc", |camera| _ = camera.insert(Resolution { width: 0, height: 240 })));
+    page_says("06_ndc.md", &scene_error("06_ndc", |camera| _ = camera.insert(Resolution { width: 0, height: 240 })));
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn fill_with_nan(mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
 #[test]
 fn a_pixel_that_is_nowhere_shows_the_background_as_page_06_says() {
     let chapter = chapter("05_pinhole");
-    let one = Asked { resolution: Some(Resolution { width: 1, height: 1 }), ..Asked::default() };
+    let one = Overrides { resolution: Some(Resolution { width: 1, height: 1 }), ..Overrides::default() };
     let naive = Stage::new("Divide by the last pixel", TileSystems::Ndc, fill_with_nan)
         .reads::<RasterPoints>()
         .writes::<NdcPoints>();
@@ -75,11 +75,11 @@ fn a_pixel_that_is_nowhere_shows_the_background_as_page_06_says() {
 fn angles_are_taken_and_refused_as_page_08_says() {
     let page = "08_field_of_view.md";
     let angle = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
-    page_says(page, &refusal("08_field_of_view", |camera| _ = camera.insert(angle(1e-4))));
+    page_says(page, &scene_error("08_field_of_view", |camera| _ = camera.insert(angle(1e-4))));
     let lines = (2.0 * tan_half(Degrees(0.01)) / SMALLEST_PIXEL) as u32;
     page_says(page, &format!("0.01° is taken for an image of up to {lines} lines"));
     for (height, taken) in [(lines, true), (lines + 1, false)] {
-        let mut world = chapter("08_field_of_view").world(&Asked::default());
+        let mut world = chapter("08_field_of_view").world(&Overrides::default());
         let camera = extract::camera_entity(&world).expect("a camera");
         world.entity_mut(camera).insert((angle(0.01), Resolution { width: 64, height }));
         assert_eq!(validate(&world).is_ok(), taken, "{height} lines");

@@ -3,7 +3,7 @@
 use super::page_says;
 use pinhole::film::{Curve, byte_from_linear};
 use pinhole_lab::naive::path::{
-    light_of_capped_way, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
+    light_of_capped_path, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
 };
 
 /// Slices of the half ball, or rings of the disk.
@@ -53,7 +53,7 @@ fn directions_vary_as_page_22_says() {
 #[test]
 fn a_cap_loses_what_page_25_says() {
     let page = "25_path_tracing.md";
-    let left = |albedo: f64| light_of_capped_way(albedo, 64) * (1.0 - albedo);
+    let left = |albedo: f64| light_of_capped_path(albedo, 64) * (1.0 - albedo);
     page_says(page, &format!("{:.3} of the light is left. At 0.9999 it is {:.4}.", left(0.99), left(0.9999)));
 }
 

@@ -31,8 +31,8 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn changed(folder: &Path) -> [Snapshots; 2] {
     let kept = Snapshots::kept(folder);
     let chapter = chapters::all().into_iter().find(|chapter| chapter.name == CHAPTER).expect("a chapter");
-    let planted = pinhole_lab::review::planted::Planted::named("half-pixel").expect("a bug");
-    let mut now = planted.snapshots(&chapter).expect("renders");
+    let mutation = pinhole_lab::review::mutation::Mutation::named("half-pixel").expect("a bug");
+    let mut now = mutation.snapshots(&chapter).expect("renders");
     now.plan = now.plan.replace("every picture needs it", "every picture needs it dearly");
     assert!(kept.probes != now.probes && kept.picture != now.picture);
     [kept, now]

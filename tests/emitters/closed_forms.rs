@@ -2,7 +2,7 @@
 
 use super::*;
 use pinhole::shade::emitter::{
-    parallelogram_area_density, parallelogram_area_point, triangle_area_density, triangle_area_point,
+    parallelogram_area_pdf, parallelogram_area_point, triangle_area_pdf, triangle_area_point,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -96,21 +96,21 @@ fn areas_shine_as_lambert_says() {
     for height in [30.0, 5.0, 1.0, 0.5] {
         for aside in [0.0, 0.5, 1.1, 3.0] {
             let (centre, from) = (up * height, x * aside + z * 0.1);
-            let Emitter::Rectangle(flat) = rectangle(centre, [x, x * 0.3 + z * 0.5], -up) else { unreachable!() };
+            let Emitter::Rectangle(planar) = rectangle(centre, [x, x * 0.3 + z * 0.5], -up) else { unreachable!() };
             let corners = [centre - x, centre + x, centre + z * 0.7];
             let by_area = Received::by(
-                &|u| parallelogram_area_point(&flat, from, u),
-                &|to| parallelogram_area_density(&flat, to),
+                &|u| parallelogram_area_point(&planar, from, u),
+                &|to| parallelogram_area_pdf(&planar, to),
                 up,
                 4 * RAYS,
                 cases,
             );
-            let truth = polygon_irradiance(&corners_of(&Emitter::Rectangle(flat)), from, up);
+            let truth = polygon_irradiance(&corners_of(&Emitter::Rectangle(planar)), from, up);
             check(&format!("rectangle {height} above, {aside} aside"), &by_area, truth);
             worst = worst.max(by_area.off(truth).abs());
             let by_area = Received::by(
                 &|u| triangle_area_point(&corners, from, u),
-                &|to| triangle_area_density(&corners, to),
+                &|to| triangle_area_pdf(&corners, to),
                 up,
                 4 * RAYS,
                 cases,

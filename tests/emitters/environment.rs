@@ -6,7 +6,7 @@ use glam::DVec2;
 use pinhole::extract::{EnvironmentLightTable, EnvironmentTable, Texels};
 use pinhole::plan::Table;
 use pinhole::scene::{Degrees, Environment, PerspectiveCamera};
-use pinhole::shade::{direction_of, environment_density, environment_direction, environment_radiance};
+use pinhole::shade::{direction_of, environment_direction, environment_pdf, environment_radiance};
 use std::f64::consts::{PI, TAU};
 
 /// The evening of chapter 16, turned.
@@ -49,7 +49,7 @@ fn turned(environment: &EnvironmentTable, there: DVec3) -> DVec3 {
 }
 
 #[test]
-fn directions_fall_as_their_densities_say() {
+fn directions_fall_as_their_pdfs_say() {
     let mut images = vec![("evening", evening(0.0)), ("evening, turned", evening(77.0))];
     for (width, height, at) in [(16, 8, [3, 4]), (16, 8, [0, 0]), (16, 8, [15, 7]), (7, 3, [6, 0]), (5, 1, [2, 0])] {
         images.push(("a lamp", lamp(width, height, at)));
@@ -60,7 +60,7 @@ fn directions_fall_as_their_densities_say() {
         let light = EnvironmentLightTable::new(&environment.image);
         let fine = if name.starts_with("evening") { 4 } else { 40 };
         // Cells end in the middles of texels, so an even number of pieces a texel does not cross them.
-        let whole = summed(environment, fine, |direction| environment_density(&light, environment.turn, direction));
+        let whole = summed(environment, fine, |direction| environment_pdf(&light, environment.turn, direction));
         assert!((whole - 1.0).abs() < 1e-9, "{name}: densities sum to {whole}");
         let mut worst = 0.0_f64;
         let normals = [DVec3::Y, DVec3::X, DVec3::new(-0.3, -0.8, 0.5).normalize()];
@@ -68,13 +68,13 @@ fn directions_fall_as_their_densities_say() {
         const RAYS: u32 = 300_000;
         for number in 0..RAYS {
             let mut draws = Draws::new(300 + index as u64, u64::from(number));
-            let (direction, density) = environment_direction(&light, environment.turn, [draws.unit(), draws.unit()]);
-            assert!((direction.length() - 1.0).abs() < 1e-12 && density > 0.0, "{name}: {direction} {density}");
-            let again = environment_density(&light, environment.turn, direction);
-            worst = worst.max((again / density - 1.0).abs());
+            let (direction, pdf) = environment_direction(&light, environment.turn, [draws.unit(), draws.unit()]);
+            assert!((direction.length() - 1.0).abs() < 1e-12 && pdf > 0.0, "{name}: {direction} {pdf}");
+            let again = environment_pdf(&light, environment.turn, direction);
+            worst = worst.max((again / pdf - 1.0).abs());
             let red = environment_radiance(environment, direction)[0];
             for (normal, [sum, squares]) in normals.iter().zip(&mut received) {
-                let told = red * normal.dot(direction).max(0.0) / density;
+                let told = red * normal.dot(direction).max(0.0) / pdf;
                 *sum += told;
                 *squares += told * told;
             }
@@ -102,7 +102,7 @@ fn directions_fall_as_their_densities_say() {
 
 /// What is black all round is never chosen, and what is not black may be.
 #[test]
-fn only_black_cells_have_no_density() {
+fn only_black_cells_have_no_pdf() {
     let mut compared = 0;
     for (width, height) in [(8, 4), (7, 5), (1, 2), (3, 1)] {
         for at in 0..width * height {
@@ -111,8 +111,8 @@ fn only_black_cells_have_no_density() {
             for number in 0..2000 {
                 let direction = Draws::new(400, number).unit_vector();
                 let shines = environment_radiance(&environment, direction)[0] > 0.0;
-                let density = environment_density(&light, environment.turn, direction);
-                assert!(density > 0.0 || !shines, "{width} × {height}, lamp {at}: light from {direction} is missed");
+                let pdf = environment_pdf(&light, environment.turn, direction);
+                assert!(pdf > 0.0 || !shines, "{width} × {height}, lamp {at}: light from {direction} is missed");
                 compared += 1;
             }
         }

@@ -102,9 +102,9 @@ fn a_floor_is_as_bright_as_closed_forms_say() {
         for (sides, share) in [(DQuat::IDENTITY, 1.0), (DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0), 0.0)] {
             let mut world = floor(Sampler::Independent);
             spawn(&mut world, Emissive { radiance: Rgb::grey(2.0), sides: Sides::Front });
-            let flat = matches!(name, "disk" | "square" | "square of two triangles");
+            let planar = matches!(name, "disk" | "square" | "square of two triangles");
             let lamps: Vec<Entity> = world.query_filtered::<Entity, With<Emissive>>().iter(&world).collect();
-            if flat && share == 0.0 {
+            if planar && share == 0.0 {
                 // Turned over about an axis through its middle at its own height, and so in place.
                 for lamp in lamps {
                     let mut placement = world.get_mut::<Placement>(lamp).expect("placed");
@@ -164,7 +164,7 @@ fn the_plan_tells_what_is_aimed_at() {
     world.spawn((Name::new("coal"), Sphere::default(), Emissive { radiance: Rgb::BLACK, ..Emissive::default() }));
     let row = |world: &World| {
         let plan = plan(world, &offer()).expect("plans");
-        let row = plan.rows.iter().find(|row| row.stage == "Aim at lights with area").expect("on offer").clone();
+        let row = plan.rows.iter().find(|row| row.stage == "Sample area lights").expect("on offer").clone();
         (row.kept, row.reason)
     };
     let (kept, reason) = row(&world);

@@ -15,7 +15,7 @@ use pinhole::plan::{Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
 use pinhole::shade::emitter::point_on;
-use pinhole::shade::{LightDensities, LightRays, ShadowHits, aim_at_area_lights, area_light_density, start_shadows};
+use pinhole::shade::{LightPdfs, LightRays, ShadowHits, area_light_pdf, sample_area_lights, start_shadows};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Surfaces at once.
@@ -40,7 +40,7 @@ fn tile_world(scene: &World) -> (World, Entity) {
         Surfaces::default(),
         MaterialRows::default(),
         LightRays::default(),
-        LightDensities::default(),
+        LightPdfs::default(),
         ShadowHits::default(),
     );
     let tile = world.spawn((Tile { x: 0, y: 0, width: 32, height: 32 }, SampleNumber(0), columns)).id();
@@ -58,8 +58,8 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     }
     entity.get_mut::<MaterialRows>().expect("rows").row = (0..surfaces.len() as u32).collect();
     entity.get_mut::<LightRays>().expect("rays").clear();
-    entity.get_mut::<LightDensities>().expect("densities").clear();
-    world.run_system_once(aim_at_area_lights).expect("runs");
+    entity.get_mut::<LightPdfs>().expect("densities").clear();
+    world.run_system_once(sample_area_lights).expect("runs");
     world.run_system_once(start_shadows).expect("runs");
     world.run_system_once(intersect_spheres::<LightRays, ShadowHits>).expect("runs");
     world.run_system_once(intersect_disks::<LightRays, ShadowHits>).expect("runs");
@@ -69,7 +69,7 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     world.run_system_once(intersect_planes::<LightRays, ShadowHits>).expect("runs");
     let entity = world.entity(tile);
     let rays = entity.get::<LightRays>().expect("rays");
-    assert_eq!(entity.get::<LightDensities>().expect("densities").rows(), rays.rows());
+    assert_eq!(entity.get::<LightPdfs>().expect("densities").rows(), rays.rows());
     (rays.rows(), entity.get::<ShadowHits>().expect("hits").shape.clone())
 }
 
@@ -148,11 +148,11 @@ fn no_light_stands_in_its_own_way() {
                 .collect();
             for sample in 0..2 {
                 let (rays, met) = traced(&mut world, tile, &surfaces, sample);
-                let in_the_way = met.iter().filter(|&&shape| shape != NO_SHAPE).count();
+                let occluders = met.iter().filter(|&&shape| shape != NO_SHAPE).count();
                 // Of several, one may hide the other.
                 if lights.emitter.len() == 1 {
-                    assert_eq!(in_the_way, 0, "{name}, case {case}, size {size:e} at {far_off}");
-                    blocked += in_the_way;
+                    assert_eq!(occluders, 0, "{name}, case {case}, size {size:e} at {far_off}");
+                    blocked += occluders;
                 }
                 sent += rays;
             }
@@ -197,7 +197,7 @@ fn what_stands_before_a_light_hides_it() {
 
 /// The density beside each ray is the one that a ray which meets the light by chance is told.
 #[test]
-fn both_ways_to_a_light_know_one_density() {
+fn both_ways_to_a_light_know_one_pdf() {
     let (mut compared, mut worst) = (0, 0.0_f64);
     for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
         let mut draws = Draws::new(2500, index as u64);
@@ -205,7 +205,7 @@ fn both_ways_to_a_light_know_one_density() {
             Placement { position: DVec3::new(0.0, 4.0, 0.0), orientation: turned(&mut draws), ..Placement::default() };
         let scene = lit_scene(lamp, at, 1.0);
         let lights = AreaLightTable::extract(&scene).expect("lights");
-        let chances: f64 = lights.chance.iter().sum();
+        let chances: f64 = lights.random.iter().sum();
         assert_eq!(chances, 1.0);
         let (mut world, tile) = tile_world(&scene);
         let surfaces: Vec<Surface> = (0..ROWS)
@@ -217,20 +217,19 @@ fn both_ways_to_a_light_know_one_density() {
             .collect();
         traced(&mut world, tile, &surfaces, 3);
         let entity = world.entity(tile);
-        let (rays, densities) =
-            (entity.get::<LightRays>().expect("rays"), entity.get::<LightDensities>().expect("densities"));
+        let (rays, pdfs) = (entity.get::<LightRays>().expect("rays"), entity.get::<LightPdfs>().expect("densities"));
         for ray in 0..rays.rows() {
             let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = rays.direction_of(ray);
             let at = from + direction * f64::from(rays.reach[ray]);
-            let told = |light| area_light_density(&lights, light, from, at);
-            let nearest = (0..lights.emitter.len()).map(|light| (told(light) / densities.density[ray] - 1.0).abs());
+            let told = |light| area_light_pdf(&lights, light, from, at);
+            let nearest = (0..lights.emitter.len()).map(|light| (told(light) / pdfs.pdf[ray] - 1.0).abs());
             let off = nearest.fold(f64::INFINITY, f64::min);
             // The direction is rounded to f32 in between, which at a disk's ends, where its density grows without end,
             // is much; from afar a density goes with the square of the distance, and the reach ends short of the light.
             // Where a flat light is seen at a slant, the rounding counts by as much more as it is slanted.
             let slant = match &lights.emitter[0] {
-                Emitter::Rectangle(flat) => flat.normal.dot(direction).abs(),
+                Emitter::Rectangle(planar) => planar.normal.dot(direction).abs(),
                 Emitter::Triangle { normal, .. } => normal.dot(direction).abs(),
                 _ => 1.0,
             };

@@ -86,10 +86,10 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(without_pi), "π is missing"),
     ("10_light_and_shadow", Attempt::ReflectedRadiance(not_a_number), "no number"),
-    ("11_conventions", Attempt::OursFromTheirs(|v, _, _, _| v), "as it is"),
-    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "wrong way"),
-    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], r, u, _| [s(r, x), s(u, y), z]), "z is never"),
-    ("11_conventions", Attempt::OursFromTheirs(|[x, y, z], _, u, a| [x, s(u, y), s(!a, z)]), "x is never"),
+    ("11_conventions", Attempt::PinholeFromTheirs(|v, _, _, _| v), "as it is"),
+    ("11_conventions", Attempt::PinholeFromTheirs(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "wrong way"),
+    ("11_conventions", Attempt::PinholeFromTheirs(|[x, y, z], r, u, _| [s(r, x), s(u, y), z]), "z is never"),
+    ("11_conventions", Attempt::PinholeFromTheirs(|[x, y, z], _, u, a| [x, s(u, y), s(!a, z)]), "x is never"),
     ("12_how_it_is_built", Attempt::Kept(|stages, _| only(stages, |stage| stage.needed)), "left out"),
     ("12_how_it_is_built", Attempt::Kept(forward), "later"),
     ("12_how_it_is_built", Attempt::Kept(backward), "last to first"),
@@ -174,15 +174,15 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("17_sampling", Attempt::TentOffset(|u, _| super::solutions::sampling::tent_offset(u, 1.0)), "radius is left out"),
     ("17_sampling", Attempt::TentOffset(|u, r| r * (1.0 - (1.0 - u).sqrt())), "on one side"),
     ("17_sampling", Attempt::TentOffset(|u, r| super::solutions::sampling::tent_offset(1.0 - u, r)), "swapped"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|_, _, _, a| 1.0 / a), "per unit of area"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 0.0)), "cosine at the light"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 2.0, 1.0)), "multiplied by"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 0.0, -1.0)), "distance is missing"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, a, 1.0, -1.0)), "not squared"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(signed_density), "negative density"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(|f, t, n, a| signed_density(f, t, n, a).max(0.0)), "has none"),
-    ("21_soft_shadows", Attempt::SolidAngleDensity(edge_on), "1 / 0"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|_, _, _, a| 1.0 / a), "per unit of area"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| fills(f, t, n, a, 2.0, 0.0)), "cosine at the light"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| fills(f, t, n, a, 2.0, 1.0)), "multiplied by"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| fills(f, t, n, a, 0.0, -1.0)), "distance is missing"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| fills(f, t, n, a, 1.0, -1.0)), "not squared"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(signed_pdf), "negative density"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(|f, t, n, a| signed_pdf(f, t, n, a).max(0.0)), "has none"),
+    ("21_soft_shadows", Attempt::SolidAnglePdf(edge_on), "1 / 0"),
     (
         "22_ambient_occlusion",
         Attempt::CosineDirection(|u, v| raised(u, TAU * v, (1.0 - u * u).sqrt())),
@@ -215,11 +215,11 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
         "points down",
     ),
     ("22_ambient_occlusion", Attempt::CosineDirection(sine_first), "swapped"),
-    ("25_path_tracing", Attempt::AfterRoulette(|s, u| if u < chance(s) { s } else { [0.0; 3] }), "is lost"),
-    ("25_path_tracing", Attempt::AfterRoulette(|s, _| s.map(|part| part / chance(s))), "nothing ever ends"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, u| if u < random(s) { s } else { [0.0; 3] }), "is lost"),
+    ("25_path_tracing", Attempt::AfterRoulette(|s, _| s.map(|part| part / random(s))), "nothing ever ends"),
     (
         "25_path_tracing",
-        Attempt::AfterRoulette(|s, u| if u < chance(s) { [0.0; 3] } else { divided(s, chance(s)) }),
+        Attempt::AfterRoulette(|s, u| if u < random(s) { [0.0; 3] } else { divided(s, random(s)) }),
         "two ends are swapped",
     ),
     ("25_path_tracing", Attempt::AfterRoulette(without_most), "at most 1"),
@@ -244,15 +244,15 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| p * p / (p * p + q * q)), "overflow"),
     ("26_choosing_samples", Attempt::PowerHeuristic(|p, q| 1.0 / (1.0 + (q / p) * (q / p))), "divided by 0"),
     ("26_choosing_samples", Attempt::PowerHeuristic(|_, _| 0.5), "counts half"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 4)), "not cos⁴"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 1)), "not cos:"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 2, 0)), "cos³ θ is missing"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 1, 3)), "its side squared"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, 2.0 * t / h, 0, 3)), "area A is missing"),
-    ("27_caustics", Attempt::PixelShare(|point, t, h| shared(point, t / h, 2, 3)), "not tan_half"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, 2.0 * t / h, 2, 4)), "not cos⁴"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, 2.0 * t / h, 2, 1)), "not cos:"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, 2.0 * t / h, 2, 0)), "cos³ θ is missing"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, 2.0 * t / h, 1, 3)), "its side squared"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, 2.0 * t / h, 0, 3)), "area A is missing"),
+    ("27_caustics", Attempt::PixelFraction(|point, t, h| shared(point, t / h, 2, 3)), "not tan_half"),
     (
         "27_caustics",
-        Attempt::PixelShare(|[x, y, z], t, h| {
+        Attempt::PixelFraction(|[x, y, z], t, h| {
             let side = 2.0 * t / h;
             (x * x + y * y + z * z).sqrt() / (side * side * -z * z * z)
         }),
@@ -260,7 +260,7 @@ pub const ALL: &[(&str, Attempt, &str)] = &[
     ),
     (
         "27_caustics",
-        Attempt::PixelShare(|point, t, h| dot(point, point) * shared(point, 2.0 * t / h, 2, 3)),
+        Attempt::PixelFraction(|point, t, h| dot(point, point) * shared(point, 2.0 * t / h, 2, 3)),
         "1/d² is missing",
     ),
 ];
@@ -284,7 +284,7 @@ fn fills(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64, distances: f
     if cosine == 0.0 { 0.0 } else { distance.powf(distances) * cosine.abs().powf(cosines) / area }
 }
 
-fn signed_density(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
+fn signed_pdf(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
     let (_, cosine) = distance_and_cosine(from, at, normal);
     fills(from, at, normal, area, 2.0, -1.0) * -cosine.signum()
 }
@@ -668,7 +668,7 @@ fn sine_first(u: f64, v: f64) -> [f64; 3] {
     [u.sqrt() * (TAU * v).sin(), u.sqrt() * (TAU * v).cos(), (1.0 - u).sqrt()]
 }
 
-fn chance(share: [f64; 3]) -> f64 {
+fn random(share: [f64; 3]) -> f64 {
     without_cap(share).min(1.0)
 }
 
@@ -676,8 +676,8 @@ fn without_cap(share: [f64; 3]) -> f64 {
     share[0].max(share[1]).max(share[2])
 }
 
-fn kept_with(chance: f64, share: [f64; 3], u: f64) -> [f64; 3] {
-    if u < chance { divided(share, chance) } else { [0.0; 3] }
+fn kept_with(random: f64, share: [f64; 3], u: f64) -> [f64; 3] {
+    if u < random { divided(share, random) } else { [0.0; 3] }
 }
 
 fn without_most(share: [f64; 3], u: f64) -> [f64; 3] {

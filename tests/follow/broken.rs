@@ -39,7 +39,7 @@ fn off(name: &str, stages: &[Stage]) -> f64 {
 #[test]
 fn mistakes_are_noticed_where_theory_knows_the_answer() {
     let alike = |u| DVec3::from(uniform_direction(u));
-    let matte = |direction, share| instead(scatter_matte_by(MatteWay { direction, share }));
+    let matte = |direction, share| instead(scatter_matte_by(MatteSample { direction, share }));
     let pentagon = "pentagon of triangles, met by chance";
     let mistakes: Vec<(&str, &str, Vec<Stage>)> = vec![
         ("19, the wrong density", "rough metal, α = 1, seen squarely", instead(metal_counted_as_matte())),
@@ -92,7 +92,7 @@ fn mistakes_are_kept_by_the_plan() {
     ] {
         let scene = chapters::all().into_iter().find(|own| own.name == chapter).expect("a chapter");
         let name = stage.name;
-        let plan = pinhole::plan::plan(&scene.world(&Asked::default()), &instead(stage)).expect("plans");
+        let plan = pinhole::plan::plan(&scene.world(&Overrides::default()), &instead(stage)).expect("plans");
         assert!(kept(&plan, name), "{chapter}: {name}");
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use pinhole::film::{read_checkpoint, write_checkpoint};
 use pinhole::follow::fresnel;
 use pinhole::look::{Preflight, preflight};
-use pinhole::render::{RenderUnderWay, Worlds, prepare, steps_of};
+use pinhole::render::{RenderInProgress, Worlds, prepare, steps_of};
 use pinhole::scene::*;
 use pinhole_lab::naive::caustics::{join_without_area, join_without_cosine, refract_as_radiance};
 use scenes::FilmBits;
@@ -39,9 +39,9 @@ fn mean_of(make: &dyn Fn() -> World, offer: &[Stage], samples: u32, seeds: u64) 
 }
 
 /// A camera with paths and light tracing that looks from `eye` at a square of the ground or the ceiling this wide.
-fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, perspective: bool, legs: u32) {
+fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, perspective: bool, max_depth: u32) {
     let look = LookAt { eye, target, up: DVec3::Z };
-    let integrator = Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 0 };
+    let integrator = Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 0 };
     let size = Resolution { width: 16, height: 16 };
     let mut camera = world.spawn((Name::new("camera"), look, integrator, size, LightTracing::default()));
     if perspective {
@@ -203,10 +203,8 @@ fn a_factor_that_is_forgotten_is_found() {
 /// Whether light from the lamps brings what the camera's paths alone bring, to every block of pixels.
 fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
     const SETS: u64 = 12;
-    let alone = renders(make, LightSampling::Weighed, 6 * samples, 0..SETS);
-    for (number, lights) in
-        [LightSampling::ByChance, LightSampling::Aimed, LightSampling::Weighed].into_iter().enumerate()
-    {
+    let alone = renders(make, LightStrategy::Mis, 6 * samples, 0..SETS);
+    for (number, lights) in [LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis].into_iter().enumerate() {
         let first = SETS * (number as u64 + 1);
         let traced = renders(&traced(make), lights, samples, first..first + SETS);
         assert_agree(&format!("{name}, {lights:?}"), &alone, &traced, 8);
@@ -226,7 +224,7 @@ fn light_from_lamps_brings_what_the_camera_s_paths_bring() {
     };
     agrees("caustics through a lens", &through_a_lens, 16);
     let make = || {
-        let mut world = public("cornell-glass", LightSampling::Weighed);
+        let mut world = public("cornell-glass", LightStrategy::Mis);
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Resolution { width: 32, height: 32 });
         world
@@ -259,19 +257,20 @@ fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
                 [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
             {
                 let execution = Execution { threads: Some(threads), tile_side, worlds, ..Execution::default() };
-                let mut under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
+                let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
                 for &step in cut.iter().chain([&steps_of(5)]) {
-                    under_way.advance(step, &()).expect("goes on");
+                    in_progress.advance(step, &()).expect("goes on");
                     if number > 0 && step < steps_of(5) {
                         let path = folder.path().join("checkpoint");
-                        write_checkpoint(&under_way.film, 27, &path).expect("written");
-                        let kept = read_checkpoint(27, &under_way.film, false, &path).expect("read");
-                        assert!(kept == under_way.film, "a checkpoint holds all of a film");
-                        under_way = RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins");
-                        under_way.take(kept);
+                        write_checkpoint(&in_progress.film, 27, &path).expect("written");
+                        let kept = read_checkpoint(27, &in_progress.film, false, &path).expect("read");
+                        assert!(kept == in_progress.film, "a checkpoint holds all of a film");
+                        in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+                        in_progress.take(kept);
                     }
                 }
-                FilmBits::of(&under_way.film).assert_is(&whole, &format!("{threads} threads, {worlds:?}, cut {cut:?}"));
+                FilmBits::of(&in_progress.film)
+                    .assert_is(&whole, &format!("{threads} threads, {worlds:?}, cut {cut:?}"));
                 tried += 1;
             }
         }
@@ -282,14 +281,14 @@ fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
 #[test]
 fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
     let stages = [
-        "Start rays on lights",
-        "Keep to mirrors and glass at first",
-        "Aim at the camera",
-        "Splat light on the film",
-        "Scatter light off matte surfaces",
-        "Reflect or refract light at glass",
-        "Note whose caustics come from the lights",
-        "Count light by surfaces' own normals",
+        "Sample emitted rays",
+        "Keep specular bounces first",
+        "Connect to the camera",
+        "Splat to the film",
+        "Sample BSDFs: matte, from lights",
+        "Sample BSDFs: glass, from lights",
+        "Mark caustic paths",
+        "Correct for shading normals",
     ];
     let columns = ["light power", "splats", "caustic path"];
     let tables = ["light paths", "join to the camera"];

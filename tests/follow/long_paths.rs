@@ -7,12 +7,12 @@ use pinhole::scene::*;
 use std::time::{Duration, Instant};
 
 /// A camera in a closed ball that absorbs nothing.
-fn closed_ball(legs: u32, matter: impl Bundle) -> World {
+fn closed_ball(max_depth: u32, material: impl Bundle) -> World {
     let mut world = World::new();
     let size = Resolution { width: 24, height: 16 };
-    let integrator = Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 0 };
+    let integrator = Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 0 };
     world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 1.0, 6.0), size, integrator));
-    world.spawn((Name::new("ball"), Sphere { radius: 100.0 }, matter));
+    world.spawn((Name::new("ball"), Sphere { radius: 100.0 }, material));
     let lamp = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
     world.spawn((Name::new("lamp"), Sphere { radius: 1.0 }, Placement::at(0.0, 0.0, 90.0), lamp));
     world
@@ -50,7 +50,7 @@ fn what_does_not_end_is_said_in_time() {
         "{told:?}"
     );
     let grey = closed_ball(101, Matte { colour: Rgb::grey(0.5) });
-    let camera = Integrator::Path { legs: 101, lights: LightSampling::Weighed, roulette: 5 };
+    let camera = Integrator::Path { max_depth: 101, lights: LightStrategy::Mis, roulette: 5 };
     let mut grey = grey;
     let entity = named(&mut grey, "camera");
     grey.entity_mut(entity).insert(camera);
@@ -61,27 +61,27 @@ fn what_does_not_end_is_said_in_time() {
 /// Four times the bounces take about four times as long to be traced and printed, not sixteen times.
 #[test]
 fn a_trace_grows_with_its_bounces_and_no_faster() {
-    let traced = |legs| {
-        let scene = closed_ball(legs, silver());
+    let traced = |max_depth| {
+        let scene = closed_ball(max_depth, silver());
         let began = Instant::now();
         let mut trace = trace(&scene, &offer(), TracePixel { x: 3, y: 3 }).expect("traced");
         trace.prints_all = true;
         let text = trace.to_string();
         (began.elapsed(), trace, text)
     };
-    let fastest = |legs| (0..3).map(|_| traced(legs).0).min().expect("three");
+    let fastest = |max_depth| (0..3).map(|_| traced(max_depth).0).min().expect("three");
     let times = [1024, 4096].map(fastest);
     let ratio = times[1].as_secs_f64() / times[0].as_secs_f64();
-    eprintln!("traces of 1,024 and 4,096 legs: {times:?}, a factor of {ratio:.1}");
+    eprintln!("traces of 1,024 and 4,096 max_depth: {times:?}, a factor of {ratio:.1}");
     assert!(ratio < 8.0, "{times:?}");
 
     let (_, mut trace, all) = traced(100);
-    let legs = |text: &str| text.lines().filter(|line| line.starts_with("pixel 3,3")).count();
-    assert_eq!(legs(&all), 101, "each leg, and the first again once all light is gathered");
+    let max_depth = |text: &str| text.lines().filter(|line| line.starts_with("pixel 3,3")).count();
+    assert_eq!(max_depth(&all), 101, "each leg, and the first again once all light is gathered");
     trace.prints_all = false;
     let short = trace.to_string();
-    assert_eq!(legs(&short), 21, "{short}");
+    assert_eq!(max_depth(&short), 21, "{short}");
     assert!(short.contains("\nlegs 16 to 95 are left out; --all prints them\n"), "{short}");
     assert!(short.contains("leg 15\n") && short.contains("leg 96\n") && !short.contains("leg 16\n"), "{short}");
-    assert!(trace.stages.iter().any(|recorded| recorded.leg == 50), "what is recorded stays");
+    assert!(trace.stages.iter().any(|recorded| recorded.depth == 50), "what is recorded stays");
 }

@@ -69,7 +69,7 @@ fn ways_in_a_closed_room_are_as_long_as_they_must_be() {
                 (Matte { colour: Rgb::grey(albedo) }, Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() });
             world.spawn((Sphere { radius: 20.0 }, wall));
         };
-        let integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
+        let integrator = Integrator::Path { max_depth: 1 << 20, lights: LightStrategy::Bsdf, roulette: 2 };
         let mut world = seen(&room, integrator);
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Statistics);
@@ -163,7 +163,7 @@ fn a_smooth_convex_ball_loses_hardly_any_light() {
     for times in [2, 3] {
         let mut world = World::new();
         let camera = (OrthographicCamera { view_height: 1.3 }, Placement::at(0.0, 0.0, 3.0));
-        let integrator = Integrator::Path { legs: 16, lights: LightSampling::ByChance, roulette: 0 };
+        let integrator = Integrator::Path { max_depth: 16, lights: LightStrategy::Bsdf, roulette: 0 };
         let sampling = Sampling { samples: 16, filter: Filter::BOX, ..Sampling::default() };
         world.spawn((camera, Resolution { width: 24, height: 24 }, integrator, sampling));
         world.spawn(Background { colour: Rgb::grey(1.0) });
@@ -179,11 +179,11 @@ fn a_smooth_convex_ball_loses_hardly_any_light() {
 /// Weights where one of the two finds nothing, or finds one direction alone.
 #[test]
 fn weights_at_their_ends() {
-    for density in [f64::MIN_POSITIVE, 1e-30, 1.0, 2e19, 1e30, f64::MAX] {
-        assert_eq!(power_heuristic(0.0, density), 0.0, "{density}");
-        assert_eq!(power_heuristic(density, 0.0), 1.0, "{density}");
-        assert_eq!(power_heuristic(density, density), 0.5, "{density}");
-        assert_eq!(power_heuristic(density, f64::INFINITY), 0.0, "{density}");
+    for pdf in [f64::MIN_POSITIVE, 1e-30, 1.0, 2e19, 1e30, f64::MAX] {
+        assert_eq!(power_heuristic(0.0, pdf), 0.0, "{pdf}");
+        assert_eq!(power_heuristic(pdf, 0.0), 1.0, "{pdf}");
+        assert_eq!(power_heuristic(pdf, pdf), 0.5, "{pdf}");
+        assert_eq!(power_heuristic(pdf, f64::INFINITY), 0.0, "{pdf}");
     }
     assert_eq!(power_heuristic(0.0, 0.0), 0.0);
 }

@@ -3,7 +3,7 @@
 use super::*;
 use glam::DVec3;
 use pinhole::Error;
-use pinhole::look::{Preflight, SLIPS, preflight};
+use pinhole::look::{MISTAKES, Preflight, preflight};
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use pinhole::{Chapter, follow, intersect, rays, shade};
@@ -32,7 +32,7 @@ fn slips_are_told_before_the_picture_is_rendered() {
         ("the camera looks the other way", &[&["likely to be black", "rays meets a shape", "no background"]]),
         ("the same before a blue sky", &[&["none of", "rays tried", "meets a shape"]]),
         ("a lamp a hundred times too bright", &[&["% of the rays tried", "more than white", "EXR"]]),
-        ("a small lamp left to chance", &[&["likely to be black", "0 of 6144 rays", "by chance", "Weighed"]]),
+        ("a small lamp left to chance", &[&["likely to be black", "0 of 6144 rays", "by chance", "Mis"]]),
         ("a mirror, by ray casting", &[&["shows mirrors and glass dark", "\"mirror\"", "Integrator::Whitted"]]),
         (
             "a lamp with an area, by Whitted's rays",
@@ -44,18 +44,18 @@ fn slips_are_told_before_the_picture_is_rendered() {
         ("focus at 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
     ];
     assert_eq!(
-        SLIPS.iter().map(|slip| slip.what).collect::<Vec<_>>(),
+        MISTAKES.iter().map(|mistake| mistake.what).collect::<Vec<_>>(),
         expected.iter().map(|e| e.0).collect::<Vec<_>>()
     );
     let mut failures = Vec::new();
-    for (slip, (_, sentences)) in SLIPS.iter().zip(expected) {
+    for (mistake, (_, sentences)) in MISTAKES.iter().zip(expected) {
         let mut world = World::new();
-        (slip.scene)(&mut world);
+        (mistake.scene)(&mut world);
         let told = said(&world).unwrap_or_else(|error| vec![format!("refused: {error}")]);
-        eprintln!("{}: {told:#?}", slip.what);
+        eprintln!("{}: {told:#?}", mistake.what);
         let holds = |(sentence, words): (&String, &&[&str])| words.iter().all(|word| sentence.contains(word));
         if told.len() != sentences.len() || !told.iter().zip(*sentences).all(holds) {
-            failures.push((slip.what, told));
+            failures.push((mistake.what, told));
         }
         for sentence in failures.last().map_or(&[][..], |(_, told)| told) {
             assert!(!sentence.contains('\n') && !sentence.ends_with('.'), "{sentence}");
@@ -141,7 +141,7 @@ fn nothing_is_said_of_the_chapters_scenes() {
     let mut said = Vec::new();
     let chapters = chapters::all();
     for chapter in &chapters {
-        let asked = Asked { resolution: Some(Resolution { width: 96, height: 54 }), ..Asked::default() };
+        let asked = Overrides { resolution: Some(Resolution { width: 96, height: 54 }), ..Overrides::default() };
         let scene = chapter.world(&asked);
         let (plan, tables) = prepare(&scene, &chapter.stages()).expect("prepared");
         let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
@@ -167,7 +167,7 @@ fn matter_that_no_stage_follows_is_refused() {
         world.entity_mut(shape).insert((Name::new("ball"), Sphere { radius: 1.0 }));
         world
     };
-    let matter: [(&str, &dyn Fn(&mut World) -> Entity); 4] = [
+    let material: [(&str, &dyn Fn(&mut World) -> Entity); 4] = [
         ("mirror", &|world| world.spawn(Mirror::default()).id()),
         ("glass", &|world| world.spawn(Glass::default()).id()),
         ("metal", &|world| world.spawn(Metal::default()).id()),
@@ -181,7 +181,7 @@ fn matter_that_no_stage_follows_is_refused() {
         let chapter = chapter.offer(shade::stages());
         if followed { chapter.offer(follow::stages()) } else { chapter }
     };
-    for (word, spawn) in matter {
+    for (word, spawn) in material {
         let mut world = scene(spawn);
         assert!(prepare(&world, &chapter(true).stages()).is_ok(), "{word}");
         let refused = prepare(&world, &chapter(false).stages()).err().map(|error| error.to_string());

@@ -39,10 +39,10 @@ fn covered(x: u32, y: u32) -> f64 {
 
 fn run(seed: u64, samples: u32, adaptive: Adaptive) -> (Film, Outcome) {
     let scene = disc(seed, samples, adaptive);
-    let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
     let limits = Limits { adaptive: Some(adaptive), ..Limits::default() };
-    let outcome = render_in_passes(&mut under_way, &limits, &(), &mut |_| Ok(())).expect("renders");
-    (under_way.film, outcome)
+    let outcome = render_in_passes(&mut in_progress, &limits, &(), &mut |_| Ok(())).expect("renders");
+    (in_progress.film, outcome)
 }
 
 /// Mean, and its standard error.
@@ -65,7 +65,7 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
     let thin: Vec<usize> = (0..truth.len()).filter(|&pixel| truth[pixel] > 0.0 && truth[pixel] < 0.2).collect();
     let thin_truth: f64 = thin.iter().map(|&pixel| truth[pixel]).sum();
 
-    let (mut ours, mut ours_thin, mut naive_thin) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut ours, mut pinhole_thin, mut naive_thin) = (Vec::new(), Vec::new(), Vec::new());
     let mut samples = [0.0; 2];
     for seed in 0..RENDERS {
         let (film, outcome) = run(seed, 400, adaptive);
@@ -75,7 +75,7 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
             film.tiles[tile].mean_f64(row)[0]
         };
         ours.push((0..truth.len()).map(value).sum::<f64>() / truth.len() as f64);
-        ours_thin.push(thin.iter().map(|&pixel| value(pixel)).sum());
+        pinhole_thin.push(thin.iter().map(|&pixel| value(pixel)).sum());
         let naive = |pixel: usize| {
             let at = [pixel as u32 % SIDE, pixel as u32 / SIDE];
             let inside = |sample: u32| {
@@ -88,21 +88,21 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
         samples[1] += (0..truth.len()).map(|pixel| f64::from(naive(pixel).samples)).sum::<f64>() / truth.len() as f64;
         naive_thin.push(thin.iter().map(|&pixel| naive(pixel).mean).sum());
     }
-    let [ours, ours_thin, naive_thin] = [ours, ours_thin, naive_thin].map(|values: Vec<f64>| mean_of(&values));
+    let [ours, pinhole_thin, naive_thin] = [ours, pinhole_thin, naive_thin].map(|values: Vec<f64>| mean_of(&values));
     let off = |(mean, error): (f64, f64), truth: f64| (mean - truth) / error;
     eprintln!(
         "adaptive: the whole disc {:+.1} standard errors from πr²; its {} thin pixels: two stages {:+.1} ({:+.1} %), \
          naive {:+.1} ({:+.1} %); {:.1} and {:.1} samples a pixel",
         off(ours, area),
         thin.len(),
-        off(ours_thin, thin_truth),
-        (ours_thin.0 / thin_truth - 1.0) * 100.0,
+        off(pinhole_thin, thin_truth),
+        (pinhole_thin.0 / thin_truth - 1.0) * 100.0,
         off(naive_thin, thin_truth),
         (naive_thin.0 / thin_truth - 1.0) * 100.0,
         samples[0] / RENDERS as f64,
         samples[1] / RENDERS as f64
     );
-    assert!(off(ours, area).abs() < 4.0 && off(ours_thin, thin_truth).abs() < 4.0, "the two stages are biased");
+    assert!(off(ours, area).abs() < 4.0 && off(pinhole_thin, thin_truth).abs() < 4.0, "the two stages are biased");
     assert!(off(naive_thin, thin_truth) < -6.0, "the bias of the naive way was not found");
 }
 
@@ -151,7 +151,7 @@ fn a_pilot_and_its_plan_are_continued_to_the_same_bits() {
     let mut tried = 0;
     for stop in 1..12 {
         let scene = disc(9, 200, adaptive);
-        let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         let limits = Limits { adaptive: Some(adaptive), write_every: Some(Duration::ZERO), ..Limits::default() };
         let mut kept = 0;
         // The writing fails as a full disk would make it, after the checkpoint was written.
@@ -160,8 +160,8 @@ fn a_pilot_and_its_plan_are_continued_to_the_same_bits() {
             kept += 1;
             if kept == stop { Err(Error::Interrupted) } else { Ok(()) }
         };
-        let stopped = render_in_passes(&mut under_way, &limits, &(), &mut keep).is_err();
-        let mut next = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let stopped = render_in_passes(&mut in_progress, &limits, &(), &mut keep).is_err();
+        let mut next = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         next.take(read_checkpoint(1, &next.film, true, &path).expect("read"));
         render_in_passes(&mut next, &limits, &(), &mut |_| Ok(())).expect("renders");
         FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped at writing {stop}"));

@@ -106,7 +106,7 @@ fn layers_agree_with_each_other_and_with_the_scene() {
 fn layers_are_means_over_the_samples_that_met_something() {
     let layers = Layers { kinds: vec![LayerKind::Coverage, LayerKind::Position, LayerKind::Variance] };
     let scene = sampled(SIZE, seven(Sampler::Independent), layers);
-    let mut under_way = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
     // Each sample by itself: what the sums were after it, less what they were before.
     let pixels = || (0..SIZE[0] * SIZE[1]).map(|pixel| [pixel % SIZE[0], pixel / SIZE[0]]);
     let sum_of = |film: &Film, [x, y]: [u32; 2]| {
@@ -117,9 +117,9 @@ fn layers_are_means_over_the_samples_that_met_something() {
     let mut before = vec![DVec3::ZERO; (SIZE[0] * SIZE[1]) as usize];
     let mut values: Vec<Vec<DVec3>> = vec![Vec::new(); before.len()];
     for step in 0..=steps_of(7) {
-        under_way.advance(step, &()).expect("goes on");
+        in_progress.advance(step, &()).expect("goes on");
         for ((values, before), at) in values.iter_mut().zip(&mut before).zip(pixels()) {
-            let sum = sum_of(&under_way.film, at);
+            let sum = sum_of(&in_progress.film, at);
             if step >= 4 {
                 values.push(sum - *before);
                 *before = sum;
@@ -130,20 +130,20 @@ fn layers_are_means_over_the_samples_that_met_something() {
     for (values, [x, y]) in values.iter().zip(pixels()) {
         let mean = values.iter().copied().sum::<DVec3>() / values.len() as f64;
         let squares: DVec3 = values.iter().map(|&value| (value - mean) * (value - mean)).sum();
-        let (tile, row) = under_way.film.place(x, y);
-        let variance = DVec3::from_array(under_way.film.variance_of_mean(tile, row));
+        let (tile, row) = in_progress.film.place(x, y);
+        let variance = DVec3::from_array(in_progress.film.variance_of_mean(tile, row));
         let expected = squares / 6.0 / 7.0;
         let slack = 1e-12 * expected.length() + 1e-24 * mean.length_squared();
         assert!((variance - expected).length() <= slack, "pixel {x},{y}: {variance} is not {expected}");
         noisy += usize::from(expected.length() > 1e-20);
     }
     assert!(noisy > 100, "{noisy} pixels show noise");
-    let (tile, row) = under_way.film.place(20, 18);
-    let layers = &under_way.film.layers[tile];
+    let (tile, row) = in_progress.film.place(20, 18);
+    let layers = &in_progress.film.layers[tile];
     assert_eq!(layers.taken[row], 7);
     let edge = (0..SIZE[0] * SIZE[1]).filter(|pixel| {
-        let (tile, row) = under_way.film.place(pixel % SIZE[0], pixel / SIZE[0]);
-        let share = under_way.film.layers[tile].mean(LayerKind::Coverage, 0, row);
+        let (tile, row) = in_progress.film.place(pixel % SIZE[0], pixel / SIZE[0]);
+        let share = in_progress.film.layers[tile].mean(LayerKind::Coverage, 0, row);
         assert!((0.0..=1.0).contains(&share));
         share > 0.0 && share < 1.0
     });

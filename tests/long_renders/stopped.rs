@@ -26,7 +26,7 @@ impl Watch for Flag {
     }
 }
 
-const ENDLESS: Integrator = Integrator::Path { legs: u32::MAX, lights: LightSampling::Weighed, roulette: 0 };
+const ENDLESS: Integrator = Integrator::Path { max_depth: u32::MAX, lights: LightStrategy::Mis, roulette: 0 };
 
 /// A camera with this integrator, and a ball of mirror around the camera or, closed about a lamp, before it.
 fn mirrors(around_camera: bool, more: impl Bundle) -> World {
@@ -42,7 +42,7 @@ fn mirrors(around_camera: bool, more: impl Bundle) -> World {
 }
 
 /// How long a render goes on after its flag is set; it has to say that it was interrupted.
-fn time_to_stop(render: &mut RenderUnderWay, to: u32) -> Duration {
+fn time_to_stop(render: &mut RenderInProgress, to: u32) -> Duration {
     let flag = Flag::default();
     let set = Arc::clone(&flag.0);
     let (sender, receiver) = std::sync::mpsc::channel();
@@ -65,7 +65,7 @@ fn an_endless_path_is_given_up_and_adds_nothing() {
     for (what, scene) in
         [("one ray a pixel", mirrors(true, ())), ("samples with layers", mirrors(true, (sampling, Layers::all())))]
     {
-        let mut render = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut render = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
         let before = render.film.clone();
         let steps = render.steps();
         let took = time_to_stop(&mut render, steps);
@@ -80,7 +80,7 @@ fn an_endless_path_is_given_up_and_adds_nothing() {
 fn endless_paths_from_lights_are_given_up_and_add_nothing() {
     let sampling = Sampling { samples: 1, ..Sampling::default() };
     let scene = mirrors(false, (sampling, LightTracing::default()));
-    let mut render = RenderUnderWay::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut render = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
     assert!(render.film.splats.is_some(), "light is traced from the lamp");
     let steps = render.steps();
     let took = time_to_stop(&mut render, steps);
@@ -92,8 +92,10 @@ fn endless_paths_from_lights_are_given_up_and_add_nothing() {
 
 /// Everything that a film holds, as bits.
 fn bits(film: &Film) -> [(&'static str, Vec<u64>); 4] {
-    let of = |lanes: Vec<&Vec<f64>>| -> Vec<u64> { lanes.into_iter().flatten().map(|sum| sum.to_bits()).collect() };
-    let counts = |lanes: Vec<&Vec<u32>>| lanes.into_iter().flatten().map(|&count| u64::from(count)).collect();
+    let of = |components: Vec<&Vec<f64>>| -> Vec<u64> {
+        components.into_iter().flatten().map(|sum| sum.to_bits()).collect()
+    };
+    let counts = |components: Vec<&Vec<u32>>| components.into_iter().flatten().map(|&count| u64::from(count)).collect();
     let layers = &film.layers;
     [
         ("light", of(film.tiles.iter().flat_map(|tile| tile.sums()).collect())),
@@ -110,7 +112,7 @@ fn stopped_at_any_moment_it_goes_on_to_the_same_bits() {
     let scene = || {
         let mut scene = mirrors(false, (sampling, Layers::all()));
         let camera = named(&mut scene, "camera");
-        scene.entity_mut(camera).insert(Integrator::Path { legs: 9, lights: LightSampling::Weighed, roulette: 0 });
+        scene.entity_mut(camera).insert(Integrator::Path { max_depth: 9, lights: LightStrategy::Mis, roulette: 0 });
         scene.spawn((Sphere { radius: 2.0 }, Mirror::default()));
         scene.spawn(Background { colour: Rgb::grey(0.5) });
         scene
@@ -120,7 +122,7 @@ fn stopped_at_any_moment_it_goes_on_to_the_same_bits() {
     let took = began.elapsed();
     let (mut stops, mut midway) = (0, 0);
     for part in 1..8 {
-        let mut render = RenderUnderWay::begin(&scene(), &offer(), &Execution::default()).expect("begins");
+        let mut render = RenderInProgress::begin(&scene(), &offer(), &Execution::default()).expect("begins");
         let (flag, steps) = (Flag::default(), render.steps());
         let set = Arc::clone(&flag.0);
         let timer = thread::spawn(move || {
@@ -152,7 +154,7 @@ fn many_shapes() -> String {
 
 /// Paths without an end: in a ball of mirror around the camera.
 const MIRROR_BALL: &str = "[(name: \"camera\", perspective_camera: (fov: 40), resolution: (width: 96, height: 54), \
-    look_at: (eye: (0, 1, 6), target: (0, 0, 0)), integrator: Path(legs: 4294967295, lights: Weighed, roulette: 0)), \
+    look_at: (eye: (0, 1, 6), target: (0, 0, 0)), integrator: Path(max_depth: 4294967295, lights: Mis, roulette: 0)), \
     (sphere: (radius: 100), mirror: (colour: (1, 1, 1))), \
     (sphere: (radius: 1), emissive: (radiance: (1, 1, 1)), placement: (position: (0, 0, 90)))]";
 
@@ -251,11 +253,11 @@ fn many_lights_take_smaller_tiles_and_not_more_memory() {
         world
     };
     let begun =
-        |scene: &World, execution: &Execution| RenderUnderWay::begin(scene, &offer(), execution).expect("begins");
+        |scene: &World, execution: &Execution| RenderInProgress::begin(scene, &offer(), execution).expect("begins");
     let mut sides = Vec::new();
     for lights in [1, 10, 200, 300, 10_000, 30_000] {
         let render = begun(&scene(lights, [64, 64]), &Execution::default());
-        let of_lights = ["light", "light density", "shadow"];
+        let of_lights = ["light", "light pdf", "shadow"];
         let columns = render.plan.columns.iter().filter(|column| of_lights.contains(&column.name));
         let row: usize = columns.map(|column| column.bytes_a_row()).sum();
         let side = render.film.tile_side;
@@ -285,7 +287,7 @@ fn no_more_workers_start_than_there_is_work() {
         let mut scene = full(Setup { size, ..Setup::default() });
         more(&mut scene);
         let execution = Execution { threads: Some(threads), ..Execution::default() };
-        RenderUnderWay::begin(&scene, &offer(), &execution).expect("begins").threads()
+        RenderInProgress::begin(&scene, &offer(), &execution).expect("begins").threads()
     };
     let nothing = |_: &mut World| ();
     assert_eq!(started([8, 8], 1000, &nothing), 1);

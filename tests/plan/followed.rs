@@ -17,7 +17,7 @@ fn all() -> Vec<Vec<FollowToggle>> {
 #[test]
 fn an_integrator_brings_what_it_needs_and_nothing_else() {
     use FollowToggle::*;
-    use LightSampling::{Aimed, ByChance, Weighed};
+    use LightStrategy::{Bsdf, Light, Mis};
     let (mut tried, setup) = (0, Setup { size: [12, 8], ..Setup::default() });
     for integrator in INTEGRATORS {
         for on in all() {
@@ -28,44 +28,44 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
             let followed = !sky && integrator != Integrator::RayCasting;
             let lights = match integrator {
                 Integrator::Path { lights, .. } => lights,
-                Integrator::Distribution { .. } => Aimed,
-                _ => ByChance,
+                Integrator::Distribution { .. } => Light,
+                _ => Bsdf,
             };
-            let (aimed, weighed) = (lights != ByChance, lights == Weighed);
+            let (aimed, weighed) = (lights != Bsdf, lights == Mis);
             let whitted = matches!(integrator, Integrator::Whitted { .. });
             let path = matches!(integrator, Integrator::Path { .. });
-            let chance = path || matches!(integrator, Integrator::Distribution { .. });
+            let random = path || matches!(integrator, Integrator::Distribution { .. });
             let absorbing = has(Glass) && has(Absorbing);
             let stages = [
-                ("Start ways of light", followed),
-                ("Start with nothing scattered", followed),
-                ("End at the last leg", followed),
-                ("Add the leg's light to its way", followed),
-                ("Step to the next leg", followed),
-                ("Follow the legs that are left", followed),
-                ("Gather the light of all legs", followed),
-                ("Reflect at mirrors", followed && has(Mirror)),
-                ("Reflect and refract at glass", whitted && has(Glass)),
-                ("Reflect or refract at glass", chance && has(Glass)),
+                ("Start paths", followed),
+                ("Clear scattered rays", followed),
+                ("End at the maximum depth", followed),
+                ("Add the bounce's light to its path", followed),
+                ("Advance to the next bounce", followed),
+                ("Trace the remaining bounces", followed),
+                ("Sum the light of all bounces", followed),
+                ("Sample BSDFs: mirror", followed && has(Mirror)),
+                ("Split rays at glass", whitted && has(Glass)),
+                ("Sample BSDFs: glass", random && has(Glass)),
                 ("Absorb light in glass", followed && absorbing),
-                ("Find the glass that rays start in", followed && absorbing),
-                ("Scatter off rough metal", chance && has(Metal)),
-                ("Scatter off matte surfaces", path),
-                ("End ways by chance", path),
-                ("Aim at lights with area", aimed && has(Lamp)),
-                ("Aim at the environment", aimed && has(Environment)),
-                ("Weigh light aimed at from matte surfaces", weighed && (has(Lamp) || has(Environment))),
-                ("Weigh light aimed at from rough metal", weighed && has(Metal) && (has(Lamp) || has(Environment))),
-                ("Add what surfaces emit, as far as not aimed at", aimed && has(Lamp)),
-                ("Add what surfaces emit", !aimed && !sky && has(Lamp)),
-                ("Add the environment, as far as not aimed at", aimed && has(Environment)),
+                ("Find the media that rays start in", followed && absorbing),
+                ("Sample BSDFs: metal", random && has(Metal)),
+                ("Sample BSDFs: matte", path),
+                ("Russian roulette", path),
+                ("Sample area lights", aimed && has(Lamp)),
+                ("Sample the environment", aimed && has(Environment)),
+                ("Compute MIS weights: matte", weighed && (has(Lamp) || has(Environment))),
+                ("Compute MIS weights: metal", weighed && has(Metal) && (has(Lamp) || has(Environment))),
+                ("Add emission, weighted by MIS", aimed && has(Lamp)),
+                ("Add emission", !aimed && !sky && has(Lamp)),
+                ("Add the environment, weighted by MIS", aimed && has(Environment)),
                 ("Add the environment", !aimed && !sky && has(Environment)),
-                ("Add the light off rough metal", !sky && has(Metal)),
-                ("Add the light that arrives", !sky),
-                ("Aim at point lights", !sky),
-                ("Aim at the open sky", sky),
-                ("Show how much of the sky is seen", sky),
-                ("Show surfaces unlit", false),
+                ("Evaluate direct light: metal", !sky && has(Metal)),
+                ("Evaluate direct light", !sky),
+                ("Sample point lights", !sky),
+                ("Sample the open sky", sky),
+                ("Show ambient occlusion", sky),
+                ("Show unlit surfaces", false),
             ];
             for (stage, needed) in stages {
                 let row = row(&plan, stage);
@@ -76,7 +76,7 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 ("path", followed),
                 ("path light", followed),
                 ("scattered", followed),
-                ("light density", weighed && (has(Lamp) || has(Environment))),
+                ("light pdf", weighed && (has(Lamp) || has(Environment))),
                 ("media", followed && absorbing),
                 ("side", (followed && has(Glass)) || (!sky && has(Lamp) && has(OneSided))),
             ];
@@ -110,11 +110,11 @@ fn the_integrator_is_the_least_that_shows_what_the_scene_holds() {
     };
     assert_eq!(chosen(&[]).integrator, Integrator::RayCasting);
     assert_eq!(chosen(&[Environment]).integrator, Integrator::RayCasting);
-    for polished in [Mirror, Glass] {
-        assert_eq!(chosen(&[polished]).integrator, Integrator::WHITTED);
+    for specular in [Mirror, Glass] {
+        assert_eq!(chosen(&[specular]).integrator, Integrator::WHITTED);
     }
-    for by_chance in [Metal, Lamp] {
-        let found = chosen(&[by_chance, Mirror]);
+    for by_bsdf in [Metal, Lamp] {
+        let found = chosen(&[by_bsdf, Mirror]);
         assert_eq!(found.integrator, Integrator::PATH);
         assert!(found.reason.starts_with("1 "), "{}", found.reason);
     }

@@ -63,7 +63,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         }
         // All at once, so that each also finds the columns that it reads.
         // Light is added even where there is none, so that what only it reads is read.
-        let all = [dropped.as_slice(), &["Add the light that arrives"]].concat();
+        let all = [dropped.as_slice(), &["Evaluate direct light"]].concat();
         let offer = forced(&offer, &all, true);
         match film_by(scene, &offer, &one_world()) {
             Ok(film) => {
@@ -85,7 +85,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         scenes.len()
     );
     // Two are needed by every picture; media are carried where a scene needs them, or read by nothing.
-    let never = ["Add to the film", "Carry media to the next leg", "Start in the dark"];
+    let never = ["Accumulate film", "Carry media to the next bounce", "Clear radiance"];
     assert_eq!(untried, never.each_ref(), "tried too little");
 }
 
@@ -110,13 +110,14 @@ fn paths_in_motion(setup: Setup) -> World {
 fn what_is_written_in_the_same_set_is_not_read_there() {
     let scene = through_a_lens();
     let moved = |stage: Stage| match stage.name {
-        "Draw points on the lens to join" => Stage { set: TileSystems::Aim, ..stage },
+        "Sample the lens for connections" => Stage { set: TileSystems::SampleLights, ..stage },
         _ => stage,
     };
     let offer: Vec<Stage> = offer().into_iter().map(moved).collect();
     let error = pinhole::plan::plan(&scene, &offer).expect_err("refused").to_string();
     eprintln!("{error}");
-    let words = ["\"Aim at the camera\"", "`join`", "\"Draw points on the lens to join\"", "afterwards", "earlier set"];
+    let words =
+        ["\"Connect to the camera\"", "`join`", "\"Sample the lens for connections\"", "afterwards", "earlier set"];
     assert!(words.iter().all(|word| error.contains(word)), "{error}");
 }
 
@@ -130,14 +131,14 @@ fn through_a_lens() -> World {
 
 #[test]
 fn forcing_a_needed_stage_off_shows() {
-    let two_legs = Integrator::Path { legs: 2, lights: LightSampling::Weighed, roulette: 0 };
+    let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
     let offer = offer();
     let size = [24, 16];
     let witnesses: Vec<(&str, World)> = vec![
         // First those whose ways end by themselves where no chance ends them.
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
         ("paths in motion", paths_in_motion(Setup { size, ..Setup::default() })),
-        ("ways of two legs", followed(two_legs, Setup { size, ..Setup::default() })),
+        ("ways of two legs", followed(two_bounces, Setup { size, ..Setup::default() })),
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
         ("pieces", pieces(Setup { size, ..Setup::default() })),
@@ -153,8 +154,8 @@ fn forcing_a_needed_stage_off_shows() {
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
         ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),
         ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
-        ("polished", scenes::matter::polished(Setup { size, ..Setup::default() })),
-        ("brushed", scenes::matter::brushed(Setup { size, ..Setup::default() })),
+        ("polished", scenes::material::specular(Setup { size, ..Setup::default() })),
+        ("brushed", scenes::material::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
         ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),

@@ -27,12 +27,12 @@ fn a_texture_brings_what_it_needs_and_nothing_else() {
         let textured = has(Checker) || has(Stripes) || has(Image);
         let filtered = textured && has(Filter);
         let stages = [
-            ("Colour surfaces", textured),
-            ("Lay textures", textured),
-            ("Measure footprints", filtered),
-            ("Colour checkers", has(Checker)),
-            ("Colour stripes", has(Stripes)),
-            ("Colour images", has(Image)),
+            ("Look up surface colours", textured),
+            ("Compute texture points", textured),
+            ("Compute footprints", filtered),
+            ("Evaluate textures: checkers", has(Checker)),
+            ("Evaluate textures: stripes", has(Stripes)),
+            ("Evaluate textures: images", has(Image)),
             ("Add the gradient", has(Gradient)),
             ("Add the environment", has(Environment)),
             ("Add the background", false),
@@ -75,7 +75,9 @@ fn what_no_shape_is_made_of_is_left_out() {
     let mut scene = toggled(&[Toggle::Sphere, Toggle::Light]);
     scene.spawn((Name::new("spare"), Matte::default(), Checker::default()));
     let plan = plan_of(&scene);
-    for stage in ["Colour surfaces", "Lay textures", "Measure footprints", "Colour checkers"] {
+    for stage in
+        ["Look up surface colours", "Compute texture points", "Compute footprints", "Evaluate textures: checkers"]
+    {
         let row = row(&plan, stage);
         assert!(!row.kept && row.reason.contains("\"spare\", unused"), "{row:?}");
     }

@@ -1,7 +1,7 @@
 //! What a view paints, and what it answers to a word it does not know.
 
 use super::*;
-use pinhole::render::first_leg_only;
+use pinhole::render::first_bounce_only;
 use scenes::followed::{INTEGRATORS, followed};
 
 #[test]
@@ -38,7 +38,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         [full, stretched, pieces, shining, textured, soft, sampled, scenes::blurred, scenes::moving, paths];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
-        let whole = inspect(&scene_of(setup), &first_leg_only(&offer()), 32).expect("inspects");
+        let whole = inspect(&scene_of(setup), &first_bounce_only(&offer()), 32).expect("inspects");
         for column in &whole.plan.columns {
             if !column.is_viewed() || column.name == "radiance" {
                 continue;
@@ -59,7 +59,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
     }
     // A sample's sign is what the film weighs its view by; densities of light rays are there only where they are weighed;
     // the first sample of every pixel has one number.
-    let unseen = ["radiance", "sign", "light density", "samples"];
+    let unseen = ["radiance", "sign", "light pdf", "samples"];
     let views = view_names(&offer()).into_iter().filter(|name| !unseen.contains(name));
     let missing = views.flat_map(|name| EYES.map(|eye| format!("{eye:?} {name}"))).filter(|name| !seen.contains(name));
     // Parallel rays have no lens, and all of them one direction.
@@ -70,14 +70,17 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
 }
 
 /// What a view of a column must show: a pixel's first row, black without one.
-fn painted(tile: &EntityRef<'_>, column: &ColumnKind, image: ImageShape) -> FilmTile {
+fn painted(tile: &EntityRef<'_>, column: &ColumnKind, image: ImageFrame) -> FilmTile {
     let mut film = FilmTile::new(*tile.get::<Tile>().expect("a tile"));
     let rows = (column.rows)(tile);
-    let lanes = (column.lanes)(tile);
-    let paths = lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values);
+    let components = (column.components)(tile);
+    let paths = components
+        .iter()
+        .find(|component| component.name == "path" || component.name == "row")
+        .map(|component| component.values);
     for path in 0..film.count.len() {
         let first = match paths {
-            Some(LaneValues::U32(paths)) => paths.iter().position(|&own| own as usize == path),
+            Some(ComponentValues::U32(paths)) => paths.iter().position(|&own| own as usize == path),
             _ => (path < rows).then_some(path),
         };
         let paint = |row| (column.paint)(tile, row, [image.width, image.height]);

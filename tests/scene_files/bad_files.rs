@@ -78,7 +78,7 @@ fn the_page_s_messages_are_the_kit_s() {
     let page = fs::read_to_string(page).expect("the page is there");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let exported = typed(&["export", "05_pinhole"]).expect("exported");
-    let slips = [
+    let mistakes = [
         (
             "sphere: (radius: 0.8),\n        placement: (position: (0.2",
             "spere: (radius: 0.8),\n        placement: (position: (0.2",
@@ -87,7 +87,7 @@ fn the_page_s_messages_are_the_kit_s() {
         ("(2.5, 5.0, 3.0)", "(2.5, 5.0)"),
         ("(0.25, 0.5, 0.75)", "(0.25, 0.5, 7.5)"),
     ];
-    for (from, to) in slips {
+    for (from, to) in mistakes {
         assert!(exported.contains(from), "{from}");
         let message = told(folder.path(), exported.replacen(from, to, 1).as_bytes());
         assert!(page.contains(&message), "the page does not show what `{to}` gives now:\n{message}");

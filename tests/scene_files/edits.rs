@@ -2,7 +2,7 @@
 
 use super::typed;
 use crate::scenes;
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole::scene::{Resolution, SceneFile};
 use std::path::Path;
 
@@ -87,10 +87,10 @@ const EDITS: [Edit; 20] = [
 const SIZE: Resolution = Resolution { width: 96, height: 54 };
 
 fn film(text: &str, what: &str) -> scenes::FilmBits {
-    let file =
-        SceneFile::parse(Path::new("scene.ron"), text.into()).unwrap_or_else(|slip| panic!("{what}: {slip}\n{text}"));
+    let file = SceneFile::parse(Path::new("scene.ron"), text.into())
+        .unwrap_or_else(|mistake| panic!("{what}: {mistake}\n{text}"));
     let mut world = file.world();
-    Asked { resolution: Some(SIZE), ..Asked::default() }.put_on_camera(&mut world);
+    Overrides { resolution: Some(SIZE), ..Overrides::default() }.put_on_camera(&mut world);
     scenes::film(&world)
 }
 

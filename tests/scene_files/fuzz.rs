@@ -3,7 +3,7 @@
 use crate::scenes;
 use cpu_time::ThreadTime;
 use pinhole::scene::{Resolution, SceneFile, scene_text, words};
-use pinhole::{Asked, plan};
+use pinhole::{Overrides, plan};
 use scenes::Setup;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// What became of one file.
 pub enum End {
-    Slip,
+    Mistake,
     Refused,
     NoPlan,
     Rendered,
@@ -22,7 +22,7 @@ pub enum End {
 /// How many ended in each way; the seeds of those that must not be.
 #[derive(Default)]
 pub struct Counts {
-    pub slips: u64,
+    pub mistakes: u64,
     pub refused: u64,
     pub no_plan: u64,
     pub rendered: u64,
@@ -34,7 +34,7 @@ pub struct Counts {
 impl Counts {
     pub fn add(&mut self, seed: u64, (end, time): (End, Duration)) {
         match end {
-            End::Slip => self.slips += 1,
+            End::Mistake => self.mistakes += 1,
             End::Refused => self.refused += 1,
             End::NoPlan => self.no_plan += 1,
             End::Rendered => self.rendered += 1,
@@ -52,7 +52,7 @@ impl fmt::Display for Counts {
         write!(
             f,
             "{} with a slip, {} refused, {} without a plan, {} rendered, {} panics {:?}, {} over 1 s {:?}, slowest {:?}",
-            self.slips,
+            self.mistakes,
             self.refused,
             self.no_plan,
             self.rendered,
@@ -68,7 +68,7 @@ impl fmt::Display for Counts {
 /// The files that are changed: every chapter but the long cover, and scenes with all kinds of entities.
 pub fn bases() -> Vec<String> {
     let chapters = chapters::all().into_iter().skip(1);
-    let texts = chapters.filter_map(|c| scene_text(&c.world(&Asked::default())).ok());
+    let texts = chapters.filter_map(|c| scene_text(&c.world(&Overrides::default())).ok());
     // The images of chapter 16 are named from the current folder, for these files stand in none.
     let mut bases: Vec<String> = texts.map(|text| text.replace("file: \"", "file: \"chapters/16_textures/")).collect();
     for eye in scenes::EYES {
@@ -298,12 +298,12 @@ fn try_all(bytes: &[u8]) -> End {
         Err(problem) => {
             let told = problem.to_string();
             assert!(!told.contains('\n') && told.chars().count() < 500, "{told}");
-            return End::Slip;
+            return End::Mistake;
         }
     };
     let mut world = file.world();
-    if let Err(refusal) = pinhole::extract::validate(&world) {
-        let told = refusal.to_string();
+    if let Err(scene_error) = pinhole::extract::validate(&world) {
+        let told = scene_error.to_string();
         assert!(!told.contains('\n'), "{told}");
         let place = file.place_of(|world| pinhole::extract::validate(world).err());
         assert!(place.is_some() || told.starts_with("the scene: camera is missing"), "no place for: {told}");
@@ -317,7 +317,8 @@ fn try_all(bytes: &[u8]) -> End {
     if plan::plan(&world, &scenes::offer()).is_err() {
         return End::NoPlan;
     }
-    Asked { resolution: Some(Resolution { width: 4, height: 4 }), ..Asked::default() }.put_on_camera(&mut world);
+    Overrides { resolution: Some(Resolution { width: 4, height: 4 }), ..Overrides::default() }
+        .put_on_camera(&mut world);
     match scenes::film_by(&world, &scenes::offer(), &scenes::one_world()) {
         Ok(_) => End::Rendered,
         Err(_) => End::Refused,

@@ -43,7 +43,7 @@ const LINES: &[(&[&str], Says)] = &[
     (&["conventions", "5", "--mistake", "rolled", "--size", "8x6", "-o", "@/rolled.png"], wrote),
     (&["review", "--chapters", "@"], |_| vec!["no snapshot waits".into()]),
     (&["review", "accept", "all", "--chapters", "@"], |_| vec!["no snapshot waits".into()]),
-    (&["review", "--plant", "half-pixel", "-o", "@/page.html"], planted),
+    (&["review", "--mutate", "half-pixel", "-o", "@/page.html"], mutation),
     (&["compare", CARD, CARD, "-o", "@/difference.png"], compare),
 ];
 const CARD: &str = "chapters/16_textures/card.png";
@@ -212,14 +212,14 @@ fn trace(value: &Value) -> Vec<String> {
     let (mut says, mut shapes) = (Vec::new(), 0);
     for ((_, column), stage) in last {
         says.push(format!("{column} {} {}", word(stage, "space"), word(stage, "unit")));
-        for (name, lane) in list(stage, "rows").iter().flat_map(|row| row.as_object().expect("a row")) {
-            shapes += usize::from(name == "shape" && lane.is_string());
-            let shown = match lane {
+        for (name, component) in list(stage, "rows").iter().flat_map(|row| row.as_object().expect("a row")) {
+            shapes += usize::from(name == "shape" && component.is_string());
+            let shown = match component {
                 Value::Null => "none".into(),
                 Value::String(shape) if name == "shape" => shape.clone(),
                 Value::String(_) => "+inf".into(),
                 Value::Number(whole) if whole.is_u64() => whole.to_string(),
-                lane => shown(lane.as_f64().expect("a number")),
+                component => shown(component.as_f64().expect("a number")),
             };
             says.push(format!("{name} {shown}"));
         }
@@ -320,7 +320,7 @@ fn round_trips(value: &Value) -> Vec<String> {
     })
 }
 
-fn planted(value: &Value) -> Vec<String> {
+fn mutation(value: &Value) -> Vec<String> {
     let difference = &value["difference"];
     assert_eq!(difference["first_difference"]["stage"], "Place raster points");
     vec![format!("{}: {}", word(difference, "chapter"), word(difference, "headline"))]

@@ -4,7 +4,7 @@ use super::{parsed, typed};
 use crate::scenes::{self, Setup};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::Asked;
+use pinhole::Overrides;
 use pinhole::scene::*;
 use pinhole_lab::review;
 use std::fs;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 #[test]
 fn every_chapter_comes_back_from_its_file_bit_for_bit() {
-    let asked = Asked { resolution: Some(Resolution { width: 96, height: 54 }), ..Asked::default() };
+    let asked = Overrides { resolution: Some(Resolution { width: 96, height: 54 }), ..Overrides::default() };
     for chapter in chapters::all() {
         let mut before = chapter.world(&asked);
         own_view_left_out(&mut before);
@@ -55,7 +55,7 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
             scenes::shining(setup),
             scenes::pieces(setup),
             scenes::blurred(setup),
-            scenes::matter::brushed(setup),
+            scenes::material::brushed(setup),
             scenes::moving(setup),
             scenes::fisheye(setup),
             scenes::all_round(setup),

@@ -13,7 +13,7 @@ pub fn caustics(lamps: bool) -> World {
     let look = LookAt { eye: DVec3::new(0.3, 2.6, 3.6), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y };
     let fov = PerspectiveCamera { fov: Degrees(48.0), ..Default::default() };
     let camera = (Name::new("camera"), look, fov, Resolution { width: 48, height: 32 });
-    world.spawn((camera, Integrator::Path { legs: 9, lights: LightSampling::Weighed, roulette: 3 }));
+    world.spawn((camera, Integrator::Path { max_depth: 9, lights: LightStrategy::Mis, roulette: 3 }));
     let place = Placement::at(0.0, 0.0, 0.0);
     world.spawn((
         Name::new("floor"),

@@ -29,13 +29,13 @@ pub const INTEGRATORS: [Integrator; 7] = [
     Integrator::WHITTED,
     Integrator::AmbientOcclusion { distance: 8.0 },
     Integrator::DISTRIBUTION,
-    path(LightSampling::ByChance),
-    path(LightSampling::Aimed),
-    path(LightSampling::Weighed),
+    path(LightStrategy::Bsdf),
+    path(LightStrategy::Light),
+    path(LightStrategy::Mis),
 ];
 
-const fn path(lights: LightSampling) -> Integrator {
-    Integrator::Path { legs: 12, lights, roulette: 2 }
+const fn path(lights: LightStrategy) -> Integrator {
+    Integrator::Path { max_depth: 12, lights, roulette: 2 }
 }
 
 /// A floor, a matte ball, a point light, and what is on.

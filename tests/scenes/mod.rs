@@ -3,7 +3,7 @@
 
 pub mod caustics;
 pub mod followed;
-pub mod matter;
+pub mod material;
 pub mod public;
 mod soft;
 mod textured;
@@ -487,14 +487,14 @@ pub fn toggled(on: &[Toggle]) -> World {
         world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
     }
     if has(Toggle::Mirror) {
-        matter::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
+        material::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
     }
     if has(Toggle::Glass) {
         let absorption = Rgb::new(0.2, 0.4, 0.8);
-        matter::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
+        material::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
     }
     if has(Toggle::Metal) {
-        matter::ball_of(&mut world, "metal ball", 1.5, Metal::default());
+        material::ball_of(&mut world, "metal ball", 1.5, Metal::default());
     }
     if has(Toggle::Background) {
         world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));

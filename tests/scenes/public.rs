@@ -47,20 +47,20 @@ const fn plate([low, near]: [f64; 2], [high, far]: [f64; 2]) -> Quad {
 }
 
 /// A scene by its name, with the most legs of a way that it asks for.
-pub fn public(name: &str, lights: LightSampling) -> World {
+pub fn public(name: &str, lights: LightStrategy) -> World {
     let mut world = World::new();
-    let camera = |eye: [f64; 3], target: [f64; 3], fov, axis, size: [u32; 2], legs| {
+    let camera = |eye: [f64; 3], target: [f64; 3], fov, axis, size: [u32; 2], max_depth| {
         let look = LookAt { eye: eye.into(), target: target.into(), ..LookAt::default() };
-        let integrator = Integrator::Path { legs, lights, roulette: 5 };
+        let integrator = Integrator::Path { max_depth, lights, roulette: 5 };
         let resolution = Resolution { width: size[0], height: size[1] };
         (Name::new("camera"), PerspectiveCamera { fov: Degrees(fov), axis }, look, resolution, integrator)
     };
     match name {
         "cornell" | "cornell-glass" => {
             let fov = 2.0 * libm::atan(0.0125 / 0.035) * 180.0 / std::f64::consts::PI;
-            let legs = if name == "cornell" { 8 } else { 16 };
+            let max_depth = if name == "cornell" { 8 } else { 16 };
             let (eye, target) = ([278.0, 273.0, -800.0], [278.0, 273.0, 0.0]);
-            world.spawn(camera(eye, target, fov, FovAxis::Vertical, [256, 256], legs));
+            world.spawn(camera(eye, target, fov, FovAxis::Vertical, [256, 256], max_depth));
             cornell(&mut world, name == "cornell");
         }
         "veach-mis" => {
@@ -85,10 +85,10 @@ pub fn public(name: &str, lights: LightSampling) -> World {
     world
 }
 
-fn quad(world: &mut World, corners: Quad, matter: impl Bundle + Clone) {
+fn quad(world: &mut World, corners: Quad, material: impl Bundle + Clone) {
     let [a, b, c, d] = corners.map(DVec3::from);
     for vertices in [[a, b, c], [a, c, d]] {
-        world.spawn((Triangle { vertices, ..Triangle::default() }, matter.clone()));
+        world.spawn((Triangle { vertices, ..Triangle::default() }, material.clone()));
     }
 }
 

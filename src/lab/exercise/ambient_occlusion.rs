@@ -1,7 +1,7 @@
 //! Chapter 22: a direction as frequent as its cosine is large.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,7 +12,7 @@ use std::time::Duration;
 type Input = (f64, f64);
 
 pub fn check(yours: fn(f64, f64) -> [f64; 3], patience: Duration) -> Report {
-    judge(question(), move |&(u, v)| yours(u, v), patience)
+    compare(question(), move |&(u, v)| yours(u, v), patience)
 }
 
 /// A direction by its radius in the disk, its turn and its height.
@@ -23,7 +23,7 @@ fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
 fn question() -> Question<Input, [f64; 3]> {
     Question {
         function: "cosine_direction",
-        kit_has: ("src/pinhole/follow/frame.rs", "cosine_direction"),
+        pinhole_has: ("src/pinhole/follow/frame.rs", "cosine_direction"),
         probes: asked(),
         tell: |(u, v)| format!("u {}, v {}", u.shown(), v.shown()),
         kit: |&(u, v)| cosine_direction([u, v]).into(),

@@ -1,7 +1,7 @@
 //! Chapter 09: a normal, turned, stretched, mirrored and sheared with its surface, judged by exact arithmetic.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::exact::Dyadic;
@@ -15,13 +15,13 @@ type Vector = [f64; 3];
 type Input = ([Vector; 3], Vector);
 
 pub fn check(yours: fn([Vector; 3], Vector) -> Vector, patience: Duration) -> Report {
-    judge(question(), move |&(columns, normal)| yours(columns, normal), patience)
+    compare(question(), move |&(columns, normal)| yours(columns, normal), patience)
 }
 
 fn question() -> Question<Input, Vector> {
     Question {
         function: "normal_world_from_object",
-        kit_has: ("src/pinhole/extract/pose.rs", "normal_world_from_object"),
+        pinhole_has: ("src/pinhole/extract/pose.rs", "normal_world_from_object"),
         probes: asked(),
         tell: |(columns, normal)| format!("columns {}, normal {}", columns.shown(), normal.shown()),
         kit: |&(columns, normal)| {
@@ -99,7 +99,7 @@ fn asked() -> Vec<Probe<Input>> {
         }),
     ));
     asked.extend(probes("a millionth of its size", [(stretched(1e-6, 2e-6, 1e-6), tipped)]));
-    asked.extend(probes("nearly flat", [(stretched(1.0, 1e-6, 1.0), tipped), (stretched(1e6, 1.0, 1e6), slanted)]));
+    asked.extend(probes("nearly planar", [(stretched(1.0, 1e-6, 1.0), tipped), (stretched(1e6, 1.0, 1e6), slanted)]));
     asked
 }
 

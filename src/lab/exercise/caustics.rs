@@ -1,7 +1,7 @@
 //! Chapter 27: what a pixel gets of a point's light.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -13,13 +13,13 @@ use std::time::Duration;
 type Input = ([f64; 3], f64, f64);
 
 pub fn check(yours: fn([f64; 3], f64, f64) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(point, tan_half, height)| yours(point, tan_half, height), patience)
+    compare(question(), move |&(point, tan_half, height)| yours(point, tan_half, height), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
-        function: "pixel_share",
-        kit_has: ("src/pinhole/rays/project.rs", "join_camera"),
+        function: "pixel_fraction",
+        pinhole_has: ("src/pinhole/rays/project.rs", "join_camera"),
         probes: asked(),
         tell: |(point, tan_half, height)| {
             format!("point {}, tan_half {}, height {}", point.shown(), tan_half.shown(), height.shown())

@@ -1,7 +1,7 @@
 //! Chapter 26: the power heuristic, for densities of any size.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -11,13 +11,13 @@ use std::time::Duration;
 type Input = (f64, f64);
 
 pub fn check(yours: fn(f64, f64) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(own, other)| yours(own, other), patience)
+    compare(question(), move |&(own, other)| yours(own, other), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "power_heuristic",
-        kit_has: ("src/pinhole/follow/emission.rs", "power_heuristic"),
+        pinhole_has: ("src/pinhole/follow/emission.rs", "power_heuristic"),
         probes: asked(),
         tell: |(own, other)| format!("own {}, other {}", own.shown(), other.shown()),
         kit: |&(own, other)| power_heuristic(own, other),
@@ -41,22 +41,22 @@ fn question() -> Question<Input, f64> {
                  the ratio of the two, and return 0 where own is 0",
                 |&(own, other)| own * own / (own * own + other * other),
             ),
-            Mistake::new("0 is divided by 0 where neither chance finds the way; there it counts 0", |&(own, other)| {
+            Mistake::new("0 is divided by 0 where neither random finds the way; there it counts 0", |&(own, other)| {
                 let ratio = other / own;
                 1.0 / (1.0 + ratio * ratio)
             }),
-            Mistake::new("each way counts half; the denser chance counts more", |_| 0.5),
+            Mistake::new("each way counts half; the denser random counts more", |_| 0.5),
         ],
         hints: &[
-            "with two densities alike the answer is 1/2, and with one three times the other 9/10",
-            "divide numerator and denominator by own²: only the ratio of the two densities is left",
+            "with two pdfs alike the answer is 1/2, and with one three times the other 9/10",
+            "divide numerator and denominator by own²: only the ratio of the two pdfs is left",
             "1 / (1 + (other / own)²), and 0 where own is 0; a ratio that is infinite gives 0 by itself",
         ],
     }
 }
 
 fn asked() -> Vec<Probe<Input>> {
-    let mut asked: Vec<_> = probes("densities alike", [(3.0, 3.0), (3.0, 1.0), (1.0, 3.0)]).collect();
+    let mut asked: Vec<_> = probes("pdfs alike", [(3.0, 3.0), (3.0, 1.0), (1.0, 3.0)]).collect();
     let of = |seed, count: u64, least: f64, most: f64| {
         (0..count).map(move |at| {
             let mut draws = Draws::new(seed, at);
@@ -64,10 +64,10 @@ fn asked() -> Vec<Probe<Input>> {
             (own, own * draws.power_of_ten(-1.5, 1.5))
         })
     };
-    asked.extend(probes("ordinary densities", of(2601, 40, -3.0, 3.0)));
+    asked.extend(probes("ordinary pdfs", of(2601, 40, -3.0, 3.0)));
     asked.extend(probes("one that cannot find the way", [(0.0, 2.0), (2.0, 0.0)]));
-    asked.extend(probes("densities too large to be squared", of(2602, 30, 160.0, 290.0)));
-    asked.extend(probes("densities too small to be squared", of(2603, 30, -290.0, -170.0)));
+    asked.extend(probes("pdfs too large to be squared", of(2602, 30, 160.0, 290.0)));
+    asked.extend(probes("pdfs too small to be squared", of(2603, 30, -290.0, -170.0)));
     asked.extend(probes("one of each", [(1e200, 1e-200), (1e-200, 1e200)]));
     asked.extend(probes("neither finds the way", [(0.0, 0.0)]));
     asked

@@ -1,7 +1,7 @@
 //! Chapter 11: a direction of a camera with other axes, in ours.
 
 use super::apart::exact;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,7 +12,7 @@ type Vector = [f64; 3];
 type Input = (Vector, bool, bool, bool);
 
 pub fn check(yours: fn(Vector, bool, bool, bool) -> Vector, patience: Duration) -> Report {
-    judge(question(), move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead), patience)
+    compare(question(), move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead), patience)
 }
 
 fn question() -> Question<Input, Vector> {
@@ -32,8 +32,8 @@ fn question() -> Question<Input, Vector> {
     asked.extend(probes("parts of 0", every([0.0, 0.0, 0.0])));
     asked.extend(probes("parts of all sizes", every([1e-300, 1e300, 5e-324])));
     Question {
-        function: "ours_from_theirs",
-        kit_has: ("src/pinhole/rays/camera.rs", "CameraRays"),
+        function: "pinhole_from_theirs",
+        pinhole_has: ("src/pinhole/rays/camera.rs", "CameraRays"),
         probes: asked,
         tell: |(v, x_right, y_up, z_ahead)| {
             format!("direction {}, x_right {x_right}, y_up {y_up}, z_ahead {z_ahead}", v.shown())

@@ -1,7 +1,7 @@
 //! Chapter 23: the direction from a point of the lens through the point in focus.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,13 +12,13 @@ use std::time::Duration;
 type Input = ([f64; 2], f64, [f64; 2], f64);
 
 pub fn check(yours: fn([f64; 2], f64, [f64; 2], f64) -> [f64; 3], patience: Duration) -> Report {
-    judge(question(), move |&(screen, tangent, lens, focus)| yours(screen, tangent, lens, focus), patience)
+    compare(question(), move |&(screen, tangent, lens, focus)| yours(screen, tangent, lens, focus), patience)
 }
 
 fn question() -> Question<Input, [f64; 3]> {
     Question {
         function: "lens_direction",
-        kit_has: ("src/pinhole/rays/lens.rs", "camera_ray_lens"),
+        pinhole_has: ("src/pinhole/rays/lens.rs", "camera_ray_lens"),
         probes: asked(),
         tell: |(screen, tangent, lens, focus)| {
             format!(

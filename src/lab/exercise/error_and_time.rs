@@ -1,7 +1,7 @@
 //! Chapter 18: the variance of a pixel from run to run, and the square of its bias.
 
 use super::apart::option;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,13 +12,13 @@ type Input = (Vec<f64>, f64);
 type Answer = Option<[f64; 2]>;
 
 pub fn check(yours: fn(&[f64], f64) -> Answer, patience: Duration) -> Report {
-    judge(question(), move |(runs, truth)| yours(runs, *truth), patience)
+    compare(question(), move |(runs, truth)| yours(runs, *truth), patience)
 }
 
 fn question() -> Question<Input, Answer> {
     Question {
         function: "variance_and_bias_squared",
-        kit_has: ("src/lab/report/ensemble.rs", "fn bias_squared"),
+        pinhole_has: ("src/lab/report/ensemble.rs", "fn bias_squared"),
         probes: asked(),
         tell: |(runs, truth)| format!("runs {}, truth {truth:?}", told(runs)),
         kit: |input| answer(input, variance, pairs),

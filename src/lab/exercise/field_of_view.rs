@@ -1,7 +1,7 @@
 //! Chapter 08: the vertical angle of a field of view that is measured across something else.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use crate::measure::oracle_camera::ExactCamera;
 use crate::measure::ray_aim::Draws;
@@ -18,13 +18,13 @@ const AXES: [FovAxis; 5] =
     [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
 
 pub fn check(yours: fn(f64, FovAxis, u32, u32) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(angle, axis, width, height)| yours(angle, axis, width, height), patience)
+    compare(question(), move |&(angle, axis, width, height)| yours(angle, axis, width, height), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "vertical_fov",
-        kit_has: ("src/pinhole/extract/camera.rs", "tan_half"),
+        pinhole_has: ("src/pinhole/extract/camera.rs", "tan_half"),
         probes: asked(),
         tell: |(angle, axis, width, height)| format!("angle {angle:?}°, axis {axis:?}, width {width}, height {height}"),
         kit: |&(angle, axis, width, height)| {

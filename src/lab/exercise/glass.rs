@@ -1,7 +1,7 @@
 //! Chapter 20: a direction through a surface of glass, where there is one.
 
 use super::apart::{absolute, option};
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -14,13 +14,13 @@ type Vector = [f64; 3];
 type Input = (Vector, Vector, f64);
 
 pub fn check(yours: fn(Vector, Vector, f64) -> Option<Vector>, patience: Duration) -> Report {
-    judge(question(), move |&(direction, normal, eta)| yours(direction, normal, eta), patience)
+    compare(question(), move |&(direction, normal, eta)| yours(direction, normal, eta), patience)
 }
 
 fn question() -> Question<Input, Option<Vector>> {
     Question {
         function: "refracted",
-        kit_has: ("src/pinhole/follow/fresnel.rs", "refract"),
+        pinhole_has: ("src/pinhole/follow/fresnel.rs", "refract"),
         probes: asked(),
         tell: |(direction, normal, eta)| {
             format!("direction {}, normal {}, eta {eta:?}", direction.shown(), normal.shown())
@@ -83,7 +83,8 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("between equals", [([0.6, -0.8, 0.0], up, 1.0)]));
     asked.extend(probes("into a denser medium", anywhere(2001, [1.0, 3.0])));
     asked.extend(probes("out of glass", [([0.6, -0.8, 0.0], up, 1.0 / 1.5)]));
-    asked.extend(probes("out of glass, at so flat an angle that nothing passes", [([0.8, -0.6, 0.0], up, 1.0 / 1.5)]));
+    asked
+        .extend(probes("out of glass, at so planar an angle that nothing passes", [([0.8, -0.6, 0.0], up, 1.0 / 1.5)]));
     asked.extend(probes("into a thinner medium", anywhere(2002, [0.3, 1.0])));
     asked
 }

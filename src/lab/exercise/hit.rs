@@ -1,14 +1,14 @@
 //! Chapter 03: where a ray first meets a sphere, judged by exact arithmetic.
 
 use super::apart::{option, relative};
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::oracle_sphere::{Sphere, line_roots, sphere_hit};
 use crate::measure::ray_aim::{self, AimedRay, Draws};
 use crate::naive::sphere::hit_f64_plain;
 use glam::{DVec3, Vec3};
-use pinhole::intersect::sphere_verdict;
+use pinhole::intersect::sphere_intersection;
 use std::time::Duration;
 
 /// Origin, direction, centre, radius; origin and direction have few digits, as f32 numbers.
@@ -16,13 +16,13 @@ type Input = ([f64; 3], [f64; 3], [f64; 3], f64);
 type Answer = Option<f64>;
 
 pub fn check(yours: fn([f64; 3], [f64; 3], [f64; 3], f64) -> Answer, patience: Duration) -> Report {
-    judge(question(), move |&(o, d, c, r)| yours(o, d, c, r), patience)
+    compare(question(), move |&(o, d, c, r)| yours(o, d, c, r), patience)
 }
 
 fn question() -> Question<Input, Answer> {
     Question {
         function: "nearest_sphere_t",
-        kit_has: ("src/pinhole/intersect/sphere.rs", "sphere_verdict"),
+        pinhole_has: ("src/pinhole/intersect/sphere.rs", "sphere_intersection"),
         probes: asked(),
         tell: |(origin, direction, centre, radius)| {
             let [origin, direction, centre] = [origin, direction, centre].map(Shown::shown);
@@ -114,7 +114,7 @@ fn input(origin: Vec3, direction: Vec3, Sphere { centre, radius }: Sphere) -> In
 
 /// Whether f64 can tell a hit from a miss, and t to the digits asked for.
 fn decidable(&(origin, direction, centre, radius): &Input) -> bool {
-    !sphere_verdict(DVec3::from(centre) - DVec3::from(origin), direction.into(), radius).doubtful
+    !sphere_intersection(DVec3::from(centre) - DVec3::from(origin), direction.into(), radius).uncertain
 }
 
 fn single(v: [f64; 3]) -> Vec3 {

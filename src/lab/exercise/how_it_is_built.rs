@@ -1,7 +1,7 @@
 //! Chapter 12: which stages are kept, judged by the kit's own plan.
 
 use super::apart::exact;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use crate::attempt::StageWords;
 use crate::measure::ray_aim::Draws;
@@ -21,13 +21,13 @@ const NUMBERS: [&str; 16] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "
 const FILM: &str = "pixel";
 
 pub fn check(yours: fn(&[StageWords], &str) -> Vec<String>, patience: Duration) -> Report {
-    judge(question(), move |(stages, asked)| yours(stages, asked), patience)
+    compare(question(), move |(stages, asked)| yours(stages, asked), patience)
 }
 
 fn question() -> Question<Input, Vec<String>> {
     Question {
         function: "kept",
-        kit_has: ("src/pinhole/plan/decide.rs", "fn decide"),
+        pinhole_has: ("src/pinhole/plan/decide.rs", "fn decide"),
         probes: asked(),
         tell: |(stages, asked)| {
             let told: Vec<String> = stages.iter().map(told).collect();

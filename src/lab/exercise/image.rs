@@ -1,7 +1,7 @@
 //! Chapter 01: from the running index of a pixel to its centre in raster space.
 
 use super::apart::exact;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Question, probes};
 use crate::measure::ray_aim::Draws;
 use pinhole::rays::raster_from_pixel;
@@ -10,7 +10,7 @@ use std::time::Duration;
 type Input = (u64, u32);
 
 pub fn check(yours: fn(u64, u32) -> [f64; 2], patience: Duration) -> Report {
-    judge(question(), move |&(index, width)| yours(index, width), patience)
+    compare(question(), move |&(index, width)| yours(index, width), patience)
 }
 
 fn question() -> Question<Input, [f64; 2]> {
@@ -31,7 +31,7 @@ fn question() -> Question<Input, [f64; 2]> {
     asked.extend(probes("the last pixels of 65536 × 65536", [(1 << 32) - 1, (1 << 32) - 65_536].map(|i| (i, 65_536))));
     Question {
         function: "raster_from_index",
-        kit_has: ("src/pinhole/rays/raster.rs", "raster_from_pixel"),
+        pinhole_has: ("src/pinhole/rays/raster.rs", "raster_from_pixel"),
         probes: asked,
         tell: |(index, width)| format!("index {index}, width {width}"),
         kit: |&(index, width)| centre(index, width).into(),

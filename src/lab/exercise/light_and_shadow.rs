@@ -1,7 +1,7 @@
 //! Chapter 10: what a matte surface sends on of a lamp's light.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -15,13 +15,13 @@ type Vector = [f64; 3];
 type Input = (f64, f64, Vector, Vector, Vector);
 
 pub fn check(yours: fn(f64, f64, Vector, Vector, Vector) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(c, i, position, normal, light)| yours(c, i, position, normal, light), patience)
+    compare(question(), move |&(c, i, position, normal, light)| yours(c, i, position, normal, light), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "reflected_radiance",
-        kit_has: ("src/pinhole/shade/point_light.rs", "irradiance_from_point"),
+        pinhole_has: ("src/pinhole/shade/point_light.rs", "irradiance_from_point"),
         probes: asked(),
         tell: |(colour, intensity, position, normal, light)| {
             let [position, normal, light] = [position, normal, light].map(Shown::shown);

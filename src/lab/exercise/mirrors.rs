@@ -1,7 +1,7 @@
 //! Chapter 19: a direction off a mirror whose normal may be of any length.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -14,13 +14,13 @@ type Vector = [f64; 3];
 type Input = (Vector, Vector);
 
 pub fn check(yours: fn(Vector, Vector) -> Vector, patience: Duration) -> Report {
-    judge(question(), move |&(direction, normal)| yours(direction, normal), patience)
+    compare(question(), move |&(direction, normal)| yours(direction, normal), patience)
 }
 
 fn question() -> Question<Input, Vector> {
     Question {
         function: "mirrored",
-        kit_has: ("src/pinhole/follow/fresnel.rs", "mirror_direction"),
+        pinhole_has: ("src/pinhole/follow/fresnel.rs", "mirror_direction"),
         probes: asked(),
         tell: |(direction, normal)| format!("direction {}, normal {}", direction.shown(), normal.shown()),
         kit: |input| mirror_direction(input.0.into(), unit(input)).into(),

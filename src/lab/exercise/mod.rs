@@ -11,6 +11,7 @@ mod apart;
 mod camera_to_world;
 mod caustics;
 mod choosing_samples;
+mod compare;
 mod conventions;
 mod depth_of_field;
 mod error_and_time;
@@ -19,7 +20,6 @@ mod glass;
 mod hit;
 mod how_it_is_built;
 mod image;
-mod judge;
 mod light_and_shadow;
 mod mirrors;
 mod motion_blur;
@@ -41,7 +41,7 @@ mod textures;
 mod transforms;
 mod turn;
 
-pub use judge::{Mismatch, Outcome, Report};
+pub use compare::{Mismatch, Outcome, Report};
 pub use progress::{Progress, Tries};
 pub use turn::{Turn, list_exercises, take_turn, turn};
 
@@ -64,7 +64,7 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::VerticalFov(yours) => field_of_view::check(yours, patience),
         Attempt::NormalWorldFromObject(yours) => camera_to_world::check(yours, patience),
         Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
-        Attempt::OursFromTheirs(yours) => conventions::check(yours, patience),
+        Attempt::PinholeFromTheirs(yours) => conventions::check(yours, patience),
         Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
         Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
         Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
@@ -74,12 +74,12 @@ pub fn check(attempt: Attempt, patience: Duration) -> Report {
         Attempt::TentOffset(yours) => sampling::check(yours, patience),
         Attempt::Mirrored(yours) => mirrors::check(yours, patience),
         Attempt::Refracted(yours) => glass::check(yours, patience),
-        Attempt::SolidAngleDensity(yours) => soft_shadows::check(yours, patience),
+        Attempt::SolidAnglePdf(yours) => soft_shadows::check(yours, patience),
         Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
         Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
         Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
         Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
         Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
-        Attempt::PixelShare(yours) => caustics::check(yours, patience),
+        Attempt::PixelFraction(yours) => caustics::check(yours, patience),
     }
 }

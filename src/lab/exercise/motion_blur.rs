@@ -1,12 +1,12 @@
 //! Chapter 24: where a ray meets a sphere that moves.
 
 use super::apart::{option, relative};
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
 use glam::DVec3;
-use pinhole::intersect::{at_rest, sphere_t, sphere_verdict};
+use pinhole::intersect::{at_rest, sphere_intersection, sphere_t};
 use std::time::Duration;
 
 /// Origin, direction, centre, radius, velocity, time.
@@ -16,13 +16,13 @@ type Answer = Option<f64>;
 type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Answer;
 
 pub fn check(yours: Yours, patience: Duration) -> Report {
-    judge(question(), move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), patience)
+    compare(question(), move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), patience)
 }
 
 fn question() -> Question<Input, Answer> {
     Question {
         function: "moving_sphere_t",
-        kit_has: ("src/pinhole/intersect/moving.rs", "at_rest"),
+        pinhole_has: ("src/pinhole/intersect/moving.rs", "at_rest"),
         probes: asked(),
         tell: |(origin, direction, centre, radius, velocity, time)| {
             let [origin, direction, centre, velocity] = [origin, direction, centre, velocity].map(Shown::shown);
@@ -96,6 +96,6 @@ fn decidable(&(origin, direction, centre, radius, velocity, time): &Input) -> bo
         let across = from_centre - from_centre.dot(direction.into()) * DVec3::from(direction);
         (across.length() / radius - 1.0).abs() < 1e-3
     };
-    let verdict = sphere_verdict(from_centre, direction.into(), radius);
-    from_centre.length() > radius * 1.01 && !grazing && !verdict.doubtful
+    let intersection = sphere_intersection(from_centre, direction.into(), radius);
+    from_centre.length() > radius * 1.01 && !grazing && !intersection.uncertain
 }

@@ -1,7 +1,7 @@
 //! Chapter 06: which pixel holds an NDC point, judged by exact arithmetic.
 
 use super::apart::exact;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::exact::Dyadic;
@@ -14,13 +14,13 @@ type Input = ([f64; 2], u32, u32);
 type Pixel = Option<[u32; 2]>;
 
 pub fn check(yours: fn([f64; 2], u32, u32) -> Pixel, patience: Duration) -> Report {
-    judge(question(), move |&(ndc, width, height)| yours(ndc, width, height), patience)
+    compare(question(), move |&(ndc, width, height)| yours(ndc, width, height), patience)
 }
 
 fn question() -> Question<Input, Pixel> {
     Question {
         function: "pixel_from_ndc",
-        kit_has: ("src/pinhole/rays/ndc.rs", "ndc_from_raster"),
+        pinhole_has: ("src/pinhole/rays/ndc.rs", "ndc_from_raster"),
         probes: asked(),
         tell: |(ndc, width, height)| format!("ndc {}, width {width}, height {height}", ndc.shown()),
         kit: |&([x, y], width, height)| Some([holder(x, width)?, holder(y, height)?]),

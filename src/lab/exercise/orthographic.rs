@@ -1,7 +1,7 @@
 //! Chapter 04: the ray that starts at a point of the view rectangle.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,7 +12,7 @@ type Input = ([f64; 2], f64);
 type Ray = ([f64; 3], [f64; 3]);
 
 pub fn check(yours: fn([f64; 2], f64) -> Ray, patience: Duration) -> Report {
-    judge(question(), move |&(screen, view_height)| yours(screen, view_height), patience)
+    compare(question(), move |&(screen, view_height)| yours(screen, view_height), patience)
 }
 
 fn question() -> Question<Input, Ray> {
@@ -32,7 +32,7 @@ fn question() -> Question<Input, Ray> {
     asked.extend(probes("a view as large as a galaxy, in millimetres", at(404, 1.0, 10.0, 18.0)));
     Question {
         function: "orthographic_ray",
-        kit_has: ("src/pinhole/rays/camera.rs", "camera_ray_orthographic"),
+        pinhole_has: ("src/pinhole/rays/camera.rs", "camera_ray_orthographic"),
         probes: asked,
         tell: |(screen, view_height)| format!("screen {}, view_height {view_height:?}", screen.shown()),
         kit: |&(screen, view_height)| ray(screen, view_height / 2.0),

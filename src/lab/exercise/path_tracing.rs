@@ -1,22 +1,22 @@
 //! Chapter 25: what a way is worth after Russian roulette.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
-use pinhole::follow::chance_to_go_on;
+use pinhole::follow::survival_probability;
 use std::time::Duration;
 
 type Input = ([f64; 3], f64);
 
 pub fn check(yours: fn([f64; 3], f64) -> [f64; 3], patience: Duration) -> Report {
-    judge(question(), move |&(share, u)| yours(share, u), patience)
+    compare(question(), move |&(share, u)| yours(share, u), patience)
 }
 
 /// Plays with a chance, and makes what goes on worth so much more.
-fn played(&(share, u): &Input, chance: f64, more: f64) -> [f64; 3] {
-    if u < chance { share.map(|part| part * more) } else { [0.0; 3] }
+fn played(&(share, u): &Input, random: f64, more: f64) -> [f64; 3] {
+    if u < random { share.map(|part| part * more) } else { [0.0; 3] }
 }
 
 fn largest(share: [f64; 3]) -> f64 {
@@ -26,38 +26,38 @@ fn largest(share: [f64; 3]) -> f64 {
 fn question() -> Question<Input, [f64; 3]> {
     Question {
         function: "after_roulette",
-        kit_has: ("src/pinhole/follow/roulette.rs", "chance_to_go_on"),
+        pinhole_has: ("src/pinhole/follow/roulette.rs", "survival_probability"),
         probes: asked(),
         tell: |(share, u)| format!("share {}, u {}", share.shown(), u.shown()),
         kit: |input| {
-            let chance = chance_to_go_on(input.0);
-            played(input, chance, 1.0 / chance)
+            let random = survival_probability(input.0);
+            played(input, random, 1.0 / random)
         },
         apart: |yours, right| relative(yours, right),
         allowed: 1e-12,
         measured: "of each part",
         mistakes: vec![
             Mistake::new("a way that goes on counts as before, so the light of those that ended is lost", |input| {
-                played(input, chance_to_go_on(input.0), 1.0)
+                played(input, survival_probability(input.0), 1.0)
             }),
             Mistake::new("nothing ever ends: where the number is not below the chance, nothing is left", |input| {
-                played(input, f64::INFINITY, 1.0 / chance_to_go_on(input.0))
+                played(input, f64::INFINITY, 1.0 / survival_probability(input.0))
             }),
             Mistake::new("the two ends are swapped: a way goes on where the number lies below the chance", |input| {
-                let chance = chance_to_go_on(input.0);
-                if input.1 < chance { [0.0; 3] } else { input.0.map(|part| part / chance) }
+                let random = survival_probability(input.0);
+                if input.1 < random { [0.0; 3] } else { input.0.map(|part| part / random) }
             }),
             Mistake::new("a chance above 1 divides light away; it is at most 1, and then nothing changes", |input| {
-                let chance = largest(input.0);
-                played(input, chance, 1.0 / chance)
+                let random = largest(input.0);
+                played(input, random, 1.0 / random)
             }),
             Mistake::new("the chance is the mean of the three; asked is the largest", |input| {
-                let chance = (input.0.iter().sum::<f64>() / 3.0).min(1.0);
-                played(input, chance, 1.0 / chance)
+                let random = (input.0.iter().sum::<f64>() / 3.0).min(1.0);
+                played(input, random, 1.0 / random)
             }),
             Mistake::new("the chance is that of green alone; asked is the largest of the three", |input| {
-                let chance = input.0[1].min(1.0);
-                played(input, chance, 1.0 / chance)
+                let random = input.0[1].min(1.0);
+                played(input, random, 1.0 / random)
             }),
             Mistake::new("each colour plays for itself; a way is one ray, which goes on or does not", |input| {
                 input.0.map(|part| if input.1 < part.min(1.0) { part / part.min(1.0) } else { 0.0 })
@@ -66,7 +66,7 @@ fn question() -> Question<Input, [f64; 3]> {
         hints: &[
             "the mean over all numbers must be the share itself: chance × what goes on + (1 − chance) × 0",
             "so what goes on is the share divided by the chance; compare the number with the chance first",
-            "the chance is the largest of the three, but `.min(1.0)`; where the share is black nothing goes on, and \
+            "the random is the largest of the three, but `.min(1.0)`; where the share is black nothing goes on, and \
              nothing is divided by 0",
         ],
     }
@@ -83,7 +83,7 @@ fn asked() -> Vec<Probe<Input>> {
     };
     asked.extend(probes("a coloured share", coloured(2501, 0..60, 1.0)));
     asked.extend(probes("a share above 1", coloured(2502, 0..40, 6.0)));
-    asked.extend(probes("just at the chance", [(grey(0.25), 0.25), ([0.125, 0.5, 0.25], 0.5), (grey(1.0), 0.0)]));
+    asked.extend(probes("just at the random", [(grey(0.25), 0.25), ([0.125, 0.5, 0.25], 0.5), (grey(1.0), 0.0)]));
     asked.extend(probes("nothing left", [(grey(0.0), 0.0), (grey(0.0), 0.5)]));
     asked
 }

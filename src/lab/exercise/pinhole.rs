@@ -1,7 +1,7 @@
 //! Chapter 05: the direction from the eye through a screen point.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -13,7 +13,7 @@ use std::time::Duration;
 type Input = ([f64; 2], f64);
 
 pub fn check(yours: fn([f64; 2], f64) -> [f64; 3], patience: Duration) -> Report {
-    judge(question(), move |&(screen, tangent)| yours(screen, tangent), patience)
+    compare(question(), move |&(screen, tangent)| yours(screen, tangent), patience)
 }
 
 fn question() -> Question<Input, [f64; 3]> {
@@ -35,7 +35,7 @@ fn question() -> Question<Input, [f64; 3]> {
     asked.extend(probes("an image 10000 times as wide as high", at(505, 1e4, 10.0, 120.0)));
     Question {
         function: "perspective_direction",
-        kit_has: ("src/pinhole/rays/camera.rs", "camera_ray_perspective"),
+        pinhole_has: ("src/pinhole/rays/camera.rs", "camera_ray_perspective"),
         probes: asked,
         tell: |(screen, tangent)| format!("screen {}, tan_half_vertical {tangent:?}", screen.shown()),
         kit: |&(screen, tangent)| camera_ray_perspective(screen.into(), tangent).into(),

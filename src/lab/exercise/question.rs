@@ -5,7 +5,7 @@ pub struct Question<I, A> {
     /// The function's name.
     pub function: &'static str,
     /// Where the kit does the same: a file, and a name in it.
-    pub kit_has: (&'static str, &'static str),
+    pub pinhole_has: (&'static str, &'static str),
     /// The inputs, ordinary ones first.
     pub probes: Vec<Probe<I>>,
     /// An input as the function's arguments, by name.

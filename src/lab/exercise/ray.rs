@@ -1,7 +1,7 @@
 //! Chapter 02: a vector brought to length 1, whatever its size.
 
 use super::apart::{absolute, option};
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Question, probes};
 use super::shown::Shown;
 use crate::measure::exact::Dyadic;
@@ -12,7 +12,7 @@ use std::time::Duration;
 type Vector = [f64; 3];
 
 pub fn check(yours: fn(Vector) -> Option<Vector>, patience: Duration) -> Report {
-    judge(question(), move |&v| yours(v), patience)
+    compare(question(), move |&v| yours(v), patience)
 }
 
 fn question() -> Question<Vector, Option<Vector>> {
@@ -41,7 +41,7 @@ fn question() -> Question<Vector, Option<Vector>> {
     ));
     Question {
         function: "unit",
-        kit_has: ("src/pinhole/extract/pose.rs", "fn direction"),
+        pinhole_has: ("src/pinhole/extract/pose.rs", "fn direction"),
         probes: asked,
         tell: |v| format!("v {}", v.shown()),
         kit: |&v| unit(v),

@@ -1,13 +1,13 @@
 //! Chapter 15: what a Phong surface sends on of parallel light.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
 use glam::DVec3;
 use pinhole::extract::phong_peak;
-use pinhole::shade::{half_way_cosine, highlight, matte_radiance, mirror_cosine};
+use pinhole::shade::{half_vector_cosine, highlight, matte_radiance, mirror_cosine};
 use std::f64::consts::PI;
 use std::time::Duration;
 
@@ -16,18 +16,18 @@ type Vector = [f64; 3];
 type Input = (Vector, f64, Vector, Vector, Vector);
 
 pub fn check(yours: fn(Vector, f64, Vector, Vector, Vector) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye), patience)
+    compare(question(), move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "phong_radiance",
-        kit_has: ("src/pinhole/shade/phong.rs", "mirror_cosine"),
+        pinhole_has: ("src/pinhole/shade/phong.rs", "mirror_cosine"),
         probes: asked(),
         tell: |([colour, specular, exponent], irradiance, normal, to_light, to_eye)| {
             let [normal, to_light, to_eye] = [normal, to_light, to_eye].map(Shown::shown);
-            let matter = format!("colour {colour:?}, specular {specular:?}, exponent {exponent:?}");
-            format!("{matter}, irradiance {irradiance:?}, normal {normal}, to_light {to_light}, to_eye {to_eye}")
+            let material = format!("colour {colour:?}, specular {specular:?}, exponent {exponent:?}");
+            format!("{material}, irradiance {irradiance:?}, normal {normal}, to_light {to_light}, to_eye {to_eye}")
         },
         kit: |input| sent(input, lobe(input, alpha(input)), lit(input)),
         apart: |yours, right| relative(&[*yours], &[*right]),
@@ -69,7 +69,7 @@ fn question() -> Question<Input, f64> {
             }),
             Mistake::new(
                 "the highlight is about the half-way direction, which is Blinn's; Phong's is about the mirrored light",
-                |i| sent(i, lobe(i, half_way_cosine(i.2.into(), i.3.into(), i.4.into())), lit(i)),
+                |i| sent(i, lobe(i, half_vector_cosine(i.2.into(), i.3.into(), i.4.into())), lit(i)),
             ),
             Mistake::new(
                 "the mirrored way points into the surface: it is 2(n·l)n − l, not l − 2(n·l)n",
@@ -91,12 +91,12 @@ fn question() -> Question<Input, f64> {
 fn asked() -> Vec<Probe<Input>> {
     let up = [0.0, 1.0, 0.0];
     let slant = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize().to_array();
-    let probe = |matter, to_light, to_eye| (matter, 2.0, up, to_light, to_eye);
+    let probe = |material, to_light, to_eye| (material, 2.0, up, to_light, to_eye);
     let anywhere = |seed, low: f64, high: f64| {
         (0..40).map(move |at| {
             let mut draws = Draws::new(seed, at);
             let colour = draws.unit();
-            let matter = [colour, (1.0 - colour) * draws.unit(), draws.power_of_ten(low, high)];
+            let material = [colour, (1.0 - colour) * draws.unit(), draws.power_of_ten(low, high)];
             let normal = draws.unit_vector();
             let way = |draws: &mut Draws, least: f64| {
                 let along = draws.unit_vector_across(normal);
@@ -105,9 +105,9 @@ fn asked() -> Vec<Probe<Input>> {
             let (to_light, mut to_eye) = (way(&mut draws, -0.3), way(&mut draws, 0.05));
             if at % 2 == 0 {
                 let mirrored = 2.0 * normal.dot(to_light).abs() * normal - to_light * normal.dot(to_light).signum();
-                to_eye = (mirrored + to_eye * (0.5 / libm::sqrt(1.0 + matter[2]))).normalize();
+                to_eye = (mirrored + to_eye * (0.5 / libm::sqrt(1.0 + material[2]))).normalize();
             }
-            (matter, draws.power_of_ten(-1.0, 2.0), normal.to_array(), to_light.to_array(), to_eye.to_array())
+            (material, draws.power_of_ten(-1.0, 2.0), normal.to_array(), to_light.to_array(), to_eye.to_array())
         })
     };
     let mut asked: Vec<_> =

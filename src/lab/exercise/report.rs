@@ -1,4 +1,4 @@
-use super::judge::{Asked, Outcome, Report};
+use super::compare::{Input, Outcome, Report};
 use std::io::{self, Write};
 
 impl Report {
@@ -51,7 +51,7 @@ impl Report {
                 writeln!(out, "  the worst is off by {worst:.1e} {measured}, where {allowed:e} is allowed")?;
             }
         }
-        let (file, name) = self.kit_has;
+        let (file, name) = self.pinhole_has;
         writeln!(out, "the kit does it in {file}: look for `{name}`")
     }
 
@@ -84,7 +84,7 @@ impl Report {
     }
 }
 
-fn print_asked(asked: &Asked, out: &mut dyn Write) -> io::Result<()> {
+fn print_asked(asked: &Input, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "  input {:<4} {}", asked.number, asked.about)?;
     writeln!(out, "             {}", asked.input)
 }

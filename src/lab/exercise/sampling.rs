@@ -1,7 +1,7 @@
 //! Chapter 17: where a tent filter puts a sample.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -11,13 +11,13 @@ use std::time::Duration;
 type Input = (f64, f64);
 
 pub fn check(yours: fn(f64, f64) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(u, radius)| yours(u, radius), patience)
+    compare(question(), move |&(u, radius)| yours(u, radius), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "tent_offset",
-        kit_has: ("src/pinhole/sample/filter.rs", "tent_offset"),
+        pinhole_has: ("src/pinhole/sample/filter.rs", "tent_offset"),
         probes: asked(),
         tell: |(u, radius)| format!("u {}, radius {}", u.shown(), radius.shown()),
         kit: |&(u, radius)| tent_offset(u, radius),

@@ -1,7 +1,7 @@
 //! Chapter 07: from the screen back to NDC, judged by exact arithmetic.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::exact::Dyadic;
@@ -12,13 +12,13 @@ use std::time::Duration;
 type Input = ([f64; 2], u32, u32);
 
 pub fn check(yours: fn([f64; 2], u32, u32) -> [f64; 2], patience: Duration) -> Report {
-    judge(question(), move |&(screen, width, height)| yours(screen, width, height), patience)
+    compare(question(), move |&(screen, width, height)| yours(screen, width, height), patience)
 }
 
 fn question() -> Question<Input, [f64; 2]> {
     Question {
         function: "ndc_from_screen",
-        kit_has: ("src/pinhole/rays/screen.rs", "screen_from_ndc"),
+        pinhole_has: ("src/pinhole/rays/screen.rs", "screen_from_ndc"),
         probes: asked(),
         tell: |(screen, width, height)| format!("screen {}, width {width}, height {height}", screen.shown()),
         kit: |&(screen, width, height)| undone(screen, width, height),

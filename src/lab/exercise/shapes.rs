@@ -1,7 +1,7 @@
 //! Chapter 13: where a ray first meets a box, judged by exact arithmetic.
 
 use super::apart::{option, relative};
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::oracle_cuboid::cuboid_hit;
@@ -15,13 +15,13 @@ type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);
 type Answer = Option<f64>;
 
 pub fn check(yours: fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Answer, patience: Duration) -> Report {
-    judge(question(), move |&(o, d, least, most)| yours(o, d, least, most), patience)
+    compare(question(), move |&(o, d, least, most)| yours(o, d, least, most), patience)
 }
 
 fn question() -> Question<Input, Answer> {
     Question {
         function: "nearest_box_t",
-        kit_has: ("src/pinhole/intersect/cuboid.rs", "fn slab"),
+        pinhole_has: ("src/pinhole/intersect/cuboid.rs", "fn slab"),
         probes: asked(),
         tell: |(origin, direction, least, most)| {
             let [origin, direction, least, most] = [origin, direction, least, most].map(Shown::shown);

@@ -1,12 +1,12 @@
 //! Chapter 21: how likely a direction is when a point of an area is chosen evenly.
 
 use super::apart::relative;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
 use glam::DVec3;
-use pinhole::shade::emitter::density_from_area;
+use pinhole::shade::emitter::pdf_from_area;
 use std::time::Duration;
 
 type Vector = [f64; 3];
@@ -14,19 +14,19 @@ type Vector = [f64; 3];
 type Input = (Vector, Vector, Vector, f64);
 
 pub fn check(yours: fn(Vector, Vector, Vector, f64) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(from, at, normal, area)| yours(from, at, normal, area), patience)
+    compare(question(), move |&(from, at, normal, area)| yours(from, at, normal, area), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
-        function: "solid_angle_density",
-        kit_has: ("src/pinhole/shade/emitter/mod.rs", "density_from_area"),
+        function: "solid_angle_pdf",
+        pinhole_has: ("src/pinhole/shade/emitter/mod.rs", "pdf_from_area"),
         probes: asked(),
         tell: |(from, at, normal, area)| {
             let [from, at, normal] = [from, at, normal].map(Shown::shown);
             format!("from {from}, at {at}, normal {normal}, area {area:?}")
         },
-        kit: density,
+        kit: pdf,
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
         measured: "of the density",
@@ -47,18 +47,18 @@ fn question() -> Question<Input, f64> {
             Mistake::new("the distance is missing: far away the area fills less", |input| {
                 if cosine(input) == 0.0 { 0.0 } else { 1.0 / (input.3 * cosine(input).abs()) }
             }),
-            Mistake::new("the distance counts once, not squared", |input| density(input) / squared(input).sqrt()),
+            Mistake::new("the distance counts once, not squared", |input| pdf(input) / squared(input).sqrt()),
             Mistake::new("that is the solid angle of the area; the density is one over it", |input| {
                 input.3 * cosine(input).abs() / squared(input)
             }),
             Mistake::new(
                 "a light that faces away has a negative density; which way its normal points does not matter",
-                |i| density(i).copysign(-cosine(i)),
+                |i| pdf(i).copysign(-cosine(i)),
             ),
             Mistake::new(
                 "a light that faces away has none; which way its normal points does not matter here",
                 |input| {
-                    if cosine(input) < 0.0 { density(input) } else { 0.0 }
+                    if cosine(input) < 0.0 { pdf(input) } else { 0.0 }
                 },
             ),
             Mistake::new(
@@ -68,7 +68,7 @@ fn question() -> Question<Input, f64> {
         ],
         hints: &[
             "how much of the sky does a small piece of the area fill, when it is turned to you and when it is not?",
-            "a piece dA at distance d fills dA cos θ / d², with θ between its normal and the way to you; the chance of \
+            "a piece dA at distance d fills dA cos θ / d², with θ between its normal and the way to you; the random of \
              the piece is dA / A",
             "d² / (A |cos θ|), where v = at − from, d = |v| and cos θ = normal · v / d; 0 where the cosine is 0",
         ],
@@ -115,6 +115,6 @@ fn cosine(input: &Input) -> f64 {
     DVec3::from(input.2).dot(way(input)) / squared(input).sqrt()
 }
 
-fn density(input: &Input) -> f64 {
-    density_from_area(way(input), DVec3::from(input.2), input.3)
+fn pdf(input: &Input) -> f64 {
+    pdf_from_area(way(input), DVec3::from(input.2), input.3)
 }

@@ -1,7 +1,7 @@
 //! Chapter 16: the mean of stripes over what a pixel covers.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -12,13 +12,13 @@ use std::time::Duration;
 type Input = (f64, f64);
 
 pub fn check(yours: fn(f64, f64) -> f64, patience: Duration) -> Report {
-    judge(question(), move |&(x, width)| yours(x, width), patience)
+    compare(question(), move |&(x, width)| yours(x, width), patience)
 }
 
 fn question() -> Question<Input, f64> {
     Question {
         function: "mean_of_stripes",
-        kit_has: ("src/pinhole/shade/checker.rs", "wave_mean"),
+        pinhole_has: ("src/pinhole/shade/checker.rs", "wave_mean"),
         probes: asked(),
         tell: |(x, width)| format!("x {}, width {}", x.shown(), width.shown()),
         kit: |&(x, width)| wave_mean(x, width),

@@ -1,7 +1,7 @@
 //! Chapter 14: the slant at which light falls on a triangle whose corners have normals.
 
 use super::apart::absolute;
-use super::judge::{Report, judge};
+use super::compare::{Report, compare};
 use super::question::{Mistake, Probe, Question, probes};
 use super::shown::Shown;
 use crate::measure::ray_aim::Draws;
@@ -14,7 +14,7 @@ type Vector = [f64; 3];
 type Input = (Vector, [Vector; 3], Vector, Vector, Vector);
 
 pub fn check(yours: fn(Vector, [Vector; 3], Vector, Vector, Vector) -> f64, patience: Duration) -> Report {
-    judge(
+    compare(
         question(),
         move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light),
         patience,
@@ -24,7 +24,7 @@ pub fn check(yours: fn(Vector, [Vector; 3], Vector, Vector, Vector) -> f64, pati
 fn question() -> Question<Input, f64> {
     Question {
         function: "falling_cosine",
-        kit_has: ("src/pinhole/intersect/shading_normal.rs", "falling_cosine"),
+        pinhole_has: ("src/pinhole/intersect/shading_normal.rs", "falling_cosine"),
         probes: asked(),
         tell: |(geometric, normals, shares, eye, light)| {
             let [geometric, shares, eye, light] = [geometric, shares, eye, light].map(Shown::shown);

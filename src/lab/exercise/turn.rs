@@ -1,4 +1,4 @@
-use super::judge::{Outcome, Report};
+use super::compare::{Outcome, Report};
 use super::{PATIENCE, Progress, Tries, check};
 use crate::attempt::Attempt;
 use pinhole::{Error, Result};

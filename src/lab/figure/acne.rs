@@ -15,7 +15,7 @@ use pinhole::plan::Table;
 use pinhole::render::inspect;
 use pinhole::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
 use pinhole::shade::{LightRays, ShadowHits, matte_radiance};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 
 /// Pixels of each small picture.
 const SIZE: [u32; 2] = [144, 81];
@@ -81,7 +81,8 @@ impl Shadows {
     /// Runs the chapter's stages over its scene, scaled.
     fn of(chapter: &Chapter, figure: &Figure, scale: f64) -> Result<Self> {
         let [width, height] = SIZE;
-        let mut scene = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
+        let mut scene =
+            chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() });
         scale_scene(&mut scene, scale);
         let inspection = inspect(&scene, &chapter.stages(), width.max(height))?;
         let tile = inspection.tiles.first().map(|&tile| inspection.world.entity(tile));

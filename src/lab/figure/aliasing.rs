@@ -10,7 +10,7 @@ use pinhole::extract::texture_evidence;
 use pinhole::plan::entities;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Checker, ImageTexture, Resolution, Stripes};
-use pinhole::{Asked, AskedSampling, Chapter};
+use pinhole::{Chapter, Overrides, SamplingOverrides};
 
 /// Pixels of each of the three pictures.
 const SIZE: [u32; 2] = [120, 68];
@@ -45,8 +45,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 fn pictures(chapter: &Chapter, figure: &Figure) -> Result<[Vec<[f32; 3]>; 3]> {
     let picture = |filter: bool, samples: Option<u32>| -> Result<Vec<[f32; 3]>> {
         let resolution = Some(Resolution { width: SIZE[0], height: SIZE[1] });
-        let sampling = AskedSampling { samples, ..AskedSampling::default() };
-        let mut scene = chapter.world(&Asked { resolution, sampling, ..Asked::default() });
+        let sampling = SamplingOverrides { samples, ..SamplingOverrides::default() };
+        let mut scene = chapter.world(&Overrides { resolution, sampling, ..Overrides::default() });
         if !texture_evidence(&scene).needed {
             return Err(figure.unsuited("a textured surface"));
         }

@@ -4,34 +4,34 @@ use super::Figure;
 use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::Picture;
 use super::svg::Drawing;
-use crate::naive::mistake::{MatteWay, scatter_matte_by};
+use crate::naive::mistake::{MatteSample, scatter_matte_by};
 use crate::naive::path::{uniform_direction, weight_without_cosine, weight_without_pi};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Chapter;
 use pinhole::Result;
 use pinhole::follow::cosine_direction;
-use pinhole::scene::{Integrator, LightSampling, Sampling};
+use pinhole::scene::{Integrator, LightStrategy, Sampling};
 
 /// Three in a row.
 const SIZE: [u32; 2] = [276, 155];
 /// Legs: so few that what grows at each of them is still a picture.
-const LEGS: u32 = 4;
+const MAX_DEPTH: u32 = 4;
 
 /// Right, then with each mistake.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let change = |camera: &mut EntityWorldMut<'_>| {
-        let integrator = Integrator::Path { legs: LEGS, lights: LightSampling::Aimed, roulette: 0 };
+        let integrator = Integrator::Path { max_depth: MAX_DEPTH, lights: LightStrategy::Light, roulette: 0 };
         camera.insert((integrator, Sampling { samples: 8, seed: 25, ..Sampling::default() }));
     };
     let alike = |u| DVec3::from(uniform_direction(u));
-    let by = |way: MatteWay, lines: [&str; 2]| {
+    let by = |way: MatteSample, lines: [&str; 2]| {
         let picture = Picture::of(chapter, SIZE, Some(scatter_matte_by(way)), change)?;
         Ok::<_, pinhole::Error>(Exhibit { picture, lines: lines.map(str::to_owned).to_vec() })
     };
     let right = Exhibit {
         picture: Picture::of(chapter, SIZE, None, change)?,
-        lines: vec!["right".to_owned(), format!("{LEGS} legs")],
+        lines: vec!["right".to_owned(), format!("{MAX_DEPTH} bounces")],
     };
     let twice = Exhibit {
         picture: Picture::encoded_twice(chapter, SIZE, change)?,
@@ -40,19 +40,19 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let exhibits = [
         right,
         by(
-            MatteWay { direction: alike, share: |albedo, _| weight_without_cosine(albedo) },
+            MatteSample { direction: alike, share: |albedo, _| weight_without_cosine(albedo) },
             ["the missing cosine", "twice what it may"],
         )?,
         by(
-            MatteWay { direction: cosine_direction, share: |albedo, _| weight_without_pi(albedo) },
+            MatteSample { direction: cosine_direction, share: |albedo, _| weight_without_pi(albedo) },
             ["the forgotten π", "π times too much"],
         )?,
         by(
-            MatteWay { direction: alike, share: |albedo, _| albedo },
+            MatteSample { direction: alike, share: |albedo, _| albedo },
             ["the wrong density", "directions alike, not so counted"],
         )?,
         by(
-            MatteWay { direction: cosine_direction, share: |albedo, cosine| albedo * cosine },
+            MatteSample { direction: cosine_direction, share: |albedo, cosine| albedo * cosine },
             ["the cosine twice", "a third is lost"],
         )?,
         twice,

@@ -12,7 +12,9 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::extract::{PinholeLens, angle_across, camera_entity, eye, half_extent, tan_half, world_from_entity};
+use pinhole::extract::{
+    PerspectiveProjection, angle_across, camera_entity, eye, half_extent, tan_half, world_from_entity,
+};
 use pinhole::plan::{Stage, TileSystems};
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement};
@@ -44,8 +46,8 @@ pub fn hang(figure: &Figure, exhibits: &[Exhibit], columns: usize, foot: &str) -
     let mut svg = Svg::new(figure.name, MARGIN + rows.iter().sum::<f64>() + FOOT);
     let mut top = MARGIN;
     for (row, height) in exhibits.chunks(columns).zip(&rows) {
-        let wide = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
-        let mut left = (WIDTH - wide) / 2.0;
+        let double_double = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
+        let mut left = (WIDTH - double_double) / 2.0;
         for Exhibit { picture, lines } in row {
             let size = DVec2::from(picture.size.map(f64::from)) * scale;
             svg.picture(DVec2::new(left, top), size, picture);
@@ -89,7 +91,7 @@ pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let size = pixels(226.0, 1.25);
     let exhibit = |factor: f64| {
         let tangent = factor * tan_half(own.fov);
-        let fov = angle_across(&PinholeLens { tan_half_vertical: tangent }, FovAxis::Vertical, 1.0);
+        let fov = angle_across(&PerspectiveProjection { tan_half_vertical: tangent }, FovAxis::Vertical, 1.0);
         let picture = Picture::of(chapter, size, None, |camera| {
             camera.insert(PerspectiveCamera { fov, axis: FovAxis::Vertical });
         })?;
@@ -111,7 +113,7 @@ pub fn draw_window(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             let picture = Picture::of(chapter, size, None, |camera| {
                 camera.insert(PerspectiveCamera { fov: own.fov, axis });
             })?;
-            let lens = PinholeLens { tan_half_vertical: tan_half(own.fov) / half_extent(axis, shape) };
+            let lens = PerspectiveProjection { tan_half_vertical: tan_half(own.fov) / half_extent(axis, shape) };
             let [vertical, horizontal] =
                 [FovAxis::Vertical, FovAxis::Horizontal].map(|axis| degrees(angle_across(&lens, axis, shape)));
             exhibits.push(Exhibit { picture, lines: vec![format!("{horizontal} × {vertical}")] });
@@ -125,7 +127,7 @@ pub fn draw_window(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 45, 27)?;
     let Lens::Perspective(tangent) = subject.lens else { return Err(figure.unsuited("a perspective camera")) };
-    let middle = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_met(ray)?)));
+    let middle = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
     let nearest = middle.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)));
     let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray meets"))?;
     let scene = chapter.world(&Default::default());
@@ -136,7 +138,7 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let size = pixels(226.0, 1.25);
     let exhibit = |factor: f64| {
         let distance = (centre.length() * factor).max(radius * 1.2);
-        let lens = PinholeLens { tan_half_vertical: tangent * outline(distance) / outline(centre.length()) };
+        let lens = PerspectiveProjection { tan_half_vertical: tangent * outline(distance) / outline(centre.length()) };
         let fov = angle_across(&lens, FovAxis::Vertical, 1.0);
         let look = LookAt { eye: target - centre.normalize() * distance, target, up };
         let picture = Picture::of(chapter, size, None, |camera| {
@@ -153,7 +155,7 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let own = own_camera(chapter, figure)?.fov;
     let size = pixels(345.0, 2.0);
     let in_f32 = own.0 as f32;
-    let slips = [
+    let mistakes = [
         ("tan(*α*/2)", tan_half(own)),
         ("tan *α*: the half forgotten", f64::from(tan_of_full_angle(in_f32))),
         ("2 tan(*α*/2): the whole height for half of it", f64::from(whole_height(in_f32))),
@@ -163,7 +165,7 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let picture = Picture::of(chapter, size, Some(aimed_with(tangent)), |_| ())?;
         Ok(Exhibit { picture, lines: vec![name.into(), format!("{tangent:.3}").replace('-', "−")] })
     };
-    let exhibits = slips.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
+    let exhibits = mistakes.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, size)))
 }
 

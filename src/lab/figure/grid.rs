@@ -75,8 +75,10 @@ pub fn drawn_distance(subject: &Subject) -> f64 {
     let before = |ball: &super::subject::Ball| (ball.centre.dot(ahead) - ball.radius) * 0.72;
     let spheres = subject.balls.iter().map(before).filter(|&distance| distance > 0.0);
     let at_one = Grid::of(subject, 1.0);
-    let planes = subject.flats.iter().flat_map(|flat| {
-        at_one.corners().map(|corner| pinhole::intersect::plane_t(DVec3::ZERO, corner, flat.normal, flat.offset) * 0.88)
+    let planes = subject.planar_shapes.iter().flat_map(|planar| {
+        at_one
+            .corners()
+            .map(|corner| pinhole::intersect::plane_t(DVec3::ZERO, corner, planar.normal, planar.offset) * 0.88)
     });
     let room = spheres.chain(planes).fold(f64::INFINITY, f64::min);
     // One decimal, since the figure's foot says it.

@@ -35,7 +35,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// Of the sphere that looks largest, the ray that passes its centre at the most telling distance.
 fn telling_ray(subject: &Subject) -> Option<(&PixelRay, &Ball)> {
-    let met = || subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_met(ray)?)));
+    let met = || subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
     let away = |(ray, ball): &(&PixelRay, &Ball)| (ball.centre - ray.origin).length() / ball.radius;
     let (_, largest) = met().min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let off = |(ray, ball): &(&PixelRay, &Ball)| {
@@ -91,10 +91,10 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
     // Both halves are named where there is room for both names.
-    let wide = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
+    let double_double = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
     for (from, to, row, name) in [
         (0.0, chord.near, rows[0], "`near` = `s` − `half_chord`"),
-        (chord.near, chord.s, rows[0], if wide { "`half_chord`" } else { "" }),
+        (chord.near, chord.s, rows[0], if double_double { "`half_chord`" } else { "" }),
         (chord.s, chord.far, rows[0], "`half_chord`"),
         (0.0, chord.s, rows[1], "`s`"),
         (0.0, chord.far, rows[2], "`far` = `s` + `half_chord`"),

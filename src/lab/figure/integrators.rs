@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::svg::Drawing;
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::scene::{Integrator, LightSampling, Sampling};
+use pinhole::scene::{Integrator, LightStrategy, Sampling};
 
 /// Three in a row.
 const SMALL: [u32; 2] = [276, 155];
@@ -39,8 +39,8 @@ pub fn draw_distance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 }
 
 /// Ray casting beside paths of more and more legs.
-pub fn draw_legs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let paths = |legs| Integrator::Path { legs, lights: LightSampling::Weighed, roulette: 5 };
+pub fn draw_segments(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let paths = |max_depth| Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 5 };
     let of = |integrator, lines| exhibit(chapter, LARGE, 12, integrator, lines);
     let exhibits = [
         of(Integrator::RayCasting, ["ray casting", "the lamp is seen, and lights nothing"])?,
@@ -54,13 +54,13 @@ pub fn draw_legs(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// Three ways to find the same lamps.
 pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let of = |lights, lines| {
-        let integrator = Integrator::Path { legs: 2, lights, roulette: 0 };
+        let integrator = Integrator::Path { max_depth: 2, lights, roulette: 0 };
         exhibit(chapter, SMALL, 16, integrator, lines)
     };
     let exhibits = [
-        of(LightSampling::ByChance, ["by chance", "as the metal sends light on"])?,
-        of(LightSampling::Aimed, ["aimed", "points on the lamps"])?,
-        of(LightSampling::Weighed, ["weighed", "both, each where it is dense"])?,
+        of(LightStrategy::Bsdf, ["by chance", "as the metal sends light on"])?,
+        of(LightStrategy::Light, ["aimed", "points on the lamps"])?,
+        of(LightStrategy::Mis, ["weighed", "both, each where it is dense"])?,
     ];
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }

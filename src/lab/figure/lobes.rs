@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{BlinnPhongTable, MaterialKind, MaterialTable, PhongTable};
 use pinhole::plan::Table;
-use pinhole::shade::{half_way_cosine, highlight, mirror_cosine};
-use pinhole::{Asked, Chapter};
+use pinhole::shade::{half_vector_cosine, highlight, mirror_cosine};
+use pinhole::{Chapter, Overrides};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// How slantingly the light falls in each of the panels, in degrees off the normal.
@@ -24,7 +24,7 @@ const STEPS: u32 = 120;
 /// The lobes of a chapter's first Phong and Blinn–Phong materials, in the plane of the light and the normal, and in the
 /// plane across it through the mirrored way to the light.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let scene = chapter.world(&Asked::default());
+    let scene = chapter.world(&Overrides::default());
     let (materials, phong) = (MaterialTable::extract(&scene)?, PhongTable::extract(&scene)?);
     let blinn = BlinnPhongTable::extract(&scene)?;
     let first = |kind: MaterialKind| materials.kind.iter().position(|&own| own == kind);
@@ -40,7 +40,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             matte(of_phong) + phong.specular[0][0] * highlight(phong.peak[0], phong.exponent[0], cosine)
         }),
         (Pen::new(IMAGE, 1.6), &|[light, eye]| {
-            let cosine = half_way_cosine(DVec3::Y, light, eye);
+            let cosine = half_vector_cosine(DVec3::Y, light, eye);
             matte(of_blinn) + blinn.specular[0][0] * highlight(blinn.peak[0], blinn.exponent[0], cosine)
         }),
     ];
@@ -58,16 +58,16 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let arrives = way(-slant.to_radians());
         svg.line(foot - DVec2::X * half, foot + DVec2::X * half, Pen::new(INK, 1.6));
         svg.line(foot, foot - DVec2::Y * REACH, Pen::new(INK, 0.9).faint(0.6).dashed("5 4"));
-        svg.arrow(foot + flat(arrives) * (half * 0.95), foot, Pen::new(LIGHT, 2.2));
+        svg.arrow(foot + planar(arrives) * (half * 0.95), foot, Pen::new(LIGHT, 2.2));
         let beside = DVec2::new(foot.x, ACROSS);
         svg.line(beside, beside - DVec2::Y * REACH, Pen::new(INK, 0.9).faint(0.6).dashed("5 4"));
         let mirrored = way(slant.to_radians());
         for ((pen, model), name) in models.iter().zip(&names) {
             let colour = pen.colour;
-            let at = |angle: f64| foot + flat(way(angle)) * (REACH * model([arrives, way(angle)]) / longest);
+            let at = |angle: f64| foot + planar(way(angle)) * (REACH * model([arrives, way(angle)]) / longest);
             let across = |angle: f64| {
                 let eye = mirrored * libm::cos(angle) + DVec3::Z * libm::sin(angle);
-                beside + flat(way(angle)) * (REACH * model([arrives, eye]) / longest)
+                beside + planar(way(angle)) * (REACH * model([arrives, eye]) / longest)
             };
             let angle = |step: u32| (f64::from(step) / f64::from(STEPS) * 2.0 - 1.0) * FRAC_PI_2;
             for step in 0..STEPS {
@@ -103,6 +103,6 @@ fn way(angle: f64) -> DVec3 {
 }
 
 /// The same in the drawing, where y points down.
-fn flat(way: DVec3) -> DVec2 {
+fn planar(way: DVec3) -> DVec2 {
     DVec2::new(way.x, -way.y)
 }

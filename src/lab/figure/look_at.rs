@@ -9,7 +9,7 @@ use pinhole::Result;
 use pinhole::extract::{CameraAxes, camera_entity};
 use pinhole::plan::Table;
 use pinhole::scene::{LookAt, Resolution};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 400.0;
 /// How long the camera's axes are drawn, as a share of the way from eye to target.
@@ -19,7 +19,7 @@ const AXIS: f64 = 0.42;
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let image = [96, 54];
     let resolution = Resolution { width: image[0], height: image[1] };
-    let scene = chapter.world(&Asked { resolution: Some(resolution), ..Asked::default() });
+    let scene = chapter.world(&Overrides { resolution: Some(resolution), ..Overrides::default() });
     let look = scene.get::<LookAt>(camera_entity(&scene)?).ok_or_else(|| figure.unsuited("a camera with a LookAt"))?;
     let axes = CameraAxes::extract(&scene)?.world_from_camera;
     let view = look.target - look.eye;

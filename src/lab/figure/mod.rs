@@ -10,7 +10,6 @@
 mod acne;
 mod aliasing;
 mod broken_paths;
-mod broken_ways;
 mod cameras;
 mod caustics;
 mod drawn_image;
@@ -31,6 +30,7 @@ mod occluders;
 mod offset;
 mod orthographic;
 mod patch;
+mod path_mistakes;
 mod pen;
 mod picture;
 mod pinhole;
@@ -49,7 +49,7 @@ mod subject;
 mod svg;
 #[cfg(test)]
 mod trial;
-mod two_ways;
+mod two_classes;
 
 pub use drawn_image::{DRAWN_IMAGES, DrawnImage};
 pub use grid::{Grid, drawn_distance};
@@ -63,7 +63,7 @@ pub use scenery::{Scenery, Strand};
 pub use section::Section;
 pub use side::{Side, best_scenery};
 pub use sketch::{Extent, Frame, Sketch};
-pub use subject::{Ball, Flat, Lens, Subject};
+pub use subject::{Ball, Lens, Planar, Subject};
 pub use svg::{Drawing, Svg};
 
 use ::pinhole::Chapter;
@@ -83,9 +83,9 @@ pub struct Figure {
 
 /// All figures, in the order of the book.
 pub fn figures() -> Vec<Figure> {
-    let two_ways = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
+    let two_classes = "two ways to a picture: from the object to the pixel, and from the pixel to the light";
     vec![
-        Figure { name: "two_ways", chapter: "05_pinhole", about: two_ways, draw: two_ways::draw },
+        Figure { name: "two_classes", chapter: "05_pinhole", about: two_classes, draw: two_classes::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
         Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
         Figure {
@@ -266,7 +266,7 @@ pub fn figures() -> Vec<Figure> {
             name: "25_legs",
             chapter: "25_path_tracing",
             about: "one scene by ray casting, and by ways of light of two, three and many legs",
-            draw: integrators::draw_legs,
+            draw: integrators::draw_segments,
         },
         Figure {
             name: "26_ways",
@@ -282,7 +282,7 @@ pub fn figures() -> Vec<Figure> {
         },
     ]
     .into_iter()
-    .chain(broken_ways::figures())
+    .chain(path_mistakes::figures())
     .collect()
 }
 

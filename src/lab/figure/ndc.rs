@@ -8,7 +8,7 @@ use pinhole::film::{Curve, byte_from_linear};
 use pinhole::rays::{NdcPoints, Tile, ndc_stage, raster_stage};
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 
 /// The two images, in pixels, and in each the pixel whose centre is the same point.
 const IMAGES: [([u32; 2], [u32; 2]); 2] = [([4, 2], [1, 0]), ([12, 6], [4, 1])];
@@ -32,7 +32,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 fn ndc_points(chapter: &Chapter, [width, height]: [u32; 2]) -> Result<Vec<([u32; 2], DVec2)>> {
     let mut whole = chapter.clone();
     whole.offer = vec![raster_stage(), ndc_stage()];
-    let asked = Asked { resolution: Some(Resolution { width, height }), view: Some("ndc".into()), ..Asked::default() };
+    let asked =
+        Overrides { resolution: Some(Resolution { width, height }), view: Some("ndc".into()), ..Overrides::default() };
     let inspection = inspect(&whole.world(&asked), &whole.stages(), width.max(height))?;
     let mut points = Vec::new();
     for &tile in &inspection.tiles {

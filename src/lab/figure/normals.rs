@@ -14,8 +14,8 @@ use pinhole::plan::Table;
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
-use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_reach};
-use pinhole::{Asked, Chapter};
+use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
+use pinhole::{Chapter, Overrides};
 
 /// Pixels of each of the two pictures.
 const SIZE: [u32; 2] = [320, 180];
@@ -60,7 +60,7 @@ struct Worst {
 /// What the kit renders, the same with naive normals, and the worst of these.
 fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f32; 3]>, Worst)> {
     let [width, height] = SIZE;
-    let scene = chapter.world(&Asked { resolution: Some(Resolution { width, height }), ..Asked::default() });
+    let scene = chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() });
     let inspection = inspect(&scene, &chapter.stages(), width.max(height))?;
     let tile = inspection.tiles.first().map(|&tile| inspection.world.entity(tile));
     let columns = tile.as_ref().and_then(|tile| {
@@ -101,7 +101,7 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
         let distance = to_light.length();
         let direction = to_light / distance;
         let cosine = surface.normal.as_dvec3().dot(direction);
-        if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_reach(distance))) {
+        if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_t_max(distance))) {
             let colour = materials.colour.get(surface.material as usize).copied().unwrap_or_default();
             let irradiance = irradiance_from_point(intensity, cosine, distance * distance);
             let brings = matte_radiance(colour, irradiance);

@@ -40,8 +40,8 @@ impl Occluders {
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
         let triangles = self.triangles.facet.iter().map(|facet| triangle_t(origin, direction, facet));
-        let disks = self.disks.flat.iter().map(|flat| disk_t(origin, direction, flat));
-        let rectangles = self.rectangles.flat.iter().map(|flat| rectangle_t(origin, direction, flat));
+        let disks = self.disks.planar.iter().map(|planar| disk_t(origin, direction, planar));
+        let rectangles = self.rectangles.planar.iter().map(|planar| rectangle_t(origin, direction, planar));
         let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));
         let round = spheres.chain(ellipsoids);
         round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < reach)

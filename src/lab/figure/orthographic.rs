@@ -67,8 +67,8 @@ fn mark_hit(svg: &mut Svg, scenery: &Scenery<'_>, ray: &PixelRay) {
     if scenery.veiled(point) {
         return;
     }
-    let flat = scenery.subject.flats.first().map(|flat| flat.colour);
-    let colour = scenery.subject.ball_met(ray).map(|ball| ball.colour).or(flat).unwrap_or_default();
+    let planar = scenery.subject.planar_shapes.first().map(|planar| planar.colour);
+    let colour = scenery.subject.ball_hit(ray).map(|ball| ball.colour).or(planar).unwrap_or_default();
     let fill = Fill::new(screen_colour(colour.map(|part| part as f32)), 1.0);
     svg.circle(scenery.point(point), 3.6, Some(&fill), Some(Pen::new("#222", 1.2)));
 }
@@ -83,7 +83,7 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, hits: &[&PixelRay], reach: f64) {
     let others = [at(scenery.grid.centre([size[0] - 1, size[1] - 1]))];
     svg.label(Label::near(centre, "pixel centre", DVec2::Y, 14.0).or(others));
     let seen = |ray: &&&PixelRay| ray.point().is_some_and(|point| !scenery.veiled(point));
-    let on_sphere = hits.iter().filter(seen).filter(|ray| scenery.subject.ball_met(ray).is_some());
+    let on_sphere = hits.iter().filter(seen).filter(|ray| scenery.subject.ball_hit(ray).is_some());
     if let Some(point) = on_sphere.min_by_key(|ray| ray.pixel[1]).and_then(|ray| ray.point()) {
         svg.label(Label::near(at(point), "hit", DVec2::new(-0.4, -1.0), 8.0));
     }

@@ -1,5 +1,5 @@
 use super::sketch::Extent;
-use super::subject::{Ball, Flat};
+use super::subject::{Ball, Planar};
 use glam::{DVec2, DVec3};
 
 /// The most lines that a patch is ruled with in one direction.
@@ -26,18 +26,18 @@ pub struct Patch {
 
 impl Patch {
     /// What lies under and around these things, with its lines along `right` as near as may be.
-    pub fn under(flat: &Flat, right: DVec3, things: &[Extent]) -> Self {
-        let along = right - flat.normal * flat.normal.dot(right);
-        let u = along.try_normalize().unwrap_or_else(|| flat.normal.any_orthonormal_vector());
-        let v = flat.normal.cross(u);
-        let origin = flat.normal * flat.offset;
+    pub fn under(planar: &Planar, right: DVec3, things: &[Extent]) -> Self {
+        let along = right - planar.normal * planar.normal.dot(right);
+        let u = along.try_normalize().unwrap_or_else(|| planar.normal.any_orthonormal_vector());
+        let v = planar.normal.cross(u);
+        let origin = planar.normal * planar.offset;
         let foot = |&(centre, reach): &Extent| (DVec2::new((centre - origin).dot(u), (centre - origin).dot(v)), reach);
         let feet: Vec<(DVec2, f64)> = things.iter().map(foot).collect();
         let (low, high) = bounds(feet.iter().map(|&(at, _)| at));
         let margin = 0.07 * (high - low).max_element().max(1e-9);
         let around = |&(at, reach): &(DVec2, f64)| circle(at, reach + margin);
         let outline = hull(feet.iter().flat_map(around).collect());
-        Self { origin, normal: flat.normal, u, v, outline, colour: flat.colour }
+        Self { origin, normal: planar.normal, u, v, outline, colour: planar.colour }
     }
 
     /// The distance between lines: 1 scene unit, or 2, 5, 10, … where that would be too dense.
@@ -173,8 +173,8 @@ mod tests {
     use super::*;
 
     fn ground() -> Patch {
-        let flat = Flat { normal: DVec3::Y, offset: 0.0, colour: [0.5; 3] };
-        Patch::under(&flat, DVec3::X, &[(DVec3::ZERO, 3.0)])
+        let planar = Planar { normal: DVec3::Y, offset: 0.0, colour: [0.5; 3] };
+        Patch::under(&planar, DVec3::X, &[(DVec3::ZERO, 3.0)])
     }
 
     #[test]

@@ -4,7 +4,7 @@ use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by, png_
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Rendered, render};
 use pinhole::scene::Resolution;
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole::{Result, follow, intersect, rays, shade};
 
 /// A picture of a chapter's scene, within a figure.
@@ -109,7 +109,7 @@ fn all_stages(chapter: &Chapter) -> Chapter {
 /// A chapter's scene, rendered after `change` has had its camera.
 fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorldMut<'_>)) -> Result<Rendered> {
     let [width, height] = size;
-    let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
+    let asked = Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() };
     let mut scene = whole.world(&asked);
     let camera = camera_entity(&scene)?;
     change(&mut scene.entity_mut(camera));

@@ -79,7 +79,7 @@ fn onward(tile: &EntityRef<'_>, path: u32, lights: &[DVec3]) -> Vec<Onward> {
     let Some(rays) = tile.get::<LightRays>() else { return Vec::new() };
     let shadows = tile.get::<ShadowHits>();
     let of_row = |row: usize| {
-        let part = |lanes: [&Vec<f32>; 3]| DVec3::from(lanes.map(|lane| f64::from(lane[row])));
+        let part = |components: [&Vec<f32>; 3]| DVec3::from(components.map(|component| f64::from(component[row])));
         let from = part([&rays.ox, &rays.oy, &rays.oz]);
         let direction = part([&rays.dx, &rays.dy, &rays.dz]);
         let blocked = shadows.filter(|hits| hits.shape[row] != NO_SHAPE).map(|hits| hits.t[row]);

@@ -42,7 +42,7 @@ fn first_with_sphere(chapter: &Chapter, figure: &Figure) -> Result<Subject> {
 
 /// Of the rays that meet a sphere, the one nearest the image's centre; with the sphere and t.
 fn centre_ray(subject: &Subject) -> Option<(&PixelRay, &Ball, f64)> {
-    let met = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_met(ray)?, ray.hit?.0)));
+    let met = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?, ray.hit?.0)));
     met.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)))
 }
 

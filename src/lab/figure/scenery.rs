@@ -62,7 +62,8 @@ impl<'s> Scenery<'s> {
         things.extend(grid.corners().map(|corner| (corner, 0.0)));
         things.extend(more);
         let right = subject.axes.x_axis;
-        let patches: Vec<Patch> = subject.flats.iter().map(|flat| Patch::under(flat, right, &things)).collect();
+        let patches: Vec<Patch> =
+            subject.planar_shapes.iter().map(|planar| Patch::under(planar, right, &things)).collect();
         things.extend(patches.iter().flat_map(Patch::corners).map(|corner| (corner, 0.0)));
         let (toward, up) = side.view(subject);
         things.extend(subject.lights.iter().map(|&light| (light, 0.2)));

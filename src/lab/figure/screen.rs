@@ -11,7 +11,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::extract::ImageShape;
+use pinhole::extract::ImageFrame;
 use pinhole::plan::{Column, Shared, Stage, TileSystems};
 use pinhole::rays::{NdcPoints, ScreenPoints, screen_from_ndc};
 
@@ -77,7 +77,7 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// The screen's stage with another function in it.
 fn placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
-    let fill = move |image: Res<Shared<ImageShape>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>| {
+    let fill = move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>| {
         for (ndc, mut screen) in &mut tiles {
             let rows = ndc.rows();
             let (ndc_x, ndc_y) = ndc.slices();
@@ -90,5 +90,5 @@ fn placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
     Stage::new("Place screen points another way", TileSystems::Screen, fill)
         .reads::<NdcPoints>()
         .writes::<ScreenPoints>()
-        .table::<ImageShape>()
+        .table::<ImageFrame>()
 }

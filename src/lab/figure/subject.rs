@@ -2,15 +2,15 @@ use super::pixel_ray::{PixelRay, pixel_rays};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use pinhole::extract::{
-    CameraAxes, ImageShape, MaterialTable, PinholeLens, PlaneTable, PointLightTable, ShapeKind, ShapeTable,
-    SphereTable, ViewRectangle, camera_entity,
+    CameraAxes, ImageFrame, MaterialTable, OrthographicWindow, PerspectiveProjection, PlaneTable, PointLightTable,
+    ShapeKind, ShapeTable, SphereTable, camera_entity,
 };
 use pinhole::intersect::Hits;
 use pinhole::plan::Table;
 use pinhole::rays::WorldRays;
 use pinhole::render::{Inspection, inspect};
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole::{Error, Result, intersect, rays, shade};
 
 /// What a chapter's camera does, and so how its rays lie.
@@ -37,7 +37,7 @@ pub struct Ball {
 
 /// A plane in render space: the points x with n·x = k.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Flat {
+pub struct Planar {
     /// The unit normal n.
     pub normal: DVec3,
     /// The offset k, scene units.
@@ -53,7 +53,7 @@ pub struct Subject {
     /// The chapter's stem.
     pub chapter: &'static str,
     /// The image's shape.
-    pub image: ImageShape,
+    pub image: ImageFrame,
     /// The camera's x, y, z axes.
     pub axes: DMat3,
     /// Its lens.
@@ -61,7 +61,7 @@ pub struct Subject {
     /// Spheres in spawn order.
     pub balls: Vec<Ball>,
     /// Planes in spawn order.
-    pub flats: Vec<Flat>,
+    pub planar_shapes: Vec<Planar>,
     /// Point lights in spawn order.
     pub lights: Vec<DVec3>,
     /// A ray a pixel, row by row.
@@ -73,7 +73,7 @@ impl Subject {
     ///
     /// Errors: what a render of the chapter would be refused for.
     pub fn of(chapter: &Chapter, width: u32, height: u32) -> Result<Self> {
-        let asked = Asked { resolution: Some(Resolution { width, height }), ..Asked::default() };
+        let asked = Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() };
         let mut picture = chapter.clone();
         picture.view = None;
         let scene = picture.world(&asked);
@@ -85,7 +85,7 @@ impl Subject {
             axes: CameraAxes::extract(&scene)?.world_from_camera,
             lens: lens(&scene)?,
             balls: balls(&scene)?,
-            flats: flats(&scene)?,
+            planar_shapes: planar_shapes(&scene)?,
             rays: inspection
                 .tiles
                 .iter()
@@ -101,7 +101,7 @@ impl Subject {
     }
 
     /// The sphere that a ray meets.
-    pub fn ball_met(&self, ray: &PixelRay) -> Option<&Ball> {
+    pub fn ball_hit(&self, ray: &PixelRay) -> Option<&Ball> {
         let (_, shape) = ray.hit?;
         self.balls.iter().find(|ball| ball.shape == shape)
     }
@@ -135,9 +135,9 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
 fn lens(scene: &World) -> Result<Lens> {
     let camera = camera_entity(scene)?;
     Ok(match scene.get::<PerspectiveCamera>(camera) {
-        Some(_) => Lens::Perspective(PinholeLens::extract(scene)?.tan_half_vertical),
+        Some(_) => Lens::Perspective(PerspectiveProjection::extract(scene)?.tan_half_vertical),
         None if scene.get::<OrthographicCamera>(camera).is_some() => {
-            Lens::Orthographic(ViewRectangle::extract(scene)?.half_height)
+            Lens::Orthographic(OrthographicWindow::extract(scene)?.half_height)
         }
         None => return Err(Error::Usage("figures are drawn of perspective and orthographic cameras only".into())),
     })
@@ -160,8 +160,8 @@ fn balls(scene: &World) -> Result<Vec<Ball>> {
     Ok(colours.map(ball).collect())
 }
 
-fn flats(scene: &World) -> Result<Vec<Flat>> {
+fn planar_shapes(scene: &World) -> Result<Vec<Planar>> {
     let table = PlaneTable::extract(scene)?;
     let colours = colours(scene, ShapeKind::Plane)?.into_iter().enumerate();
-    Ok(colours.map(|(row, colour)| Flat { normal: table.normal[row], offset: table.offset[row], colour }).collect())
+    Ok(colours.map(|(row, colour)| Planar { normal: table.normal[row], offset: table.offset[row], colour }).collect())
 }

@@ -3,6 +3,7 @@
 //! Reads: the very inputs a kernel sees (f32 rays, f64 tables). Writes: verdicts and errors as f64.
 //! Nothing here runs in a render.
 
+pub mod camera_check;
 pub mod chi_squared;
 pub mod closed_form;
 pub mod cost;
@@ -14,11 +15,9 @@ pub mod exact_vector;
 pub mod extremes;
 pub mod extremes_page;
 pub mod film_bits;
-pub mod flat_aim;
 pub mod hemisphere;
 pub mod image_error;
 pub mod image_file;
-pub mod judge_camera;
 pub mod number;
 pub mod oracle_camera;
 pub mod oracle_cuboid;
@@ -28,5 +27,6 @@ pub mod oracle_plane;
 pub mod oracle_rectangle;
 pub mod oracle_sphere;
 pub mod oracle_triangle;
+pub mod planar_aim;
 pub mod ray_aim;
 pub mod sweep;

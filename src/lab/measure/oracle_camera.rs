@@ -208,7 +208,7 @@ mod tests {
     const CENTRE: DVec2 = DVec2::splat(0.5);
 
     /// Ninety degrees over the height of a 4 × 2 image, so that every stage is a short fraction.
-    fn wide() -> ExactCamera {
+    fn double_double() -> ExactCamera {
         ExactCamera::new(4, 2, 90.0, FovAxis::Vertical, DMat3::IDENTITY)
     }
 
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn every_stage_of_the_first_pixel_is_known() {
-        let camera = wide();
+        let camera = double_double();
         let raster = camera.raster([0, 0], CENTRE);
         assert_eq!(pair(&raster), [0.5, 0.5]);
         assert_eq!(pair(&camera.ndc(&raster)), [0.125, 0.25]);
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn errors_are_measured_in_pixels_and_radians() {
         let quarter_turn = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);
-        let camera = ExactCamera { rotation: quarter_turn, ..wide() };
+        let camera = ExactCamera { rotation: quarter_turn, ..double_double() };
         let (middle, next) = (camera.raster([2, 1], DVec2::ZERO), camera.raster([3, 1], DVec2::ZERO));
         // The middle of the image looks along the camera's −z, which is the world's +x here.
         assert_eq!(camera.world_error_in_pixels(Vec3::X * 3.0, &middle), 0.0);

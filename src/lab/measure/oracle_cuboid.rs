@@ -117,7 +117,7 @@ pub fn side_of_cuboid(point: DVec3, slabs: &Slabs) -> i32 {
 mod tests {
     use super::*;
     use crate::measure::cuboid_aim::{Eye, Spot, cuboid_shot};
-    use pinhole::intersect::{cuboid_t as kit_t, cuboid_verdict};
+    use pinhole::intersect::{cuboid_intersection, cuboid_t as pinhole_t};
 
     /// Half edges 1, 2, 4.
     fn brick() -> Slabs {
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn the_kernel_agrees_on_every_ray() {
-        let (mut tried, mut hits, mut doubtful) = (0, 0, 0);
+        let (mut tried, mut hits, mut uncertain) = (0, 0, 0);
         for spot in [Spot::Face, Spot::Edge, Spot::Corner] {
             for (eye, sizes, ratio) in [
                 (Eye::Far(1e1), 0.0, 1.0),
@@ -156,17 +156,17 @@ mod tests {
                     let (ray, slabs) = cuboid_shot(64, index, spot, eye, sizes, ratio);
                     let exact = cuboid_t(ray.origin, ray.direction, &slabs).map(|(t, _)| t);
                     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-                    let t = kit_t(origin, direction, &slabs);
+                    let t = pinhole_t(origin, direction, &slabs);
                     let close = exact.is_none_or(|exact| ((t - exact) / exact).abs() <= 1.2e-7);
                     let what = || format!("{t} for {exact:?} at {index}, {spot:?}, {eye:?}");
                     assert!(t.is_finite() == exact.is_some() && close, "{}", what());
                     (tried, hits) = (tried + 1, hits + u32::from(exact.is_some()));
-                    doubtful += u32::from(cuboid_verdict(origin, direction, &slabs).doubtful);
+                    uncertain += u32::from(cuboid_intersection(origin, direction, &slabs).uncertain);
                 }
             }
         }
-        eprintln!("cuboids: {tried} rays, {hits} hit, {doubtful} left to the wide numbers, 0 misjudged");
-        assert!(hits > tried / 4 && hits < tried && doubtful > 0 && doubtful < tried / 2);
+        eprintln!("cuboids: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        assert!(hits > tried / 4 && hits < tried && uncertain > 0 && uncertain < tried / 2);
     }
 
     #[test]
@@ -181,7 +181,7 @@ mod tests {
                         let (origin, direction) = (Vec3::from(origin), Vec3::new(x, y, z));
                         let exact = cuboid_t(origin, direction, &brick()).map_or(f64::INFINITY, |(t, _)| t);
                         assert_eq!(
-                            kit_t(origin.as_dvec3(), direction.as_dvec3(), &brick()),
+                            pinhole_t(origin.as_dvec3(), direction.as_dvec3(), &brick()),
                             exact,
                             "{origin} {direction}"
                         );
@@ -192,8 +192,8 @@ mod tests {
         }
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for axis in DVec3::AXES {
-                assert_eq!(kit_t(axis * bad, DVec3::X, &brick()), f64::INFINITY);
-                assert_eq!(kit_t(DVec3::ONE, DVec3::ONE + axis * bad, &brick()), f64::INFINITY);
+                assert_eq!(pinhole_t(axis * bad, DVec3::X, &brick()), f64::INFINITY);
+                assert_eq!(pinhole_t(DVec3::ONE, DVec3::ONE + axis * bad, &brick()), f64::INFINITY);
             }
         }
         eprintln!("cuboids: {tried} rays along axes, in faces and nowhere");

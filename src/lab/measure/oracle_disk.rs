@@ -9,7 +9,7 @@ use super::exact::Dyadic;
 use super::exact_vector::Vector;
 use super::number::Number;
 use glam::{DVec3, Vec3};
-use pinhole::extract::Flat;
+use pinhole::extract::Planar;
 use std::cmp::Ordering;
 
 /// Where the line of a ray crosses a flat piece's plane: t is `distance` over `approach`, and the coordinates there are
@@ -21,12 +21,12 @@ pub(super) struct Crossing<N> {
 }
 
 impl<N: Number> Crossing<N> {
-    pub fn of(origin: Vec3, direction: Vec3, flat: &Flat) -> Self {
-        let f: Vector<N> = Vector::of(flat.centre).minus(&Vector::of(origin));
-        let (normal, direction) = (Vector::of(flat.normal), Vector::of(direction));
+    pub fn of(origin: Vec3, direction: Vec3, planar: &Planar) -> Self {
+        let f: Vector<N> = Vector::of(planar.centre).minus(&Vector::of(origin));
+        let (normal, direction) = (Vector::of(planar.normal), Vector::of(direction));
         let (distance, approach) = (normal.dot(&f), normal.dot(&direction));
         let way = direction.times(&distance).minus(&f.times(&approach));
-        let at = flat.along.map(|along| Vector::of(along).dot(&way));
+        let at = planar.along.map(|along| Vector::of(along).dot(&way));
         Self { distance, approach, at }
     }
 
@@ -42,8 +42,8 @@ impl<N: Number> Crossing<N> {
 }
 
 /// The t > 0 at which the ray meets the disk, if it does; nothing where these numbers cannot tell.
-fn hit<N: Number>(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<N>> {
-    let crossing = Crossing::<N>::of(origin, direction, flat);
+fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<N>> {
+    let crossing = Crossing::<N>::of(origin, direction, planar);
     let [x, z] = &crossing.at;
     if !crossing.is_ahead()? {
         return Some(None);
@@ -57,27 +57,28 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<N
 /// # Panics
 /// When an input is not finite.
 #[must_use]
-pub fn disk_hit(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Dyadic> {
-    hit(origin, direction, flat).flatten()
+pub fn disk_hit(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Dyadic> {
+    hit(origin, direction, planar).flatten()
 }
 
 /// The same t, rounded to f64 once.
 #[must_use]
-pub fn disk_t(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<f64> {
-    enclosed_disk_t(origin, direction, flat).unwrap_or_else(|| disk_hit(origin, direction, flat).map(|t| t.to_f64()))
+pub fn disk_t(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<f64> {
+    enclosed_disk_t(origin, direction, planar)
+        .unwrap_or_else(|| disk_hit(origin, direction, planar).map(|t| t.to_f64()))
 }
 
 /// The same by enclosures; nothing where these cannot tell.
-pub fn enclosed_disk_t(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<f64>> {
-    match hit::<Enclosure>(origin, direction, flat)? {
+pub fn enclosed_disk_t(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<f64>> {
+    match hit::<Enclosure>(origin, direction, planar)? {
         None => Some(None),
         Some(t) => t.rounded().map(Some),
     }
 }
 
 /// n · (point − C), of no particular length.
-fn height<N: Number>(point: DVec3, flat: &Flat) -> N {
-    Vector::of(flat.normal).dot(&Vector::of(point).minus(&Vector::of(flat.centre)))
+fn height<N: Number>(point: DVec3, planar: &Planar) -> N {
+    Vector::of(planar.normal).dot(&Vector::of(point).minus(&Vector::of(planar.centre)))
 }
 
 /// How a point lies to the plane of a flat piece, exactly: `Greater` is strictly on the side of its normal.
@@ -85,21 +86,21 @@ fn height<N: Number>(point: DVec3, flat: &Flat) -> N {
 /// # Panics
 /// When an input is not finite.
 #[must_use]
-pub fn side_of_flat(point: DVec3, flat: &Flat) -> Ordering {
-    let enclosed = height::<Enclosure>(point, flat).sign();
-    enclosed.unwrap_or_else(|| height::<Dyadic>(point, flat).sign()).cmp(&0)
+pub fn side_of_planar(point: DVec3, planar: &Planar) -> Ordering {
+    let enclosed = height::<Enclosure>(point, planar).sign();
+    enclosed.unwrap_or_else(|| height::<Dyadic>(point, planar).sign()).cmp(&0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::flat_aim::{At, View, edge_on, flat_shot};
     use crate::measure::oracle_plane::{Plane, plane_hit};
-    use pinhole::intersect::{disk_t as kit_t, disk_verdict};
+    use crate::measure::planar_aim::{At, View, edge_on, planar_shot};
+    use pinhole::intersect::{disk_intersection, disk_t as pinhole_t};
 
     /// Half axes 2 along x and 1 along z, five below the eye.
-    fn ellipse() -> Flat {
-        Flat::new(DVec3::NEG_Y * 5.0, DVec3::Y, [DVec3::X * 2.0, DVec3::Z]).expect("an area")
+    fn ellipse() -> Planar {
+        Planar::new(DVec3::NEG_Y * 5.0, DVec3::Y, [DVec3::X * 2.0, DVec3::Z]).expect("an area")
     }
 
     #[test]
@@ -118,12 +119,12 @@ mod tests {
     fn where_it_is_met_its_plane_is() {
         for index in 0..2000 {
             let view = View { seed: 61, at: At::Inside, sizes: 3.0, flattest: 0.0, away: [0.0, 3.0], from_eye: true };
-            let (ray, flat) = flat_shot(view, index);
-            let Some(t) = disk_hit(ray.origin, ray.direction, &flat) else { continue };
-            let shifted = flat.centre - ray.origin.as_dvec3();
+            let (ray, planar) = planar_shot(view, index);
+            let Some(t) = disk_hit(ray.origin, ray.direction, &planar) else { continue };
+            let shifted = planar.centre - ray.origin.as_dvec3();
             // Where O is taken from C exactly, n · x = n · (C − O) is the same plane seen from O.
-            if shifted + ray.origin.as_dvec3() == flat.centre && flat.normal.dot(shifted) != 0.0 {
-                let plane = Plane { normal: flat.normal, offset: flat.normal.dot(shifted) };
+            if shifted + ray.origin.as_dvec3() == planar.centre && planar.normal.dot(shifted) != 0.0 {
+                let plane = Plane { normal: planar.normal, offset: planar.normal.dot(shifted) };
                 let of_plane = plane_hit(Vec3::ZERO, ray.direction, plane).expect("a hit").to_f64();
                 assert!((of_plane / t.to_f64() - 1.0).abs() < 1e-9);
             }
@@ -132,34 +133,34 @@ mod tests {
 
     #[test]
     fn the_kernel_agrees_on_every_ray() {
-        let (mut tried, mut hits, mut doubtful) = (0, 0, 0);
+        let (mut tried, mut hits, mut uncertain) = (0, 0, 0);
         for at in [At::Rim, At::Inside, At::Corner] {
             for (flattest, sizes) in [(1.0, 0.0), (6.0, 3.0), (12.0, 8.0)] {
                 for index in 0..2000 {
                     let from_eye = index % 2 == 0;
                     let view = View { seed: 62, at, sizes, flattest, away: [-2.0, 5.0], from_eye };
-                    let (ray, flat) = flat_shot(view, index);
-                    let exact = disk_t(ray.origin, ray.direction, &flat);
+                    let (ray, planar) = planar_shot(view, index);
+                    let exact = disk_t(ray.origin, ray.direction, &planar);
                     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-                    let t = kit_t(origin, direction, &flat);
+                    let t = pinhole_t(origin, direction, &planar);
                     let close = exact.is_none_or(|exact| ((t - exact) / exact).abs() <= 1.2e-7);
                     assert!(t.is_finite() == exact.is_some() && close, "{t} for {exact:?} at {index}, {at:?}");
                     (tried, hits) = (tried + 1, hits + u32::from(exact.is_some()));
-                    doubtful += u32::from(disk_verdict(origin, direction, &flat).doubtful);
+                    uncertain += u32::from(disk_intersection(origin, direction, &planar).uncertain);
                 }
             }
         }
         for index in 0..200 {
-            let (ray, flat) = edge_on(index);
-            let t = kit_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), &flat);
-            assert_eq!((t, disk_t(ray.origin, ray.direction, &flat)), (f64::INFINITY, None));
+            let (ray, planar) = edge_on(index);
+            let t = pinhole_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), &planar);
+            assert_eq!((t, disk_t(ray.origin, ray.direction, &planar)), (f64::INFINITY, None));
         }
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let flat = edge_on(0).1;
-            assert_eq!(kit_t(DVec3::X * bad, DVec3::NEG_Y, &flat), f64::INFINITY);
-            assert_eq!(kit_t(DVec3::ONE * 9.0, DVec3::X * bad, &flat), f64::INFINITY);
+            let planar = edge_on(0).1;
+            assert_eq!(pinhole_t(DVec3::X * bad, DVec3::NEG_Y, &planar), f64::INFINITY);
+            assert_eq!(pinhole_t(DVec3::ONE * 9.0, DVec3::X * bad, &planar), f64::INFINITY);
         }
-        eprintln!("disks: {tried} rays, {hits} hit, {doubtful} left to the wide numbers, 0 misjudged");
-        assert!(hits > tried / 4 && hits < tried * 3 / 4 && doubtful > 0 && doubtful < tried / 4);
+        eprintln!("disks: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        assert!(hits > tried / 4 && hits < tried * 3 / 4 && uncertain > 0 && uncertain < tried / 4);
     }
 }

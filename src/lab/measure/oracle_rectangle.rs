@@ -8,11 +8,11 @@ use super::exact::Dyadic;
 use super::number::Number;
 use super::oracle_disk::Crossing;
 use glam::Vec3;
-use pinhole::extract::Flat;
+use pinhole::extract::Planar;
 
 /// The t > 0 at which the ray meets the rectangle, if it does; nothing where these numbers cannot tell.
-fn hit<N: Number>(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<N>> {
-    let crossing = Crossing::<N>::of(origin, direction, flat);
+fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<N>> {
+    let crossing = Crossing::<N>::of(origin, direction, planar);
     if !crossing.is_ahead()? {
         return Some(None);
     }
@@ -31,20 +31,20 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<N
 /// # Panics
 /// When an input is not finite.
 #[must_use]
-pub fn rectangle_hit(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Dyadic> {
-    hit(origin, direction, flat).flatten()
+pub fn rectangle_hit(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Dyadic> {
+    hit(origin, direction, planar).flatten()
 }
 
 /// The same t, rounded to f64 once.
 #[must_use]
-pub fn rectangle_t(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<f64> {
-    enclosed_rectangle_t(origin, direction, flat)
-        .unwrap_or_else(|| rectangle_hit(origin, direction, flat).map(|t| t.to_f64()))
+pub fn rectangle_t(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<f64> {
+    enclosed_rectangle_t(origin, direction, planar)
+        .unwrap_or_else(|| rectangle_hit(origin, direction, planar).map(|t| t.to_f64()))
 }
 
 /// The same by enclosures; nothing where these cannot tell.
-pub fn enclosed_rectangle_t(origin: Vec3, direction: Vec3, flat: &Flat) -> Option<Option<f64>> {
-    match hit::<Enclosure>(origin, direction, flat)? {
+pub fn enclosed_rectangle_t(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<f64>> {
+    match hit::<Enclosure>(origin, direction, planar)? {
         None => Some(None),
         Some(t) => t.rounded().map(Some),
     }
@@ -53,14 +53,14 @@ pub fn enclosed_rectangle_t(origin: Vec3, direction: Vec3, flat: &Flat) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::flat_aim::{At, View, edge_on, flat_shot};
+    use crate::measure::planar_aim::{At, View, edge_on, planar_shot};
     use glam::DVec3;
-    use pinhole::intersect::{rectangle_t as kit_t, rectangle_verdict};
+    use pinhole::intersect::{rectangle_intersection, rectangle_t as pinhole_t};
 
     #[test]
     fn edges_and_corners_are_hits_and_the_next_number_a_miss() {
-        let flat = Flat::new(DVec3::NEG_Y * 5.0, DVec3::Y, [DVec3::X * 2.0, DVec3::Z]).expect("an area");
-        let at = |x: f32, z: f32| rectangle_hit(Vec3::new(x, 0.0, z), Vec3::NEG_Y, &flat).map(|t| t.to_f64());
+        let planar = Planar::new(DVec3::NEG_Y * 5.0, DVec3::Y, [DVec3::X * 2.0, DVec3::Z]).expect("an area");
+        let at = |x: f32, z: f32| rectangle_hit(Vec3::new(x, 0.0, z), Vec3::NEG_Y, &planar).map(|t| t.to_f64());
         assert_eq!(at(2.0, -1.0), Some(5.0));
         assert_eq!(at(-2.0, 0.25), Some(5.0));
         assert_eq!(at(2.0 + 2.0 * f32::EPSILON, 0.0), None);
@@ -69,34 +69,34 @@ mod tests {
 
     #[test]
     fn the_kernel_agrees_on_every_ray() {
-        let (mut tried, mut hits, mut doubtful) = (0, 0, 0);
+        let (mut tried, mut hits, mut uncertain) = (0, 0, 0);
         for at in [At::Edge, At::Inside, At::Corner] {
             for (flattest, sizes) in [(1.0, 0.0), (6.0, 3.0), (12.0, 8.0)] {
                 for index in 0..2000 {
                     let from_eye = index % 2 == 0;
                     let view = View { seed: 63, at, sizes, flattest, away: [-2.0, 5.0], from_eye };
-                    let (ray, flat) = flat_shot(view, index);
-                    let exact = rectangle_t(ray.origin, ray.direction, &flat);
+                    let (ray, planar) = planar_shot(view, index);
+                    let exact = rectangle_t(ray.origin, ray.direction, &planar);
                     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-                    let t = kit_t(origin, direction, &flat);
+                    let t = pinhole_t(origin, direction, &planar);
                     let close = exact.is_none_or(|exact| ((t - exact) / exact).abs() <= 1.2e-7);
                     assert!(t.is_finite() == exact.is_some() && close, "{t} for {exact:?} at {index}, {at:?}");
                     (tried, hits) = (tried + 1, hits + u32::from(exact.is_some()));
-                    doubtful += u32::from(rectangle_verdict(origin, direction, &flat).doubtful);
+                    uncertain += u32::from(rectangle_intersection(origin, direction, &planar).uncertain);
                 }
             }
         }
         for index in 0..200 {
-            let (ray, flat) = edge_on(index);
-            let t = kit_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), &flat);
-            assert_eq!((t, rectangle_t(ray.origin, ray.direction, &flat)), (f64::INFINITY, None));
+            let (ray, planar) = edge_on(index);
+            let t = pinhole_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), &planar);
+            assert_eq!((t, rectangle_t(ray.origin, ray.direction, &planar)), (f64::INFINITY, None));
         }
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let flat = edge_on(0).1;
-            assert_eq!(kit_t(DVec3::X * bad, DVec3::NEG_Y, &flat), f64::INFINITY);
-            assert_eq!(kit_t(DVec3::ONE * 9.0, DVec3::X * bad, &flat), f64::INFINITY);
+            let planar = edge_on(0).1;
+            assert_eq!(pinhole_t(DVec3::X * bad, DVec3::NEG_Y, &planar), f64::INFINITY);
+            assert_eq!(pinhole_t(DVec3::ONE * 9.0, DVec3::X * bad, &planar), f64::INFINITY);
         }
-        eprintln!("rectangles: {tried} rays, {hits} hit, {doubtful} left to the wide numbers, 0 misjudged");
-        assert!(hits > tried / 4 && hits < tried * 3 / 4 && doubtful > 0 && doubtful < tried / 4);
+        eprintln!("rectangles: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        assert!(hits > tried / 4 && hits < tried * 3 / 4 && uncertain > 0 && uncertain < tried / 4);
     }
 }

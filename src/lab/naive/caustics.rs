@@ -5,7 +5,7 @@ use pinhole::extract::CameraJoinTable;
 use pinhole::follow::scatter_glass;
 use pinhole::intersect::Surfaces;
 use pinhole::plan::{Column, Shared, Stage};
-use pinhole::shade::{LightRays, aim_at_the_camera, camera_join_stage};
+use pinhole::shade::{LightRays, camera_join_stage, connect_to_camera};
 use std::sync::Arc;
 
 // ANCHOR: forget_join_cosine
@@ -15,7 +15,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
         for ray in 0..rays.rows() {
             let normal = surfaces.get(rays.path[ray] as usize).normal.as_dvec3();
             let cosine = normal.dot(rays.direction_of(ray));
-            rays.weigh(ray, 1.0 / cosine);
+            rays.mis(ray, 1.0 / cosine);
         }
     }
 }
@@ -24,19 +24,19 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
 /// Forgets how much of the image plane a pixel is.
 pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
-        (0..rays.rows()).for_each(|ray| rays.weigh(ray, join.pixel_area()));
+        (0..rays.rows()).for_each(|ray| rays.mis(ray, join.pixel_area()));
     }
 }
 
 /// The stage that joins light to the camera, and then forgets the cosine.
 pub fn join_without_cosine() -> Stage {
-    let system = || (aim_at_the_camera, forget_join_cosine).chain().into_configs();
+    let system = || (connect_to_camera, forget_join_cosine).chain().into_configs();
     Stage { system: Arc::new(system), ..camera_join_stage() }
 }
 
 /// The stage that joins light to the camera, and then forgets the pixel's area.
 pub fn join_without_area() -> Stage {
-    let system = || (aim_at_the_camera, forget_pixel_area).chain().into_configs();
+    let system = || (connect_to_camera, forget_pixel_area).chain().into_configs();
     Stage { system: Arc::new(system), ..camera_join_stage() }
 }
 

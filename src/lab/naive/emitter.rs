@@ -9,7 +9,7 @@ use glam::DVec3;
 ///
 /// That is per unit of area, and says nothing of how much sky the area fills.
 #[must_use]
-pub fn density_without_jacobian(area: f64) -> f64 {
+pub fn pdf_without_jacobian(area: f64) -> f64 {
     1.0 / area
 }
 // ANCHOR_END: forgotten_jacobian
@@ -17,7 +17,7 @@ pub fn density_without_jacobian(area: f64) -> f64 {
 // ANCHOR: forgotten_cosine
 /// The same with the distance, but as if the light always faced the lit point.
 #[must_use]
-pub fn density_without_cosine(to: DVec3, area: f64) -> f64 {
+pub fn pdf_without_cosine(to: DVec3, area: f64) -> f64 {
     to.length_squared() / area
 }
 // ANCHOR_END: forgotten_cosine

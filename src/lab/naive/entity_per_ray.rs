@@ -8,14 +8,14 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::SingleThreadedExecutor;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, ImageShape, MaterialTable, NO_ROW, PinholeLens, PlaneTable, ShapeKind, ShapeTable,
-    SphereTable,
+    BackgroundTable, CameraAxes, ImageFrame, MaterialTable, NO_ROW, PerspectiveProjection, PlaneTable, ShapeKind,
+    ShapeTable, SphereTable,
 };
 use pinhole::film::Film;
 use pinhole::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
 use pinhole::plan::{Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
-use pinhole::scene::Refusal;
+use pinhole::scene::SceneError;
 
 // ANCHOR: entity_per_ray
 /// Which pixel an entity is.
@@ -58,33 +58,33 @@ struct FilmSum([f64; 3], u32);
 pub struct EntityPerRay {
     world: World,
     schedule: Schedule,
-    image: ImageShape,
+    image: ImageFrame,
 }
 
 impl EntityPerRay {
     /// Reads the scene's tables and spawns the entities.
     ///
     /// Errors: what the kit refuses the scene for.
-    pub fn spawn(scene: &World) -> Result<Self, Refusal> {
+    pub fn spawn(scene: &World) -> Result<Self, SceneError> {
         pinhole::extract::validate(scene)?;
         let kinds = ShapeTable::extract(scene)?.kind;
         if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
-            return Err(Refusal::new("the scene", "shapes", "another kind of shape", accepted));
+            return Err(SceneError::new("the scene", "shapes", "another kind of shape", accepted));
         }
         if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
             let accepted = "one entity a ray knows shapes that reflect light only";
-            return Err(Refusal::new("the scene", "shapes", "a shape without a material", accepted));
+            return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        share::<PinholeLens>(&mut world, scene)?;
+        share::<PerspectiveProjection>(&mut world, scene)?;
         share::<CameraAxes>(&mut world, scene)?;
         share::<SphereTable>(&mut world, scene)?;
         share::<PlaneTable>(&mut world, scene)?;
         share::<ShapeTable>(&mut world, scene)?;
         share::<MaterialTable>(&mut world, scene)?;
         share::<BackgroundTable>(&mut world, scene)?;
-        let image = share::<ImageShape>(&mut world, scene)?;
+        let image = share::<ImageFrame>(&mut world, scene)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -119,7 +119,7 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, Refusal> {
+fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
     let table = T::extract(scene)?;
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
@@ -133,19 +133,19 @@ fn place(mut rays: Query<(&Pixel, &mut RasterPoint)>) {
 }
 // ANCHOR_END: place
 
-fn free_of_size(image: Res<Shared<ImageShape>>, mut rays: Query<(&RasterPoint, &mut NdcPoint)>) {
+fn free_of_size(image: Res<Shared<ImageFrame>>, mut rays: Query<(&RasterPoint, &mut NdcPoint)>) {
     for (raster, mut ndc) in &mut rays {
         ndc.0 = ndc_from_raster(raster.0, image.size());
     }
 }
 
-fn centre(image: Res<Shared<ImageShape>>, mut rays: Query<(&NdcPoint, &mut ScreenPoint)>) {
+fn centre(image: Res<Shared<ImageFrame>>, mut rays: Query<(&NdcPoint, &mut ScreenPoint)>) {
     for (ndc, mut screen) in &mut rays {
         screen.0 = screen_from_ndc(ndc.0, image.aspect());
     }
 }
 
-fn aim(lens: Res<Shared<PinholeLens>>, mut rays: Query<(&ScreenPoint, &mut CameraRay)>) {
+fn aim(lens: Res<Shared<PerspectiveProjection>>, mut rays: Query<(&ScreenPoint, &mut CameraRay)>) {
     for (screen, mut camera) in &mut rays {
         camera.0[1] = camera_ray_perspective(screen.0, lens.tan_half_vertical);
     }
@@ -165,17 +165,17 @@ fn meet(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut 
         for row in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(row), spheres.radius[row]);
             if nearness(centre - origin, direction, inverse, radius) >= 0.0 {
-                hit.narrow(sphere_t(origin, direction, centre, radius), spheres.shape[row]);
+                hit.keep_closest(sphere_t(origin, direction, centre, radius), spheres.shape[row]);
             }
         }
         for (row, &normal) in planes.normal.iter().enumerate() {
-            hit.narrow(plane_t(origin, direction, normal, planes.offset[row]), planes.shape[row]);
+            hit.keep_closest(plane_t(origin, direction, normal, planes.offset[row]), planes.shape[row]);
         }
     }
 }
 
 impl Hit {
-    fn narrow(&mut self, t: f64, shape: u32) {
+    fn keep_closest(&mut self, t: f64, shape: u32) {
         if t < self.t || (t == self.t && shape < self.shape && t < f64::INFINITY) {
             *self = Self { t, shape };
         }

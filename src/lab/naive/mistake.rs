@@ -1,30 +1,30 @@
 //! Stages with one mistake each, to take the place of the kit's or to spoil what they wrote: for figures, and for tests
 //! that must notice.
 
-use super::emitter::{density_without_cosine, density_without_jacobian};
+use super::emitter::{pdf_without_cosine, pdf_without_jacobian};
 use super::motion::time_of_frame;
 use super::path::uniform_direction;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
-    ShutterTable, glass_evidence, material_evidence, metal_evidence, occlusion_evidence, weighed_evidence,
+    ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_density, frame_of};
+use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_pdf, frame_of};
 use pinhole::intersect::{Hits, MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
-    Draws, Leg, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
+    Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
 };
 use pinhole::sample::{Purpose, uniform};
-use pinhole::shade::emitter::{distance_to, parallelogram_area_density};
+use pinhole::shade::emitter::{distance_to, parallelogram_area_pdf};
 use pinhole::shade::{LightRays, area_light_stage};
 use std::f64::consts::FRAC_1_PI;
 
 /// How a matte surface sends light on: a direction about +z by two numbers, and the share that it counts by albedo and
 /// cosine.
 #[derive(Clone, Copy)]
-pub struct MatteWay {
+pub struct MatteSample {
     /// The direction.
     pub direction: fn([f64; 2]) -> DVec3,
     /// The share.
@@ -32,15 +32,15 @@ pub struct MatteWay {
 }
 
 /// Matte surfaces alone send light on, and by this way; in the place of all that scatter.
-pub fn scatter_matte_by(way: MatteWay) -> Stage {
-    type Known<'a> = (&'a Tile, &'a Leg, Option<&'a SampleNumber>, Option<&'a PixelSamples>, &'a Paths);
+pub fn scatter_matte_by(way: MatteSample) -> Stage {
+    type Known<'a> = (&'a Tile, &'a Depth, Option<&'a SampleNumber>, Option<&'a PixelSamples>, &'a Paths);
     let scatter =
         move |sampling: Res<Shared<SamplingTable>>,
               materials: Res<Shared<MaterialTable>>,
               mut points: Local<Vec<[f64; 2]>>,
               mut tiles: Query<(Known<'static>, &Surfaces, &MaterialRows, &mut Scattered)>| {
-            for ((tile, &leg, number, samples, paths), surfaces, list, mut scattered) in &mut tiles {
-                let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+            for ((tile, &depth, number, samples, paths), surfaces, list, mut scattered) in &mut tiles {
+                let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
                 draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
                 scattered.append(&list.row, |number, row| {
                     let surface = surfaces.get(row);
@@ -50,12 +50,12 @@ pub fn scatter_matte_by(way: MatteWay) -> Stage {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,
                         share: [0, 1, 2].map(|part| share[part] * (way.share)(colour[part], local.z)),
-                        density: cosine_density(local.z),
+                        pdf: cosine_pdf(local.z),
                     }
                 });
             }
         };
-    Stage::new("Scatter with a mistake", TileSystems::Scatter, scatter)
+    Stage::new("Scatter with a mistake", TileSystems::SampleBsdfs, scatter)
         .kind(StageKind::Estimator)
         .reads::<Paths>()
         .reads_if::<PixelSamples>()
@@ -73,7 +73,7 @@ fn spoils(stage: Stage) -> Stage {
 }
 
 fn spoil_ray(Scattered { r, g, b, .. }: &mut Scattered, ray: usize, factor: f64) {
-    [r, g, b].into_iter().for_each(|lane| lane[ray] *= factor);
+    [r, g, b].into_iter().for_each(|component| component[ray] *= factor);
 }
 
 fn direction(Scattered { dx, dy, dz, .. }: &Scattered, ray: usize) -> DVec3 {
@@ -86,10 +86,10 @@ pub fn metal_counted_as_matte() -> Stage {
         for (surfaces, mut scattered) in &mut tiles {
             for ray in 0..scattered.rows() {
                 let surface = surfaces.get(scattered.path[ray] as usize);
-                let density = scattered.density[ray];
-                if materials.kind[surface.material as usize] == MaterialKind::Metal && density.is_finite() {
+                let pdf = scattered.pdf[ray];
+                if materials.kind[surface.material as usize] == MaterialKind::Metal && pdf.is_finite() {
                     let cosine = direction(&scattered, ray).dot(surface.normal.as_dvec3()).max(1e-6);
-                    spoil_ray(&mut scattered, ray, density / (cosine * FRAC_1_PI));
+                    spoil_ray(&mut scattered, ray, pdf / (cosine * FRAC_1_PI));
                 }
             }
         }
@@ -133,7 +133,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
                tiles: Query<SkyColumns>| {
         aim_by(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
-    Stage::new("Aim in all directions alike", TileSystems::Aim, aim)
+    Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
         .reads_if::<PixelSamples>()
         .reads::<Hits>()
@@ -146,11 +146,11 @@ pub fn sky_in_all_directions_alike() -> Stage {
 
 /// Light that was aimed at counts in full, though chance finds it too; in the place of all that weigh.
 pub fn aimed_light_counted_in_full() -> Stage {
-    Stage::new("Count aimed light in full", TileSystems::Weigh, |_: Query<&mut LightRays>| ())
+    Stage::new("Count aimed light in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
         .kind(StageKind::Alternative)
         .reads::<LightRays>()
         .writes::<LightRays>()
-        .when(weighed_evidence)
+        .when(mis_evidence)
 }
 
 /// How far a ray's end may lie from a light's plane, as a share of its length, and count as on it.
@@ -158,21 +158,21 @@ const ON_LIGHT: f64 = 1e-5;
 
 /// The light's own cosine forgotten in the density of its area.
 pub fn light_without_cosine() -> Stage {
-    spoils_aimed("Forget the light's cosine", |lights, mut tiles| {
-        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, density_without_cosine));
+    spoils_light_sampling("Forget the light's cosine", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, pdf_without_cosine));
     })
 }
 
 /// The Jacobian forgotten: the density of an area taken for one of directions.
 pub fn light_without_jacobian() -> Stage {
-    spoils_aimed("Forget the Jacobian", |lights, mut tiles| {
-        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, |_, area| density_without_jacobian(area)));
+    spoils_light_sampling("Forget the Jacobian", |lights, mut tiles| {
+        tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, |_, area| pdf_without_jacobian(area)));
     })
 }
 
 /// After the rays to lights, before what is in their way.
-fn spoils_aimed(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
-    Stage::new(name, TileSystems::Aim, forget)
+fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
+    Stage::new(name, TileSystems::SampleLights, forget)
         .kind(StageKind::Alternative)
         .appends::<LightRays>()
         .table::<AreaLightTable>()
@@ -186,9 +186,9 @@ fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, 
         let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
         let (direction, reach) = (rays.direction_of(ray), f64::from(rays.reach[ray]));
         let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / reach - 1.0).abs() < ON_LIGHT;
-        let Some(Emitter::Rectangle(flat)) = lights.emitter.iter().find(ends_on) else { continue };
+        let Some(Emitter::Rectangle(planar)) = lights.emitter.iter().find(ends_on) else { continue };
         let to = direction * reach;
-        let factor = (parallelogram_area_density(flat, to) / naive(to, flat.area())) as f32;
+        let factor = (parallelogram_area_pdf(planar, to) / naive(to, planar.area())) as f32;
         for part in [&mut rays.r, &mut rays.g, &mut rays.b] {
             part[ray] *= factor;
         }
@@ -209,7 +209,7 @@ pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
             }
         }
     };
-    Stage::new("Draw points on the lens otherwise", TileSystems::Lens, fill)
+    Stage::new("Sample the lens otherwise", TileSystems::Lens, fill)
         .kind(StageKind::Alternative)
         .reads::<RasterPoints>()
         .writes::<LensPoints>()

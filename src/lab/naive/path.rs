@@ -38,15 +38,15 @@ pub fn power_heuristic_f32(own: f32, other: f32) -> f32 {
 }
 // ANCHOR_END: power_heuristic_f32
 
-// ANCHOR: light_of_capped_way
+// ANCHOR: light_of_capped_path
 /// What a way brings in a closed room whose walls shine with 1 and send on this share, cut off after so many legs.
 #[must_use]
-pub fn light_of_capped_way(albedo: f64, legs: u32) -> f64 {
+pub fn light_of_capped_path(albedo: f64, max_depth: u32) -> f64 {
     let (mut light, mut share) = (0.0, 1.0);
-    for _ in 0..legs {
+    for _ in 0..max_depth {
         light += share;
         share *= albedo;
     }
     light
 }
-// ANCHOR_END: light_of_capped_way
+// ANCHOR_END: light_of_capped_path

@@ -58,7 +58,7 @@ pub fn reach_without_end(_distance: f64) -> f32 {
 /// The distance and the direction are rounded, so a lamp that hangs close before a wall is half the time found to be
 /// behind it.
 #[must_use]
-pub fn reach_to_light(distance: f64) -> f32 {
+pub fn t_max_to_light(distance: f64) -> f32 {
     distance as f32
 }
 // ANCHOR_END: naive_reach

@@ -2,7 +2,7 @@
 
 use super::ensemble::{Ensemble, FEWEST};
 use super::interval::{Estimate, Interval, bca, jackknife, joined};
-use super::refusal::{MOST_OF_REFERENCE, Refused};
+use super::refused::{MOST_OF_REFERENCE, Refused};
 
 /// The squares of errors, in those of the image, that are the rounding of sums and no error: (2⁻⁴⁸)².
 const ROUNDING: f64 = 1.3e-29;

@@ -57,7 +57,7 @@ impl Ladder {
 
 #[cfg(test)]
 mod tests {
-    use super::super::refusal::disjoint;
+    use super::super::refused::disjoint;
     use super::*;
 
     #[test]

@@ -19,7 +19,7 @@ pub mod pictures;
 pub mod pitfalls;
 pub mod plot;
 pub mod provenance;
-pub mod refusal;
+pub mod refused;
 pub mod run;
 pub mod runner;
 pub mod sum_up;

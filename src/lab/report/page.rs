@@ -180,7 +180,7 @@ fn stages(body: &mut String, variant: &VariantSummary) {
     let _ = writeln!(
         body,
         "<p class=\"note\">From one run of 16 samples a pixel with timers, which is no part of the runs above. Rays a \
-         sample: {} from the camera, {} towards lights. Light is followed for one leg, from the surface that is seen to \
+         sample: {} from the camera, {} towards lights. Light is followed for one depth, from the surface that is seen to \
          the eye; each ray is tested against all {} shapes, for there is no hierarchy.</p>",
         short(camera),
         short(shadow),

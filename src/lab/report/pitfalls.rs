@@ -101,7 +101,7 @@ pub fn pitfalls(variant: &Variant<'_>) -> Result<Vec<Pitfall>> {
     let right = |level: usize| curve.levels[level].told_mse(LEVEL).map(|mse| mse.interval(LEVEL));
     let mut rows = Vec::new();
     let mut row = |measurement, gives, right| rows.push(Pitfall { measurement, gives, right });
-    let told = |told: std::result::Result<Interval, super::refusal::Refused>| match told {
+    let told = |told: std::result::Result<Interval, super::refused::Refused>| match told {
         Ok(interval) => Given::Interval(interval),
         Err(refused) => Given::Refused(refused.to_string()),
     };

@@ -6,7 +6,7 @@ use super::distribution::sidak;
 use super::ensemble::{Ensemble, Reference};
 use super::interval::{Estimate, Interval, LEVEL, bca, mad, mean_of, median};
 use super::ladder::Ladder;
-use super::refusal::{Refused, disjoint};
+use super::refused::{Refused, disjoint};
 use super::run::{Run, Times};
 use super::runner::{Runs, Variant};
 use super::summary::{At, Comparison, LevelSummary, Report, Spread, StageSummary, Told, VariantSummary};
@@ -92,7 +92,7 @@ fn summary(
         let named = stages.iter().filter(|(stage, _)| stage.starts_with(name));
         named.map(|(_, lap)| lap.rows).sum::<u64>() as f64
     };
-    let rays = [rows_of("Turn rays into the world"), rows_of("Aim at ")];
+    let rays = [rows_of("Transform rays to world space"), rows_of("Aim at ")];
     let samples = rows_of("Place samples").max(1.0);
     VariantSummary {
         name: variant.name.clone(),

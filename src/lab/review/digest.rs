@@ -1,10 +1,10 @@
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::EntityRef;
 use pinhole::Result;
-use pinhole::extract::ImageShape;
+use pinhole::extract::ImageFrame;
 use pinhole::look::paths;
 use pinhole::plan::{ColumnKind, Plan, Stage, Table};
-use pinhole::rays::{Leg, Tile};
+use pinhole::rays::{Depth, Tile};
 use pinhole::render::{Execution, Hook, inspect_stages};
 use std::fmt::Write;
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub fn digests(scene: &World, offer: &[Stage]) -> Result<String> {
 }
 
 pub(super) fn digests_in_tiles(scene: &World, offer: &[Stage], tile_side: u32) -> Result<String> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     let mut frame = inspect_stages(scene, offer, tile_side, &[digest_hook(image)])?;
     let Digests(tables) = frame.world.remove_resource().unwrap_or_default();
     let mut text =
@@ -56,12 +56,12 @@ pub(super) fn digests_in_tiles(scene: &World, offer: &[Stage], tile_side: u32) -
 }
 
 /// A system after each stage that digests the columns that it wrote.
-fn digest_hook(image: ImageShape) -> Hook {
+fn digest_hook(image: ImageFrame) -> Hook {
     Arc::new(move |_, stage: &Stage, plan: &Plan| {
         let stage_name = stage.name;
         let columns: Vec<ColumnKind> = stage.writes.iter().copied().filter(|c| plan.columns.contains(c)).collect();
         let digest = move |world: &mut World, tiles: &mut QueryState<Entity, With<Tile>>| {
-            if tiles.iter(world).any(|tile| world.get::<Leg>(tile).is_some_and(|leg| leg.0 > 0)) {
+            if tiles.iter(world).any(|tile| world.get::<Depth>(tile).is_some_and(|depth| depth.0 > 0)) {
                 return;
             }
             let tables: Vec<DigestTable> = columns
@@ -81,7 +81,7 @@ fn digest_hook(image: ImageShape) -> Hook {
 }
 
 impl DigestTable {
-    fn new(stage: &'static str, column: &'static str, image: ImageShape) -> Self {
+    fn new(stage: &'static str, column: &'static str, image: ImageFrame) -> Self {
         let [across, down] = [image.width, image.height].map(|pixels| pixels.div_ceil(BLOCK_SIDE) as usize);
         Self { stage, column, across, blocks: vec![None; across * down] }
     }
@@ -91,14 +91,14 @@ impl DigestTable {
     /// The lane that names the path counts as the pixel, so that the digest does not depend on how the image is cut.
     fn add(&mut self, column: ColumnKind, tile: &EntityRef<'_>) {
         let Some(place) = tile.get::<Tile>() else { return };
-        let lanes = (column.lanes)(tile);
+        let components = (column.components)(tile);
         for (row, path) in paths(column, tile).into_iter().enumerate() {
             let [x, y] = place.pixel_of(path);
             let [block_x, block_y] = [x, y].map(|pixels| (pixels / BLOCK_SIDE) as usize);
             let block = &mut self.blocks[block_y * self.across + block_x];
             let mut state = fnv(block.unwrap_or(FNV_START), u64::from(x) << 32 | u64::from(y));
-            for lane in lanes.iter().filter(|lane| !matches!(lane.name, "path" | "row" | "pixel")) {
-                state = fnv(state, lane.values.bits(row));
+            for component in components.iter().filter(|component| !matches!(component.name, "path" | "row" | "pixel")) {
+                state = fnv(state, component.values.bits(row));
             }
             *block = Some(state);
         }
@@ -138,7 +138,7 @@ mod tests {
         change(&mut raster);
         let mut world = World::new();
         let tile = world.spawn((Tile { x: 0, y: 0, width: 16, height: 8 }, raster)).id();
-        let mut table = DigestTable::new("a stage", "raster", ImageShape { width: 16, height: 8 });
+        let mut table = DigestTable::new("a stage", "raster", ImageFrame { width: 16, height: 8 });
         table.add(ColumnKind::of::<RasterPoints>(), &world.entity(tile));
         table.to_string()
     }
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_block_without_rows_has_no_digest() {
-        let table = DigestTable::new("a stage", "light", ImageShape { width: 17, height: 9 });
+        let table = DigestTable::new("a stage", "light", ImageFrame { width: 17, height: 9 });
         assert_eq!(table.to_string(), "-------- -------- --------\n".repeat(2));
     }
 
@@ -181,9 +181,9 @@ mod tests {
             .offer(rays::stages())
             .offer(intersect::stages())
             .offer(shade::stages());
-        let (world, stages) = (chapter.world(&pinhole::Asked::default()), chapter.stages());
+        let (world, stages) = (chapter.world(&pinhole::Overrides::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
-        assert!(text.contains("\n\"Aim at point lights\" writes light\n"), "{text}");
+        assert!(text.contains("\n\"Sample point lights\" writes light\n"), "{text}");
         for side in [8, 16, 64] {
             assert!(digests_in_tiles(&world, &stages, side)? == text, "tiles of {side} pixels");
         }

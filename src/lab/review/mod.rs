@@ -10,10 +10,10 @@
 mod contrast;
 mod difference;
 mod digest;
+pub mod mutation;
 mod page;
 mod pending;
 mod picture;
-pub mod planted;
 mod probes;
 mod snapshots;
 

@@ -1,6 +1,6 @@
 use bevy_ecs::prelude::*;
 use pinhole::Result;
-use pinhole::extract::ImageShape;
+use pinhole::extract::ImageFrame;
 use pinhole::look::trace;
 use pinhole::plan::{Stage, Table};
 use pinhole::scene::TracePixel;
@@ -46,7 +46,7 @@ pub fn probe_pixels(width: u32, height: u32) -> Vec<Probe> {
 ///
 /// Errors: what a render would be refused for.
 pub fn probes(scene: &World, offer: &[Stage]) -> Result<String> {
-    let ImageShape { width, height } = ImageShape::extract(scene)?;
+    let ImageFrame { width, height } = ImageFrame::extract(scene)?;
     let mut text = format!("{width} × {height} pixels\n");
     for Probe { place, pixel } in probe_pixels(width, height) {
         let _ = write!(text, "\n{place}: {}", trace(scene, offer, pixel)?);

@@ -5,7 +5,7 @@ use pinhole::film::{Curve, byte_from_linear, png_bytes_by};
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, prepare, render};
 use pinhole::scene::{self, FileKind, Resolution};
-use pinhole::{Asked, Chapter};
+use pinhole::{Chapter, Overrides};
 use pinhole::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ impl Snapshots {
 
     /// The same, with other stages on offer or developed otherwise.
     pub fn with_stages(chapter: &Chapter, stages: &[Stage], develop: Develop) -> Result<Self> {
-        let world = chapter.world(&Asked { resolution: Some(SNAPSHOT_SIZE), ..Asked::default() });
+        let world = chapter.world(&Overrides { resolution: Some(SNAPSHOT_SIZE), ..Overrides::default() });
         let rendered = render(&world, stages, &Execution::default(), &())?;
         let curve = rendered.curve();
         Ok(Self {

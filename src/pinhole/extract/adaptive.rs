@@ -1,5 +1,5 @@
 use super::check::{at_most_one, kind_and_name, number};
-use crate::scene::{Adaptive, Layers, Refusal, Sampling};
+use crate::scene::{Adaptive, Layers, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The fewest samples that tell a variance worth deciding from.
@@ -10,30 +10,30 @@ const MOST_PILOT: u32 = 65_536;
 /// What the scene asks of adaptive sampling, if it does.
 ///
 /// Errors: two that ask, an error or a number of samples out of range, a camera that takes no samples.
-pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, Refusal> {
+pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, SceneError> {
     let Some(camera) = at_most_one::<Adaptive>(scene, "adaptive", "Adaptive")? else { return Ok(None) };
     let adaptive = scene.get::<Adaptive>(camera).copied().unwrap_or_default();
     let who = kind_and_name(scene, "camera", camera);
     if !(adaptive.error > 0.0 && adaptive.error <= 1.0) {
-        return Err(Refusal::new(who, "error", number(adaptive.error), "it must lie above 0 and be at most 1"));
+        return Err(SceneError::new(who, "error", number(adaptive.error), "it must lie above 0 and be at most 1"));
     }
     if !(FEWEST_PILOT..=MOST_PILOT).contains(&adaptive.pilot) {
         let accepted = format!("it must be a number of samples from {FEWEST_PILOT} to {MOST_PILOT}");
-        return Err(Refusal::new(who, "pilot", adaptive.pilot, accepted));
+        return Err(SceneError::new(who, "pilot", adaptive.pilot, accepted));
     }
     if scene.get::<Sampling>(camera).is_none() {
         let accepted = "the same camera must carry a Sampling, whose samples are the most that a pixel may get";
-        return Err(Refusal::new(who, "adaptive", "alone", accepted));
+        return Err(SceneError::new(who, "adaptive", "alone", accepted));
     }
     Ok(Some(adaptive))
 }
 
 /// Checks what the scene asks to be kept of every pixel.
-pub fn check_layers(scene: &World) -> Result<(), Refusal> {
+pub fn check_layers(scene: &World) -> Result<(), SceneError> {
     let Some(camera) = at_most_one::<Layers>(scene, "layers", "Layers")? else { return Ok(()) };
     if scene.get::<Layers>(camera).is_some_and(|layers| layers.kinds.is_empty()) {
         let who = kind_and_name(scene, "camera", camera);
-        return Err(Refusal::new(who, "kinds", "empty", "it must name at least one layer, such as Position"));
+        return Err(SceneError::new(who, "kinds", "empty", "it must name at least one layer, such as Position"));
     }
     Ok(())
 }

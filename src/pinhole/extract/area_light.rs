@@ -1,11 +1,11 @@
 use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
 use super::shape::{emissive_of, is_shape};
 use super::{
-    CuboidTable, DiskTable, EmissiveTable, Flat, NO_ROW, RectangleTable, ShapeKind, ShapeTable, SphereTable,
+    CuboidTable, DiskTable, EmissiveTable, NO_ROW, Planar, RectangleTable, ShapeKind, ShapeTable, SphereTable,
     TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
 };
 use crate::plan::{Evidence, Table, counted};
-use crate::scene::{Emissive, Placement, Plane, Refusal, Rgb, Sphere, called};
+use crate::scene::{Emissive, Placement, Plane, Rgb, SceneError, Sphere, called};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ pub struct AreaLightTable {
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
     /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
-    pub chance: Vec<f64>,
+    pub random: Vec<f64>,
     /// The light that a shape is; [`NO_ROW`] for a shape that is none.
     pub light_of_shape: Vec<u32>,
 }
@@ -62,8 +62,8 @@ pub(super) fn share_out(powers: &[f64]) -> (Vec<u64>, Vec<f64>) {
     if let Some(largest) = largest {
         parts[largest] = parts[largest] + PARTS - given;
     }
-    let chance = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
-    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), chance)
+    let random = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
+    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), random)
 }
 
 fn add(sum: &mut u64, parts: u64) -> u64 {
@@ -79,7 +79,7 @@ pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
 impl Table for AreaLightTable {
     const NAME: &'static str = "lights with area";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (shapes, emissive) = (ShapeTable::extract(scene)?, EmissiveTable::extract(scene)?);
         let (spheres, disks) = (SphereTable::extract(scene)?, DiskTable::extract(scene)?);
         let (rectangles, triangles) = (RectangleTable::extract(scene)?, TriangleTable::extract(scene)?);
@@ -94,8 +94,8 @@ impl Table for AreaLightTable {
             let row = shapes.row[shape] as usize;
             let emitter = match shapes.kind[shape] {
                 ShapeKind::Sphere => Emitter::Sphere { centre: spheres.centre(row), radius: spheres.radius[row] },
-                ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.flat[row])),
-                ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.flat[row])),
+                ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.planar[row])),
+                ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.planar[row])),
                 ShapeKind::Triangle => {
                     Emitter::Triangle { corners: triangles.facet[row].corners, normal: triangles.normal[row] }
                 }
@@ -114,7 +114,7 @@ impl Table for AreaLightTable {
             table.radiance.push(radiance);
             table.one_sided.push(one_sided);
         }
-        (table.until, table.chance) = share_out(&powers);
+        (table.until, table.random) = share_out(&powers);
         Ok(table)
     }
 
@@ -124,12 +124,12 @@ impl Table for AreaLightTable {
     }
 }
 
-fn parallelogram(flat: &Flat) -> Parallelogram {
-    Parallelogram::new(flat.centre, flat.half_edges(), flat.normal)
+fn parallelogram(planar: &Planar) -> Parallelogram {
+    Parallelogram::new(planar.centre, planar.half_edges(), planar.normal)
 }
 
-fn about_ellipse(flat: &Flat) -> Parallelogram {
-    Parallelogram::about_ellipse(flat.centre, flat.half_edges(), flat.normal)
+fn about_ellipse(planar: &Planar) -> Parallelogram {
+    Parallelogram::about_ellipse(planar.centre, planar.half_edges(), planar.normal)
 }
 
 /// Evidence that a shape emits light and can be aimed at; shapes that emit and cannot are told too.
@@ -147,16 +147,16 @@ pub fn area_light_evidence(scene: &World) -> Evidence {
     let found = Evidence::of_kind::<With<Placement>>(scene, "light with area", |shape| {
         is_shape(scene, shape) && shines(shape) && !endless(shape)
     });
-    let by_chance: Vec<String> = shape_entities(scene)
+    let by_bsdf: Vec<String> = shape_entities(scene)
         .into_iter()
         .filter(|&shape| shines(shape) && endless(shape))
         .map(|shape| called(scene, shape))
         .collect();
-    if by_chance.is_empty() {
+    if by_bsdf.is_empty() {
         return found;
     }
-    let names = by_chance.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
-    let shapes = counted(by_chance.len(), "shape with no area to aim at");
+    let names = by_bsdf.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
+    let shapes = counted(by_bsdf.len(), "shape with no area to aim at");
     let reason = format!("{}; {shapes}, met by chance only: {names}", found.reason);
     Evidence { reason, ..found }
 }

@@ -1,6 +1,6 @@
 use super::check::{at_most_one, kind_and_name, light_colour};
 use crate::plan::{Table, entities};
-use crate::scene::{Background, Environment, Gradient, Refusal, Rgb, called};
+use crate::scene::{Background, Environment, Gradient, Rgb, SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// The radiance that a ray which meets nothing brings back.
@@ -13,7 +13,7 @@ pub struct BackgroundTable {
 impl Table for BackgroundTable {
     const NAME: &'static str = "background";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let colour = match at_most_one::<Background>(scene, "background", "Background")? {
             None => Rgb::BLACK,
             Some(entity) => {
@@ -30,7 +30,7 @@ impl Table for BackgroundTable {
 }
 
 /// A scene has one kind of background at most.
-pub(super) fn check_one_kind(scene: &World) -> Result<(), Refusal> {
+pub(super) fn check_one_kind(scene: &World) -> Result<(), SceneError> {
     let kinds = [
         ("a Background", entities::<With<Background>>(scene)),
         ("a Gradient", entities::<With<Gradient>>(scene)),
@@ -42,7 +42,7 @@ pub(super) fn check_one_kind(scene: &World) -> Result<(), Refusal> {
         .collect();
     if given.len() > 1 {
         let accepted = "it must be one of Background, Gradient and Environment";
-        return Err(Refusal::new("the scene", "background", format!("given as {}", given.join(" and ")), accepted));
+        return Err(SceneError::new("the scene", "background", format!("given as {}", given.join(" and ")), accepted));
     }
     Ok(())
 }

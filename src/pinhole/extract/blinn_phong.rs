@@ -1,7 +1,7 @@
 use super::check::kind_and_name;
 use super::phong::{exponent_within, shared_light};
 use crate::plan::{Table, entities};
-use crate::scene::{BlinnPhong, Refusal};
+use crate::scene::{BlinnPhong, SceneError};
 use bevy_ecs::prelude::*;
 
 /// Highlights about the direction half way between light and eye, in spawn order.
@@ -30,7 +30,7 @@ pub fn blinn_phong_peak(exponent: f64) -> f64 {
 impl Table for BlinnPhongTable {
     const NAME: &'static str = "blinn–phong highlights";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in entities::<With<BlinnPhong>>(scene) {
             let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
@@ -48,7 +48,7 @@ impl Table for BlinnPhongTable {
 }
 
 /// The colour of a Blinn–Phong material, all of whose numbers are checked.
-pub(super) fn blinn_phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], Refusal> {
+pub(super) fn blinn_phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
     exponent_within(who, blinn.exponent)?;
     Ok(shared_light(who, blinn.colour, blinn.specular)?[0])

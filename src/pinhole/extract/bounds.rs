@@ -1,6 +1,6 @@
 //! The box along the world's axes about each shape that ends somewhere.
 
-use super::{Ellipsoid, Flat, Slabs};
+use super::{Ellipsoid, Planar, Slabs};
 use glam::DVec3;
 
 /// A box along the axes that a shape lies within.
@@ -39,15 +39,15 @@ impl Bounds {
     }
 
     /// Of a disk: x cos φ + z sin φ of its two half edges is √(x² + z²) at most, each part for itself.
-    pub fn of_disk(flat: &Flat) -> Self {
-        let [x, z] = flat.half_edges();
-        Self::about(flat.centre, DVec3::from([0, 1, 2].map(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt())))
+    pub fn of_disk(planar: &Planar) -> Self {
+        let [x, z] = planar.half_edges();
+        Self::about(planar.centre, DVec3::from([0, 1, 2].map(|axis| (x[axis] * x[axis] + z[axis] * z[axis]).sqrt())))
     }
 
     /// Of a rectangle.
-    pub fn of_rectangle(flat: &Flat) -> Self {
-        let [x, z] = flat.half_edges();
-        Self::about(flat.centre, x.abs() + z.abs())
+    pub fn of_rectangle(planar: &Planar) -> Self {
+        let [x, z] = planar.half_edges();
+        Self::about(planar.centre, x.abs() + z.abs())
     }
 
     /// Of a cuboid.
@@ -61,7 +61,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use crate::measure::cuboid_aim::{Eye, Spot, cuboid_shot};
-    use crate::measure::flat_aim::{At, View, flat_shot};
+    use crate::measure::planar_aim::{At, View, planar_shot};
     use crate::measure::ray_aim::Draws;
     use glam::DMat3;
 
@@ -90,14 +90,14 @@ mod tests {
     fn every_point_of_a_surface_lies_within_and_all_six_sides_are_neared() {
         for index in 0..SHAPES {
             let view = View { seed: 72, at: At::Inside, sizes: 4.0, flattest: 1.0, away: [0.0, 3.0], from_eye: false };
-            let (_, flat) = flat_shot(view, index);
-            let [x, z] = flat.half_edges();
-            holds(Bounds::of_disk(&flat), 0.01, |draws| {
+            let (_, planar) = planar_shot(view, index);
+            let [x, z] = planar.half_edges();
+            holds(Bounds::of_disk(&planar), 0.01, |draws| {
                 let angle = draws.between(0.0, std::f64::consts::TAU);
-                flat.centre + x * libm::cos(angle) + z * libm::sin(angle)
+                planar.centre + x * libm::cos(angle) + z * libm::sin(angle)
             });
             // Rectangles and cuboids end in corners, which the draws meet.
-            holds(Bounds::of_rectangle(&flat), 1e-6, |draws| flat.centre + x * sign(draws) + z * sign(draws));
+            holds(Bounds::of_rectangle(&planar), 1e-6, |draws| planar.centre + x * sign(draws) + z * sign(draws));
             let (_, slabs) = cuboid_shot(73, index, Spot::Face, Eye::Anywhere, 4.0, 3.0);
             let [x, y, z] = slabs.half_edges();
             holds(Bounds::of_cuboid(&slabs), 1e-6, |draws| {
@@ -107,7 +107,7 @@ mod tests {
             let longest = x.length() + y.length() + z.length();
             let ellipsoid = Ellipsoid::new(slabs.centre, edges.inverse(), longest);
             holds(Bounds::of_ellipsoid(&ellipsoid), 0.02, |draws| slabs.centre + edges * draws.unit_vector());
-            holds(Bounds::of_sphere(flat.centre, 2.0), 0.02, |draws| flat.centre + draws.unit_vector() * 2.0);
+            holds(Bounds::of_sphere(planar.centre, 2.0), 0.02, |draws| planar.centre + draws.unit_vector() * 2.0);
         }
         eprintln!("bounds: {SHAPES} shapes of 5 kinds, {POINTS} points each, all within");
     }

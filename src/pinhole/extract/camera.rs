@@ -3,8 +3,8 @@ use super::check::{kind_and_name, number, positive_length, triple};
 use super::pose::world_from_entity;
 use crate::plan::{Table, counted, entities};
 use crate::scene::{
-    Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, OrthographicCamera, PerspectiveCamera, Refusal, Resolution,
-    called, some_of,
+    Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, OrthographicCamera, PerspectiveCamera, Resolution,
+    SceneError, called, some_of,
 };
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -27,7 +27,7 @@ const CAMERAS: [(&str, fn(&World) -> Vec<Entity>); 4] = [
 ];
 
 /// The one camera of the scene.
-pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
+pub fn camera_entity(scene: &World) -> Result<Entity, SceneError> {
     let kinds = CAMERAS.iter().flat_map(|&(kind, carrying)| carrying(scene).into_iter().map(move |own| (kind, own)));
     let kinds: Vec<(&str, Entity)> = kinds.collect();
     let cameras: Vec<Entity> = kinds.iter().map(|&(_, camera)| camera).collect();
@@ -35,39 +35,39 @@ pub fn camera_entity(scene: &World) -> Result<Entity, Refusal> {
                     EquirectangularCamera";
     match cameras[..] {
         [camera] => Ok(camera),
-        [] => Err(Refusal::new("the scene", "camera", "missing", accepted)),
+        [] => Err(SceneError::new("the scene", "camera", "missing", accepted)),
         [one, ..] if cameras.iter().all(|&other| other == one) => {
             let kinds: Vec<&str> = kinds.iter().map(|&(kind, _)| kind).collect();
             let value = format!("{} at once, on {}", kinds.join(" and "), called(scene, one));
-            Err(Refusal::new("the scene", "camera", value, accepted))
+            Err(SceneError::new("the scene", "camera", value, accepted))
         }
         _ => {
             let value = format!("given {}: {}", counted(cameras.len(), "time"), some_of(scene, &cameras, ", "));
-            Err(Refusal::new("the scene", "camera", value, accepted))
+            Err(SceneError::new("the scene", "camera", value, accepted))
         }
     }
 }
 
 /// Where the camera stands, in world space: the origin of render space.
-pub fn eye(scene: &World) -> Result<DVec3, Refusal> {
+pub fn eye(scene: &World) -> Result<DVec3, SceneError> {
     let (who, camera) = named_camera(scene)?;
     Ok(world_from_entity(scene, &who, camera)?.translation)
 }
 
-fn named_camera(scene: &World) -> Result<(String, Entity), Refusal> {
+fn named_camera(scene: &World) -> Result<(String, Entity), SceneError> {
     let camera = camera_entity(scene)?;
     Ok((kind_and_name(scene, "camera", camera), camera))
 }
 
 /// The checks of the kind of camera that there is.
-pub fn check_camera(scene: &World) -> Result<(), Refusal> {
+pub fn check_camera(scene: &World) -> Result<(), SceneError> {
     let camera = scene.entity(camera_entity(scene)?);
     if camera.contains::<PerspectiveCamera>() {
-        PinholeLens::extract(scene)?;
+        PerspectiveProjection::extract(scene)?;
     } else if camera.contains::<FisheyeCamera>() {
         ImageCircle::extract(scene)?;
     } else if camera.contains::<OrthographicCamera>() {
-        ViewRectangle::extract(scene)?;
+        OrthographicWindow::extract(scene)?;
     }
     // An image of all directions has no number of its own, and at most 65536 pixels to 360°.
     Ok(())
@@ -75,14 +75,14 @@ pub fn check_camera(scene: &World) -> Result<(), Refusal> {
 
 /// How many pixels the image has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImageShape {
+pub struct ImageFrame {
     /// Pixels from left to right.
     pub width: u32,
     /// Pixels from top to bottom.
     pub height: u32,
 }
 
-impl ImageShape {
+impl ImageFrame {
     /// Width and height in pixels.
     pub fn size(&self) -> DVec2 {
         DVec2::new(f64::from(self.width), f64::from(self.height))
@@ -94,10 +94,10 @@ impl ImageShape {
     }
 }
 
-impl Table for ImageShape {
+impl Table for ImageFrame {
     const NAME: &'static str = "image shape";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let Resolution { width, height } = scene.get::<Resolution>(camera).copied().unwrap_or_default();
         let sides = 1..=LONGEST_SIDE;
@@ -106,7 +106,7 @@ impl Table for ImageShape {
             let accepted = format!(
                 "each side must have 1 to {LONGEST_SIDE} pixels, and the image at most {MOST_PIXELS} altogether"
             );
-            return Err(Refusal::new(who, "resolution", format!("{width} × {height}"), accepted));
+            return Err(SceneError::new(who, "resolution", format!("{width} × {height}"), accepted));
         }
         Ok(Self { width, height })
     }
@@ -118,28 +118,28 @@ impl Table for ImageShape {
 
 /// What a perspective camera does to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PinholeLens {
+pub struct PerspectiveProjection {
     /// Half the image plane's height at distance 1: tan(vertical angle / 2).
     pub tan_half_vertical: f64,
 }
 
-impl PinholeLens {
+impl PerspectiveProjection {
     /// The angle, in radians, that the narrowest pixel of an image of this shape takes up: the one in a corner.
-    pub fn narrowest_pixel(&self, image: ImageShape) -> f64 {
+    pub fn narrowest_pixel(&self, image: ImageFrame) -> f64 {
         let corner = DVec2::new(image.aspect(), 1.0) * self.tan_half_vertical;
         2.0 * self.tan_half_vertical / f64::from(image.height) / (1.0 + corner.length_squared())
     }
 }
 
-impl Table for PinholeLens {
+impl Table for PerspectiveProjection {
     const NAME: &'static str = "pinhole";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
-        let image = ImageShape::extract(scene)?;
+        let image = ImageFrame::extract(scene)?;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         if !(fov.0 > 0.0 && fov.0 < 180.0) {
-            return Err(Refusal::new(
+            return Err(SceneError::new(
                 who,
                 "fov",
                 format!("{}°", number(fov.0)),
@@ -152,10 +152,10 @@ impl Table for PinholeLens {
             let (width, height) = (image.width, image.height);
             let value = format!("{}° over {width} × {height} pixels, {pixel:.1e} rad a pixel", number(fov.0));
             let accepted = format!(
-                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
+                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad double_double for world rays in f32: \
                  widen the angle or take fewer pixels"
             );
-            return Err(Refusal::new(who, "fov", value, accepted));
+            return Err(SceneError::new(who, "fov", value, accepted));
         }
         Ok(Self { tan_half_vertical })
     }
@@ -209,22 +209,22 @@ pub fn angle_of_tan_half(tangent: f64) -> Degrees {
 }
 
 /// The full angle across `axis` of what this lens sees in an image of this aspect.
-pub fn angle_across(lens: &PinholeLens, axis: FovAxis, aspect: f64) -> Degrees {
+pub fn angle_across(lens: &PerspectiveProjection, axis: FovAxis, aspect: f64) -> Degrees {
     angle_of_tan_half(lens.tan_half_vertical * half_extent(axis, aspect))
 }
 // ANCHOR_END: angle_across
 
 /// What an orthographic camera does to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ViewRectangle {
+pub struct OrthographicWindow {
     /// Half the rectangle's height, in scene units.
     pub half_height: f64,
 }
 
-impl Table for ViewRectangle {
+impl Table for OrthographicWindow {
     const NAME: &'static str = "view rectangle";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let view = scene.get::<OrthographicCamera>(camera).copied().unwrap_or_default();
         Ok(Self { half_height: positive_length(&who, "view_height", view.view_height)? / 2.0 })
@@ -245,7 +245,7 @@ pub struct CameraAxes {
 impl Table for CameraAxes {
     const NAME: &'static str = "camera axes";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let world_from_camera = world_from_entity(scene, &who, camera)?.matrix3;
         let off = world_from_camera.transpose() * world_from_camera - DMat3::IDENTITY;
@@ -255,7 +255,7 @@ impl Table for CameraAxes {
             let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_camera.col(axis).length()));
             let mirrored = if world_from_camera.determinant() < 0.0 { "mirrored, " } else { "" };
             let accepted = "a camera may be turned and moved only, and no parent may scale or mirror it";
-            return Err(Refusal::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
+            return Err(SceneError::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
         }
         Ok(Self { world_from_camera })
     }
@@ -276,7 +276,8 @@ mod tests {
         for axis in axes {
             for aspect in [1e-4, 0.5, 1.0, 16.0 / 9.0, 1e4] {
                 for fov in [1e-4, 0.01, 1.0, 40.0, 60.0, 90.0, 120.0, 179.0, 179.99] {
-                    let lens = PinholeLens { tan_half_vertical: tan_half_vertical(Degrees(fov), axis, aspect) };
+                    let lens =
+                        PerspectiveProjection { tan_half_vertical: tan_half_vertical(Degrees(fov), axis, aspect) };
                     let missing = |angle: f64| angle.min(180.0 - angle);
                     let back = angle_across(&lens, axis, aspect).0;
                     worst = worst.max((missing(back) - missing(fov)).abs() / missing(fov));

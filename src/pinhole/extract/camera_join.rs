@@ -1,8 +1,9 @@
 use super::{
-    CameraAxes, FilterTable, ImageShape, LensTable, PinholeLens, ViewRectangle, camera_entity, lens_evidence, radius_of,
+    CameraAxes, FilterTable, ImageFrame, LensTable, OrthographicWindow, PerspectiveProjection, camera_entity,
+    lens_evidence, radius_of,
 };
 use crate::plan::Table;
-use crate::scene::{OrthographicCamera, Refusal};
+use crate::scene::{OrthographicCamera, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2};
 
@@ -35,13 +36,13 @@ impl CameraJoinTable {
 impl Table for CameraJoinTable {
     const NAME: &'static str = "join to the camera";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
-        let image = ImageShape::extract(scene)?;
+    fn extract(scene: &World) -> Result<Self, SceneError> {
+        let image = ImageFrame::extract(scene)?;
         let is_perspective = scene.get::<OrthographicCamera>(camera_entity(scene)?).is_none();
         let half_height = if is_perspective {
-            PinholeLens::extract(scene)?.tan_half_vertical
+            PerspectiveProjection::extract(scene)?.tan_half_vertical
         } else {
-            ViewRectangle::extract(scene)?.half_height
+            OrthographicWindow::extract(scene)?.half_height
         };
         let lens = lens_evidence(scene).needed.then(|| LensTable::extract(scene)).transpose()?;
         Ok(Self {

@@ -1,7 +1,7 @@
 //! Checks that several kinds of component share, each giving the one sentence that a refusal is.
 
 use crate::plan::entities;
-use crate::scene::{Refusal, Rgb, called, some_of};
+use crate::scene::{Rgb, SceneError, called, some_of};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -14,11 +14,11 @@ pub fn kind_and_name(scene: &World, kind: &str, entity: Entity) -> String {
 }
 
 /// A point within reach of render space.
-pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec3, Refusal> {
+pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec3, SceneError> {
     if point.is_finite() && point.abs().max_element() <= LARGEST_LENGTH {
         Ok(point)
     } else {
-        Err(Refusal::new(
+        Err(SceneError::new(
             who,
             field,
             triple(point),
@@ -28,22 +28,22 @@ pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec
 }
 
 /// A length above 0 and within reach of render space.
-pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f64, Refusal> {
+pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f64, SceneError> {
     if (1.0 / LARGEST_LENGTH..=LARGEST_LENGTH).contains(&length) {
         Ok(length)
     } else {
         let accepted = format!("it must be a length from {:e} to {LARGEST_LENGTH:e}", 1.0 / LARGEST_LENGTH);
-        Err(Refusal::new(who, field, number(length), accepted))
+        Err(SceneError::new(who, field, number(length), accepted))
     }
 }
 
 /// A colour whose parts are finite and at least 0.
-pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, Refusal> {
+pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
     colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
 }
 
 /// A colour whose parts lie from 0 to 1.
-pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, Refusal> {
+pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
     colour_within(
         who,
         field,
@@ -53,11 +53,11 @@ pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, R
     )
 }
 
-fn colour_within(who: &str, field: &'static str, colour: Rgb, most: f64, accepted: &str) -> Result<Rgb, Refusal> {
+fn colour_within(who: &str, field: &'static str, colour: Rgb, most: f64, accepted: &str) -> Result<Rgb, SceneError> {
     if colour.to_array().iter().all(|part| (0.0..=most).contains(part)) {
         Ok(colour)
     } else {
-        Err(Refusal::new(who, field, triple(colour.to_vec()), accepted))
+        Err(SceneError::new(who, field, triple(colour.to_vec()), accepted))
     }
 }
 
@@ -77,11 +77,11 @@ pub fn number(value: f64) -> String {
 }
 
 /// The one entity that carries a component of which a scene may have one, or none.
-pub fn at_most_one<C: Component>(scene: &World, field: &'static str, kind: &str) -> Result<Option<Entity>, Refusal> {
+pub fn at_most_one<C: Component>(scene: &World, field: &'static str, kind: &str) -> Result<Option<Entity>, SceneError> {
     let found = entities::<With<C>>(scene);
     if found.len() > 1 {
         let accepted = format!("at most one entity may carry a {kind}");
-        return Err(Refusal::new(
+        return Err(SceneError::new(
             "the scene",
             field,
             format!("given by {}", some_of(scene, &found, " and ")),

@@ -1,9 +1,9 @@
 use super::check::{finite_point, kind_and_name, positive_length, triple};
-use super::flat::unit_in_f32;
+use super::planar::unit_in_f32;
 use super::pose::normal_world_from_object;
 use super::{Pose, eye, pose, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Cuboid, Refusal};
+use crate::scene::{Cuboid, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -64,7 +64,7 @@ pub struct CuboidTable {
 impl Table for CuboidTable {
     const NAME: &'static str = "cuboids";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
             let Some(cuboid) = scene.get::<Cuboid>(entity) else { continue };
@@ -79,13 +79,13 @@ impl Table for CuboidTable {
     }
 }
 
-fn slabs(scene: &World, entity: Entity, size: DVec3) -> Result<Slabs, Refusal> {
+fn slabs(scene: &World, entity: Entity, size: DVec3) -> Result<Slabs, SceneError> {
     let who = kind_and_name(scene, "cuboid", entity);
     for part in size.to_array() {
-        positive_length(&who, "size", part).map_err(|refusal| Refusal {
+        positive_length(&who, "size", part).map_err(|scene_error| SceneError {
             value: triple(size),
-            accepted: format!("each part must be{}", refusal.accepted.trim_start_matches("it must be")),
-            ..refusal
+            accepted: format!("each part must be{}", scene_error.accepted.trim_start_matches("it must be")),
+            ..scene_error
         })?;
     }
     let Pose { world_from_entity, entity_from_world } = pose(scene, &who, entity)?;
@@ -102,7 +102,7 @@ fn slabs(scene: &World, entity: Entity, size: DVec3) -> Result<Slabs, Refusal> {
     if ratio > LARGEST_RATIO {
         let value = format!("{}, placed {ratio:.1e} times as long one way as another", triple(size));
         let accepted = format!("a cuboid may be at most {LARGEST_RATIO:e} times as long one way as another");
-        return Err(Refusal::new(who, "size", value, accepted));
+        return Err(SceneError::new(who, "size", value, accepted));
     }
     Ok(slabs)
 }

@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, light_colour};
 use super::pose::ahead;
 use crate::plan::{Table, entities};
-use crate::scene::{DirectionalLight, Refusal};
+use crate::scene::{DirectionalLight, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ pub struct DirectionalLightTable {
 impl Table for DirectionalLightTable {
     const NAME: &'static str = "directional lights";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in entities::<With<DirectionalLight>>(scene) {
             let light = scene.get::<DirectionalLight>(entity).copied().unwrap_or_default();

@@ -1,15 +1,15 @@
 use super::check::{kind_and_name, positive_length};
-use super::flat::{Flat, flat};
+use super::planar::{Planar, planar};
 use super::{moves_while_open, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Disk, Refusal};
+use crate::scene::{Disk, SceneError};
 use bevy_ecs::prelude::*;
 
 /// Disks in render space, in spawn order, without those that [move](super::MovingTable): the points of a plane whose two coordinates have squares that sum to 1 at most.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DiskTable {
     /// The plane and the coordinates.
-    pub flat: Vec<Flat>,
+    pub planar: Vec<Planar>,
     /// The shape's number.
     pub shape: Vec<u32>,
 }
@@ -17,19 +17,19 @@ pub struct DiskTable {
 impl Table for DiskTable {
     const NAME: &'static str = "disks";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (mut table, moves) = (Self::default(), moves_while_open(scene));
         for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| !moves(entity)) {
             let Some(disk) = scene.get::<Disk>(entity) else { continue };
             let who = kind_and_name(scene, "disk", entity);
             let radius = positive_length(&who, "radius", disk.radius)?;
-            table.flat.push(flat(scene, &who, entity, [radius; 2])?);
+            table.planar.push(planar(scene, &who, entity, [radius; 2])?);
             table.shape.push(shape as u32);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.flat.len() * (size_of::<Flat>() + size_of::<u32>())
+        self.planar.len() * (size_of::<Planar>() + size_of::<u32>())
     }
 }

@@ -1,7 +1,7 @@
 use super::check::{finite_point, kind_and_name, positive_length, triple};
 use super::{eye, pose, shape_entities};
 use crate::plan::Table;
-use crate::scene::{ChildOf, Placement, Refusal, Sphere};
+use crate::scene::{ChildOf, Placement, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -45,7 +45,7 @@ pub struct EllipsoidTable {
 impl Table for EllipsoidTable {
     const NAME: &'static str = "ellipsoids";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
@@ -61,7 +61,7 @@ impl Table for EllipsoidTable {
     }
 }
 
-fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<Ellipsoid, Refusal> {
+fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<Ellipsoid, SceneError> {
     let who = kind_and_name(scene, "sphere", entity);
     let pose = pose(scene, &who, entity)?;
     positive_length(&who, "radius", radius)?;
@@ -77,7 +77,7 @@ fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<E
         let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
         let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));
         let accepted = format!("a sphere may be at most {LARGEST_RATIO:e} times as long one way as another");
-        return Err(Refusal::new(who, "scale", value, accepted));
+        return Err(SceneError::new(who, "scale", value, accepted));
     }
     Ok(Ellipsoid::new(centre, unit_from_world, longest))
 }
@@ -189,8 +189,8 @@ mod tests {
         let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
         assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
         for ratio in [2e7, 1e-8] {
-            let refusal = table(ratio).expect_err("refused").to_string();
-            assert!(refusal.contains("scale is (1, 1, ") && refusal.contains("1e7 times"), "{refusal}");
+            let scene_error = table(ratio).expect_err("refused").to_string();
+            assert!(scene_error.contains("scale is (1, 1, ") && scene_error.contains("1e7 times"), "{scene_error}");
         }
     }
 }

@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, light_colour};
-use super::material::matter_evidence;
+use super::material::material_kind_evidence;
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Emissive, Refusal, Sides};
+use crate::scene::{Emissive, SceneError, Sides};
 use bevy_ecs::prelude::*;
 
 /// What surfaces emit, in spawn order.
@@ -21,7 +21,7 @@ pub(super) fn emissive_entities(scene: &World) -> Vec<Entity> {
 impl Table for EmissiveTable {
     const NAME: &'static str = "emissive surfaces";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in emissive_entities(scene) {
             let emissive = scene.get::<Emissive>(entity).copied().unwrap_or_default();
@@ -50,5 +50,5 @@ pub fn one_sided_evidence(scene: &World) -> Evidence {
 
 /// Evidence that a shape emits light.
 pub fn emissive_evidence(scene: &World) -> Evidence {
-    matter_evidence::<Emissive>(scene, "emissive surface")
+    material_kind_evidence::<Emissive>(scene, "emissive surface")
 }

@@ -104,8 +104,8 @@ impl Emitter {
     pub fn area(&self) -> f64 {
         match self {
             Self::Sphere { radius, .. } => 4.0 * std::f64::consts::PI * radius * radius,
-            Self::Rectangle(flat) => flat.area(),
-            Self::Disk(flat) => std::f64::consts::FRAC_PI_4 * flat.area(),
+            Self::Rectangle(planar) => planar.area(),
+            Self::Disk(planar) => std::f64::consts::FRAC_PI_4 * planar.area(),
             Self::Triangle { corners: [a, b, c], .. } => 0.5 * (*b - *a).cross(*c - *a).length(),
             Self::Cuboid(cuboid) => {
                 let face = |axis: usize| {
@@ -122,7 +122,7 @@ impl Emitter {
     pub fn faces(&self, point: DVec3) -> bool {
         match self {
             Self::Sphere { centre, radius } => (point - *centre).length_squared() > radius * radius,
-            Self::Rectangle(flat) | Self::Disk(flat) => flat.normal.dot(point - flat.centre) > 0.0,
+            Self::Rectangle(planar) | Self::Disk(planar) => planar.normal.dot(point - planar.centre) > 0.0,
             Self::Triangle { corners, normal } => normal.dot(point - corners[0]) > 0.0,
             Self::Cuboid(cuboid) => !cuboid.holds(point),
         }

@@ -2,7 +2,7 @@ use super::Texels;
 use super::check::{at_most_one, kind_and_name, number};
 use super::image_file::background_image;
 use crate::plan::Table;
-use crate::scene::{Environment, Refusal};
+use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
@@ -18,17 +18,17 @@ pub struct EnvironmentTable {
 impl Table for EnvironmentTable {
     const NAME: &'static str = "environment";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<Environment>(scene, "environment", "Environment")? else {
             return Ok(Self { image: Texels::single([0.0; 3]).into(), turn: [0.0, 1.0] });
         };
         let Environment { file, turn, scale } = scene.get::<Environment>(entity).cloned().unwrap_or_default();
         let who = kind_and_name(scene, "environment", entity);
         if !turn.0.is_finite() {
-            return Err(Refusal::new(who, "turn", format!("{}°", number(turn.0)), "it must be a finite angle"));
+            return Err(SceneError::new(who, "turn", format!("{}°", number(turn.0)), "it must be a finite angle"));
         }
         if !(0.0..f64::INFINITY).contains(&scale) {
-            return Err(Refusal::new(who, "scale", number(scale), "it must be a finite number of at least 0"));
+            return Err(SceneError::new(who, "scale", number(scale), "it must be a finite number of at least 0"));
         }
         let mut image = background_image(scene, &who, &file)?;
         if scale != 1.0 {
@@ -38,7 +38,7 @@ impl Table for EnvironmentTable {
         }
         if image.rgb.iter().flatten().any(|part| !part.is_finite()) {
             let accepted = "the brightest texel times it must be at most 3.4e38";
-            return Err(Refusal::new(who, "scale", number(scale), accepted));
+            return Err(SceneError::new(who, "scale", number(scale), accepted));
         }
         let (sine, cosine) = libm::sincos(turn.radians());
         Ok(Self { image, turn: [sine, cosine] })

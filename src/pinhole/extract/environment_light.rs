@@ -1,7 +1,7 @@
 use super::area_light::luminance;
 use super::{EnvironmentTable, Texels};
 use crate::plan::{Evidence, Table};
-use crate::scene::{Environment, Refusal};
+use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 
@@ -71,7 +71,7 @@ impl EnvironmentLightTable {
 
     /// How likely a direction in a cell is to be chosen, in 1/sr.
     #[inline(always)]
-    pub fn density(&self, [row, column]: [usize; 2]) -> f64 {
+    pub fn pdf(&self, [row, column]: [usize; 2]) -> f64 {
         let left = &self.left[row * (self.columns + 1) + column..];
         let share = (self.above[row + 1] - self.above[row]) * (left[1] - left[0]);
         share * self.columns as f64 / (2.0 * PI * (self.versine[row + 1] - self.versine[row]))
@@ -107,7 +107,7 @@ fn line_of(image: &Texels, line: usize) -> Vec<f64> {
 impl Table for EnvironmentLightTable {
     const NAME: &'static str = "light of the environment";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         Ok(Self::new(&EnvironmentTable::extract(scene)?.image))
     }
 

@@ -1,7 +1,7 @@
 use super::camera::camera_entity;
 use super::check::{kind_and_name, number};
 use crate::plan::Table;
-use crate::scene::{Filter, Refusal, Sampling};
+use crate::scene::{Filter, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -50,7 +50,7 @@ pub struct Span {
 impl Table for FilterTable {
     const NAME: &'static str = "filter";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let Some(&Sampling { filter, .. }) = scene.get::<Sampling>(camera) else { return Ok(Self::default()) };
         check(&kind_and_name(scene, "camera", camera), filter)?;
@@ -62,10 +62,10 @@ impl Table for FilterTable {
     }
 }
 
-fn check(who: &str, filter: Filter) -> Result<(), Refusal> {
+fn check(who: &str, filter: Filter) -> Result<(), SceneError> {
     let within = |field: &'static str, value: f64, least: f64, most: f64, what: &str| {
         let accepted = format!("it must be {what} from {} to {}", number(least), number(most));
-        let refused = || Refusal::new(who, field, number(value), accepted);
+        let refused = || SceneError::new(who, field, number(value), accepted);
         if (least..=most).contains(&value) { Ok(()) } else { Err(refused()) }
     };
     within("filter radius", radius_of(filter), 1.0 / 64.0, 64.0, "a number of pixels")?;

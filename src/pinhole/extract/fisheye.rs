@@ -1,8 +1,8 @@
 use super::SMALLEST_PIXEL;
-use super::camera::{ImageShape, camera_entity, half_extent};
+use super::camera::{ImageFrame, camera_entity, half_extent};
 use super::check::{kind_and_name, number};
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{FisheyeCamera, Layers, Refusal};
+use crate::scene::{FisheyeCamera, Layers, SceneError};
 use bevy_ecs::prelude::*;
 
 /// What a fisheye camera does to screen points.
@@ -17,14 +17,14 @@ pub struct ImageCircle {
 impl Table for ImageCircle {
     const NAME: &'static str = "image circle";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let who = kind_and_name(scene, "camera", camera);
-        let image = ImageShape::extract(scene)?;
+        let image = ImageFrame::extract(scene)?;
         let FisheyeCamera { fov, axis } = scene.get::<FisheyeCamera>(camera).copied().unwrap_or_default();
         if !(fov.0 > 0.0 && fov.0 <= 360.0) {
             let value = format!("{}°", number(fov.0));
-            return Err(Refusal::new(who, "fov", value, "it must lie above 0° and be at most 360°"));
+            return Err(SceneError::new(who, "fov", value, "it must lie above 0° and be at most 360°"));
         }
         let circle = Self { radius: half_extent(axis, image.aspect()), half_angle: fov.radians() / 2.0 };
         let pixel = circle.pixel(image);
@@ -32,15 +32,15 @@ impl Table for ImageCircle {
             let (width, height) = (image.width, image.height);
             let value = format!("{}° over {width} × {height} pixels, {pixel:.1e} rad a pixel", number(fov.0));
             let accepted = format!(
-                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
+                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad double_double for world rays in f32: \
                  widen the angle or take fewer pixels"
             );
-            return Err(Refusal::new(who, "fov", value, accepted));
+            return Err(SceneError::new(who, "fov", value, accepted));
         }
         if !entities::<With<Layers>>(scene).is_empty() {
             let accepted =
                 "a fisheye camera has none, for outside its circle there is nothing to keep: take another kind";
-            return Err(Refusal::new(who, "layers", "asked for", accepted));
+            return Err(SceneError::new(who, "layers", "asked for", accepted));
         }
         Ok(circle)
     }
@@ -52,7 +52,7 @@ impl Table for ImageCircle {
 
 impl ImageCircle {
     /// How far from the axis a step of one pixel away from the centre leads, in radians; the same everywhere.
-    pub fn pixel(&self, image: ImageShape) -> f64 {
+    pub fn pixel(&self, image: ImageFrame) -> f64 {
         self.half_angle / self.radius * 2.0 / f64::from(image.height)
     }
 }

@@ -1,8 +1,8 @@
 use super::check::{kind_and_name, light_colour, number};
-use super::material::{matter_evidence, used_material};
+use super::material::{material_kind_evidence, used_material};
 use super::shape_entities;
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Disk, Glass, Rectangle, Refusal, called};
+use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// The least index of refraction that is accepted, and one over the largest.
@@ -22,7 +22,7 @@ pub struct GlassTable {
 impl Table for GlassTable {
     const NAME: &'static str = "glass";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in entities::<With<Glass>>(scene) {
             let (ior, absorption, priority) = glass_numbers(scene, entity)?;
@@ -40,24 +40,24 @@ impl Table for GlassTable {
 }
 
 /// Index, absorption and priority of a kind of glass, checked.
-fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), Refusal> {
+fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), SceneError> {
     let glass = scene.get::<Glass>(entity).copied().unwrap_or_default();
     let who = kind_and_name(scene, "glass", entity);
     if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&glass.ior) {
         let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
-        return Err(Refusal::new(who, "ior", number(glass.ior), accepted));
+        return Err(SceneError::new(who, "ior", number(glass.ior), accepted));
     }
     let absorption = light_colour(&who, "absorption", glass.absorption)?.to_array();
     Ok((glass.ior, absorption, glass.priority))
 }
 
 /// Checks a glass's numbers; equally in all directions it sends on nothing.
-pub(super) fn glass_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], Refusal> {
+pub(super) fn glass_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
     glass_numbers(scene, entity).map(|_| [0.0; 3])
 }
 
 /// Checks that no shape without an inside is made of glass.
-fn check_closed(scene: &World) -> Result<(), Refusal> {
+fn check_closed(scene: &World) -> Result<(), SceneError> {
     for shape in shape_entities(scene) {
         let kind = match (scene.get::<Disk>(shape), scene.get::<Rectangle>(shape)) {
             (Some(_), _) => "disk",
@@ -69,12 +69,12 @@ fn check_closed(scene: &World) -> Result<(), Refusal> {
         };
         let value = format!("the glass {}", called(scene, material));
         let accepted = "glass needs a shape with an inside: a sphere, a cuboid, a plane or triangles that close";
-        return Err(Refusal::new(kind_and_name(scene, kind, shape), "material", value, accepted));
+        return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
     }
     Ok(())
 }
 
 /// Evidence that a shape is made of glass.
 pub fn glass_evidence(scene: &World) -> Evidence {
-    matter_evidence::<Glass>(scene, "glass surface")
+    material_kind_evidence::<Glass>(scene, "glass surface")
 }

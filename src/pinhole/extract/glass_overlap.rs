@@ -4,7 +4,7 @@ use super::{
     TriangleTable, shape_entities,
 };
 use crate::plan::{Evidence, Table};
-use crate::scene::{Glass, Refusal, called};
+use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -127,7 +127,7 @@ fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
 }
 
 /// Every shape of glass.
-fn pieces(scene: &World) -> Result<Vec<Piece>, Refusal> {
+fn pieces(scene: &World) -> Result<Vec<Piece>, SceneError> {
     let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];

@@ -4,7 +4,7 @@ use super::image_head::{ImageHead, image_head, one_line};
 use super::image_store::{ImageStore, Undecoded};
 use super::{Pyramid, linear_from_srgb};
 use crate::scene::{
-    EmbeddedFiles, IMAGE_FILE, Refusal, SceneFolder, TooLittleMemory, check_memory, open_file, printable,
+    EmbeddedFiles, IMAGE_FILE, SceneError, SceneFolder, TooLittleMemory, check_memory, open_file, printable,
     printable_path,
 };
 use bevy_ecs::prelude::*;
@@ -82,7 +82,7 @@ static BACKGROUNDS: ImageStore<Texels> = ImageStore::new();
 /// The image of a texture, with its smaller copies.
 ///
 /// Errors: another ending, a file that is not there, cannot be read or is too large, a texel that is out of range.
-pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, Refusal> {
+pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
     let decode = |texels: Texels| {
         let pyramid = Pyramid::on(texels);
         let bytes = pyramid.bytes();
@@ -94,7 +94,7 @@ pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<
 /// The image of a background.
 ///
 /// Errors: as those of a texture.
-pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, Refusal> {
+pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
     let decode = |texels: Texels| {
         let bytes = texels.bytes();
         (texels, bytes)
@@ -114,8 +114,8 @@ fn decoded<T>(
     file: &str,
     numbers: Numbers,
     prepared: impl FnOnce(Texels) -> (T, usize),
-) -> Result<Arc<T>, Refusal> {
-    let refused = |accepted: String| Refusal::new(who, "file", shown_name(file), accepted);
+) -> Result<Arc<T>, SceneError> {
+    let refused = |accepted: String| SceneError::new(who, "file", shown_name(file), accepted);
     let path = SceneFolder::path_of(scene, file);
     let (endings, accepted) = numbers.endings();
     let format = format_of(&path).filter(|(ending, _)| endings.contains(ending));

@@ -3,7 +3,7 @@ use super::emissive::emissive_evidence;
 use super::material::material_evidence;
 use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Evidence, entities};
-use crate::scene::{DirectionalLight, Integrator, LightSampling, PointLight, SpotLight, called};
+use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
 /// How light is followed in a scene, and why so.
@@ -28,18 +28,18 @@ pub fn integrator_of(scene: &World) -> ChosenIntegrator {
     }
     let metal = metal_evidence(scene);
     let lamps = emissive_evidence(scene).and(|| material_evidence(scene));
-    let polished = mirror_evidence(scene).or(glass_evidence(scene));
-    let by_chance = metal.or(lamps);
-    if by_chance.needed {
-        return chosen(Integrator::PATH, by_chance.reason);
+    let specular = mirror_evidence(scene).or(glass_evidence(scene));
+    let by_bsdf = metal.or(lamps);
+    if by_bsdf.needed {
+        return chosen(Integrator::PATH, by_bsdf.reason);
     }
-    if polished.needed && has_points(scene) {
-        return chosen(Integrator::WHITTED, polished.reason);
+    if specular.needed && has_points(scene) {
+        return chosen(Integrator::WHITTED, specular.reason);
     }
-    if polished.needed {
-        return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", polished.reason));
+    if specular.needed {
+        return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", specular.reason));
     }
-    chosen(Integrator::RayCasting, polished.reason)
+    chosen(Integrator::RayCasting, specular.reason)
 }
 // ANCHOR_END: integrator_of
 
@@ -69,17 +69,17 @@ pub fn unless_occlusion(scene: &World, evidence: Evidence) -> Evidence {
 }
 
 /// Evidence that points on lights with an area are aimed at.
-pub fn aimed_evidence(scene: &World) -> Evidence {
+pub fn light_sampling_evidence(scene: &World) -> Evidence {
     needed_if(scene, |integrator| match integrator {
         Integrator::Distribution { .. } => true,
-        Integrator::Path { lights, .. } => lights != LightSampling::ByChance,
+        Integrator::Path { lights, .. } => lights != LightStrategy::Bsdf,
         _ => false,
     })
 }
 
 /// Evidence that two ways to find a light are weighed against each other.
-pub fn weighed_evidence(scene: &World) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightSampling::Weighed, .. }))
+pub fn mis_evidence(scene: &World) -> Evidence {
+    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightStrategy::Mis, .. }))
 }
 
 /// Evidence that the integrator of a scene is of a kind.

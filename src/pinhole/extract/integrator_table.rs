@@ -3,14 +3,14 @@ use super::check::{at_most_one, kind_and_name, positive_length};
 use super::glass::{GlassTable, glass_evidence};
 use super::integrator::integrator_of;
 use crate::plan::Table;
-use crate::scene::{Integrator, LightSampling, Refusal};
+use crate::scene::{Integrator, LightStrategy, SceneError};
 use bevy_ecs::prelude::*;
 
 /// How far light is followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IntegratorTable {
     /// The most legs of a way, the one from the camera included.
-    pub legs: u32,
+    pub max_depth: u32,
     /// The leg from which ways end by chance.
     pub roulette: u32,
     /// Whether points on lights are aimed at.
@@ -26,33 +26,33 @@ pub struct IntegratorTable {
 impl Table for IntegratorTable {
     const NAME: &'static str = "integrator";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let who = || kind_and_name(scene, "camera", camera);
         if let Some(other) = at_most_one::<Integrator>(scene, "integrator", "Integrator")?
             && other != camera
         {
             let who = kind_and_name(scene, "integrator", other);
-            return Err(Refusal::new(who, "integrator", "on no camera", "it must be on the camera"));
+            return Err(SceneError::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
         // Without more, light comes from a light by one surface to the camera.
-        let mut table = Self { legs: 2, narrowing: narrowing_in_glass(scene)?, ..Self::default() };
+        let mut table = Self { max_depth: 2, narrowing: narrowing_in_glass(scene)?, ..Self::default() };
         match integrator_of(scene).integrator {
             Integrator::RayCasting => {}
             Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
             Integrator::AmbientOcclusion { distance } => {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
-            Integrator::Whitted { legs } => table.legs = legs,
-            Integrator::Distribution { legs } => (table.legs, table.aimed) = (legs, true),
-            Integrator::Path { legs, roulette, lights } => {
-                (table.legs, table.roulette, table.weighed) = (legs, roulette, lights == LightSampling::Weighed);
-                table.aimed = lights != LightSampling::ByChance;
+            Integrator::Whitted { max_depth } => table.max_depth = max_depth,
+            Integrator::Distribution { max_depth } => (table.max_depth, table.aimed) = (max_depth, true),
+            Integrator::Path { max_depth, roulette, lights } => {
+                (table.max_depth, table.roulette, table.weighed) = (max_depth, roulette, lights == LightStrategy::Mis);
+                table.aimed = lights != LightStrategy::Bsdf;
             }
         }
-        if table.legs == 0 {
+        if table.max_depth == 0 {
             let accepted = "it must be at least 1, and 2 for light that comes by one surface";
-            return Err(Refusal::new(who(), "integrator legs", "0", accepted));
+            return Err(SceneError::new(who(), "integrator legs", "0", accepted));
         }
         Ok(table)
     }
@@ -63,7 +63,7 @@ impl Table for IntegratorTable {
 }
 
 /// The largest index of refraction squared among the kinds of glass that shapes are made of; 1 without any.
-fn narrowing_in_glass(scene: &World) -> Result<f64, Refusal> {
+fn narrowing_in_glass(scene: &World) -> Result<f64, SceneError> {
     if !glass_evidence(scene).needed {
         return Ok(1.0);
     }

@@ -1,6 +1,6 @@
 use super::camera::{CameraAxes, eye};
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{LayerKind, Layers, Refusal};
+use crate::scene::{LayerKind, Layers, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -30,7 +30,7 @@ impl LayerTable {
 impl Table for LayerTable {
     const NAME: &'static str = "layers";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let world_from_camera = CameraAxes::extract(scene)?.world_from_camera;
         Ok(Self { kinds: Self::kinds_of(scene), eye: eye(scene)?, world_from_camera })
     }

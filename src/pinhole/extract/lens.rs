@@ -1,8 +1,8 @@
 use super::camera::camera_entity;
 use super::check::{kind_and_name, number, positive_length};
-use super::{ImageShape, PinholeLens, SMALLEST_PIXEL};
+use super::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL};
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Aperture, Lens, PerspectiveCamera, Refusal, called};
+use crate::scene::{Aperture, Lens, PerspectiveCamera, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
@@ -26,16 +26,16 @@ impl LensTable {
     /// The opening of a lens.
     ///
     /// Errors: a refusal of `who`.
-    pub fn of(lens: &Lens, who: &str) -> Result<Self, Refusal> {
+    pub fn of(lens: &Lens, who: &str) -> Result<Self, SceneError> {
         let radius = radius_of(lens.aperture, who)?;
         positive_length(who, "focus_distance", lens.focus_distance)?;
         if lens.blades != 0 && !BLADES.contains(&lens.blades) {
             let accepted = "it must be 0 for a round opening, or a number of straight edges from 3 to 64";
-            return Err(Refusal::new(who, "blades", lens.blades, accepted));
+            return Err(SceneError::new(who, "blades", lens.blades, accepted));
         }
         if !(-360.0..=360.0).contains(&lens.turn.0) {
             let accepted = "it must lie from -360° to 360°";
-            return Err(Refusal::new(who, "turn", format!("{}°", number(lens.turn.0)), accepted));
+            return Err(SceneError::new(who, "turn", format!("{}°", number(lens.turn.0)), accepted));
         }
         let corner = |blade: u32| {
             let share = f64::from(blade % lens.blades) / f64::from(lens.blades);
@@ -58,12 +58,12 @@ impl LensTable {
     // ANCHOR_END: circle_of_confusion
 }
 
-fn radius_of(aperture: Aperture, who: &str) -> Result<f64, Refusal> {
+fn radius_of(aperture: Aperture, who: &str) -> Result<f64, SceneError> {
     let within = |field: &'static str, length: f64, what: &str| {
         if (0.0..=WIDEST).contains(&length) {
             return Ok(length);
         }
-        Err(Refusal::new(
+        Err(SceneError::new(
             who,
             field,
             number(length),
@@ -73,9 +73,9 @@ fn radius_of(aperture: Aperture, who: &str) -> Result<f64, Refusal> {
     match aperture {
         Aperture::Radius { radius } => within("aperture radius", radius, "length"),
         Aperture::FNumber { number: f_number, focal_length } => {
-            positive_length(who, "aperture number", f_number).map_err(|refusal| Refusal {
+            positive_length(who, "aperture number", f_number).map_err(|scene_error| SceneError {
                 accepted: "it must be an f-number from 1e-18 to 1e18, the focal length over the diameter".into(),
-                ..refusal
+                ..scene_error
             })?;
             positive_length(who, "aperture focal_length", focal_length)?;
             within("aperture number", focal_length / (2.0 * f_number), "number that gives a radius")
@@ -86,13 +86,13 @@ fn radius_of(aperture: Aperture, who: &str) -> Result<f64, Refusal> {
 impl Table for LensTable {
     const NAME: &'static str = "lens";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let who = kind_and_name(scene, "camera", camera);
         let Some(lens) = scene.get::<Lens>(camera) else { return Ok(Self::default()) };
         let table = Self::of(lens, &who)?;
-        let image = ImageShape::extract(scene)?;
-        let pixel = 2.0 * PinholeLens::extract(scene)?.tan_half_vertical / f64::from(image.height);
+        let image = ImageFrame::extract(scene)?;
+        let pixel = 2.0 * PerspectiveProjection::extract(scene)?.tan_half_vertical / f64::from(image.height);
         let seen = seen_from_edge(pixel, &table);
         if seen < SMALLEST_PIXEL {
             let value = format!(
@@ -101,10 +101,10 @@ impl Table for LensTable {
                 number(table.focus_distance)
             );
             let accepted = format!(
-                "a pixel on the plane in focus must seem at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
+                "a pixel on the plane in focus must seem at least {SMALLEST_PIXEL:.0e} rad double_double for world rays in f32: \
                  take a smaller radius, a farther focus or fewer pixels"
             );
-            return Err(Refusal::new(who, "aperture", value, accepted));
+            return Err(SceneError::new(who, "aperture", value, accepted));
         }
         Ok(table)
     }
@@ -125,14 +125,14 @@ fn seen_from_edge(pixel: f64, lens: &LensTable) -> f64 {
 /// Checks the scene's lens, if it has one.
 ///
 /// Errors: a lens on what is no perspective camera, or a number out of range.
-pub fn check_lens(scene: &World) -> Result<(), Refusal> {
+pub fn check_lens(scene: &World) -> Result<(), SceneError> {
     let camera = camera_entity(scene)?;
     for entity in entities::<With<Lens>>(scene) {
         if entity != camera || scene.get::<PerspectiveCamera>(entity).is_none() {
             let who = if entity == camera { kind_and_name(scene, "camera", entity) } else { called(scene, entity) };
             let kind = if entity == camera { "no PerspectiveCamera" } else { "no camera" };
             let accepted = "only an entity with a PerspectiveCamera may carry a Lens";
-            return Err(Refusal::new(who, "lens", format!("given to {kind}"), accepted));
+            return Err(SceneError::new(who, "lens", format!("given to {kind}"), accepted));
         }
     }
     LensTable::extract(scene).map(|_| ())

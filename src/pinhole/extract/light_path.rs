@@ -4,7 +4,7 @@ use super::{
     PointLightTable, RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
 };
 use crate::plan::Table;
-use crate::scene::Refusal;
+use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -54,7 +54,7 @@ pub struct LightPathTable {
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
     /// How likely it is to be chosen: half by its power, half evenly.
-    pub chance: Vec<f64>,
+    pub random: Vec<f64>,
     /// Spheres that hold all mirrors and glass; none where one of them has no end.
     pub target: Vec<Target>,
 }
@@ -70,7 +70,7 @@ impl LightPathTable {
 impl Table for LightPathTable {
     const NAME: &'static str = "light paths";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let areas = AreaLightTable::extract(scene)?;
         let (mut light, mut powers) = (Vec::new(), Vec::new());
         for (number, emitter) in areas.emitter.iter().enumerate() {
@@ -93,8 +93,8 @@ impl Table for LightPathTable {
             powers.push(luminance(intensity) * PI * (edges[0] + edges[1]));
             light.push(LightSource::Point { position, intensity, cone: Some((spots.axis[number], edges)) });
         }
-        let (until, chance) = share_out(&powers);
-        Ok(Self { light, until, chance, target: targets(scene)? })
+        let (until, random) = share_out(&powers);
+        Ok(Self { light, until, random, target: targets(scene)? })
     }
 
     fn bytes(&self) -> usize {
@@ -103,17 +103,17 @@ impl Table for LightPathTable {
 }
 
 /// Spheres about all mirrors and glass; none where one has no end.
-fn targets(scene: &World) -> Result<Vec<Target>, Refusal> {
+fn targets(scene: &World) -> Result<Vec<Target>, SceneError> {
     let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
     let (spheres, ellipsoids) = (SphereTable::extract(scene)?, EllipsoidTable::extract(scene)?);
     let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
     let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
-    let is_polished = |shape: &usize| match shapes.material[*shape] {
+    let is_specular = |shape: &usize| match shapes.material[*shape] {
         NO_ROW => false,
         material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
     };
     let mut found = Vec::new();
-    for shape in (0..shapes.kind.len()).filter(is_polished) {
+    for shape in (0..shapes.kind.len()).filter(is_specular) {
         let row = shapes.row[shape] as usize;
         let bounds = match shapes.kind[shape] {
             ShapeKind::Sphere => {
@@ -121,8 +121,8 @@ fn targets(scene: &World) -> Result<Vec<Target>, Refusal> {
                 continue;
             }
             ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
-            ShapeKind::Disk => Bounds::of_disk(&disks.flat[row]),
-            ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.flat[row]),
+            ShapeKind::Disk => Bounds::of_disk(&disks.planar[row]),
+            ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.planar[row]),
             ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
             ShapeKind::Triangle => {
                 let [a, b, c] = triangles.facet[row].corners;

@@ -1,10 +1,10 @@
 use super::check::{at_most_one, kind_and_name, number};
 use super::{
-    ImageShape, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, material_evidence,
+    ImageFrame, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, material_evidence,
     mirror_evidence, motion_evidence,
 };
-use crate::plan::{Carried, Evidence, Table};
-use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, Refusal, SpotLight};
+use crate::plan::{ComponentKind, Evidence, Table};
+use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 
 /// The most rays from the lights for a ray of the camera.
@@ -20,22 +20,22 @@ pub struct LightTracingTable {
 impl Table for LightTracingTable {
     const NAME: &'static str = "light tracing";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")? else {
             return Ok(Self::default());
         };
         let camera = camera_entity(scene)?;
         if camera != entity {
             let who = kind_and_name(scene, "light tracing", entity);
-            return Err(Refusal::new(who, "light_tracing", "on no camera", "it must be on the camera"));
+            return Err(SceneError::new(who, "light_tracing", "on no camera", "it must be on the camera"));
         }
         let paths = scene.get::<LightTracing>(camera).map_or(0.0, |own| own.paths);
         let who = kind_and_name(scene, "camera", camera);
         if !(1.0 / MOST_PATHS..=MOST_PATHS).contains(&paths) {
             let accepted = format!("it must be a number from 1/{MOST_PATHS} to {MOST_PATHS}");
-            return Err(Refusal::new(who, "light_tracing paths", number(paths), accepted));
+            return Err(SceneError::new(who, "light_tracing paths", number(paths), accepted));
         }
-        let refused = |value: &str, accepted: &str| Err(Refusal::new(who, "light_tracing", value, accepted));
+        let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
         if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {
             return refused("without paths", "light from the lights joins the camera's paths: give it Path(…)");
         }
@@ -52,7 +52,7 @@ impl Table for LightTracingTable {
             let accepted = "a ray from a light may reach any pixel, so none can ask for more: take off the Adaptive";
             return refused("with adaptive sampling", accepted);
         }
-        ImageShape::extract(scene)?;
+        ImageFrame::extract(scene)?;
         Ok(Self { paths })
     }
 
@@ -68,11 +68,11 @@ pub fn traced_evidence(scene: &World) -> Evidence {
     if !asked.needed {
         return asked;
     }
-    let polished = || {
+    let specular = || {
         let (mirrors, glass) = (mirror_evidence(scene), glass_evidence(scene));
         mirrors.or(glass)
     };
-    asked.and(polished).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
+    asked.and(specular).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
 }
 
 /// Evidence of a light that rays can start on.
@@ -82,7 +82,7 @@ pub fn started_on_evidence(scene: &World) -> Evidence {
 
 /// Evidence of a point or spot light that casts shadows.
 pub fn shadowed_point_evidence(scene: &World) -> Evidence {
-    const POINTS: [Carried; 2] = [Carried::of::<PointLight>(), Carried::of::<SpotLight>()];
+    const POINTS: [ComponentKind; 2] = [ComponentKind::of::<PointLight>(), ComponentKind::of::<SpotLight>()];
     Evidence::among_any(scene, "point or spot light", &POINTS, |light| {
         light.get::<PointLight>().is_none_or(|light| light.casts_shadows)
             && light.get::<SpotLight>().is_none_or(|light| light.casts_shadows)

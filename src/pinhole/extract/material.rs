@@ -5,8 +5,8 @@ use super::metal::{metal_colour, metal_evidence, metal_kind};
 use super::mirror::mirror_colour;
 use super::phong::phong_colour;
 use super::shape_entities;
-use crate::plan::{Carried, Evidence, Table, entities};
-use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, Refusal, UsesMaterial};
+use crate::plan::{ComponentKind, Evidence, Table, entities};
+use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
 
@@ -51,7 +51,7 @@ pub struct MaterialTable {
     pub colour: Vec<[f64; 3]>,
 }
 
-type Colour = fn(&World, Entity, &str) -> Result<[f64; 3], Refusal>;
+type Colour = fn(&World, Entity, &str) -> Result<[f64; 3], SceneError>;
 
 /// A kind of material as an author writes it.
 struct Written {
@@ -129,7 +129,7 @@ pub(super) fn materials_in_words() -> String {
 }
 
 /// The one material that an entity is.
-fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, Refusal> {
+fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, SceneError> {
     let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
     match carried[..] {
         [one] => Ok(one),
@@ -137,7 +137,7 @@ fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, Refus
             let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
             let who = kind_and_name(scene, "material", entity);
-            Err(Refusal::new(who, "material", value, "an entity may be one material only"))
+            Err(SceneError::new(who, "material", value, "an entity may be one material only"))
         }
     }
 }
@@ -145,7 +145,7 @@ fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, Refus
 impl Table for MaterialTable {
     const NAME: &'static str = "materials";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         let mut rows_of_kind = [0; MaterialKind::COUNT];
         for entity in material_entities(scene) {
@@ -175,7 +175,8 @@ fn reached(scene: &World) -> BTreeSet<Entity> {
 /// Evidence that a shape is there whose matter spreads the light that falls on it: any but mirrors and glass.
 pub fn material_evidence(scene: &World) -> Evidence {
     let reached = reached(scene);
-    const MATERIALS: [Carried; 3] = [Carried::of::<Matte>(), Carried::of::<Phong>(), Carried::of::<BlinnPhong>()];
+    const MATERIALS: [ComponentKind; 3] =
+        [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
     let matte = Evidence::among_any(scene, "material", &MATERIALS, |entity| reached.contains(&entity.id()));
     let metal = metal_evidence(scene);
     if metal.needed { matte.or(metal) } else { matte }
@@ -184,7 +185,8 @@ pub fn material_evidence(scene: &World) -> Evidence {
 /// Evidence that a shape is there that sends on light equally in all directions, whatever else it does.
 pub fn matte_evidence(scene: &World) -> Evidence {
     let reached = reached(scene);
-    const MATERIALS: [Carried; 3] = [Carried::of::<Matte>(), Carried::of::<Phong>(), Carried::of::<BlinnPhong>()];
+    const MATERIALS: [ComponentKind; 3] =
+        [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
     Evidence::among_any(scene, "matte surface", &MATERIALS, |entity| reached.contains(&entity.id()))
 }
 
@@ -197,7 +199,7 @@ pub(super) fn reached_of<C: Component>(scene: &World, noun: &str, such: impl Fn(
 }
 
 /// Evidence that a shape carries this component, or uses a material that does.
-pub fn matter_evidence<C: Component>(scene: &World, noun: &str) -> Evidence {
+pub fn material_kind_evidence<C: Component>(scene: &World, noun: &str) -> Evidence {
     let reached = reached(scene);
     Evidence::among::<With<C>>(scene, noun, |entity| reached.contains(&entity.id()))
 }

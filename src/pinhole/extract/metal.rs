@@ -2,7 +2,7 @@ use super::MaterialKind;
 use super::check::{kind_and_name, number, reflectance};
 use super::material::{material_entities, material_kind, reached_of};
 use crate::plan::{Evidence, Table};
-use crate::scene::{Metal, Refusal};
+use crate::scene::{Metal, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The least α with which metal is rough; below it, it is a perfect mirror.
@@ -22,7 +22,7 @@ pub struct MetalTable {
 impl Table for MetalTable {
     const NAME: &'static str = "metals";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in material_entities(scene) {
             if material_kind(scene, entity) == Some(MaterialKind::Metal) {
@@ -40,19 +40,19 @@ impl Table for MetalTable {
 }
 
 /// A metal's colour and roughness, checked.
-pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], f64), Refusal> {
+pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], f64), SceneError> {
     let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
     let who = kind_and_name(scene, "metal", entity);
     let colour = reflectance(&who, "colour", metal.colour)?.to_array();
     if (0.0..=1.0).contains(&metal.roughness) {
         Ok((colour, metal.roughness))
     } else {
-        Err(Refusal::new(who, "roughness", number(metal.roughness), "it must be a number from 0 to 1"))
+        Err(SceneError::new(who, "roughness", number(metal.roughness), "it must be a number from 0 to 1"))
     }
 }
 
 /// Checks a metal's numbers; equally in all directions it sends on nothing.
-pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], Refusal> {
+pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
     metal_numbers(scene, entity).map(|_| [0.0; 3])
 }
 

@@ -1,9 +1,9 @@
 use super::check::{kind_and_name, reflectance};
-use super::material::{material_entities, material_kind, matter_evidence, reached_of};
+use super::material::{material_entities, material_kind, material_kind_evidence, reached_of};
 use super::metal::metal_numbers;
 use super::{MaterialKind, SMOOTHEST_METAL};
 use crate::plan::{Evidence, Table};
-use crate::scene::{Metal, Mirror, Refusal};
+use crate::scene::{Metal, Mirror, SceneError};
 use bevy_ecs::prelude::*;
 
 /// Perfect mirrors, in spawn order; metal too smooth for its roughness to show is one of them.
@@ -16,7 +16,7 @@ pub struct MirrorTable {
 impl Table for MirrorTable {
     const NAME: &'static str = "mirrors";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in material_entities(scene) {
             if material_kind(scene, entity) != Some(MaterialKind::Mirror) {
@@ -38,7 +38,7 @@ impl Table for MirrorTable {
 }
 
 /// Checks a mirror's numbers; equally in all directions it sends on nothing.
-pub(super) fn mirror_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], Refusal> {
+pub(super) fn mirror_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let mirror = scene.get::<Mirror>(entity).copied().unwrap_or_default();
     reflectance(who, "colour", mirror.colour)?;
     Ok([0.0; 3])
@@ -46,7 +46,7 @@ pub(super) fn mirror_colour(scene: &World, entity: Entity, who: &str) -> Result<
 
 /// Evidence that a shape is a perfect mirror, by its name or by metal so smooth that it is one.
 pub fn mirror_evidence(scene: &World) -> Evidence {
-    let mirror = matter_evidence::<Mirror>(scene, "mirror");
+    let mirror = material_kind_evidence::<Mirror>(scene, "mirror");
     let smooth = reached_of::<Metal>(scene, "polished metal", |metal| metal.roughness < SMOOTHEST_METAL);
     if smooth.needed { mirror.or(smooth) } else { mirror }
 }

@@ -25,7 +25,6 @@ mod environment_light;
 mod exact_sum;
 mod filter;
 mod fisheye;
-mod flat;
 mod glass;
 mod glass_overlap;
 mod gradient;
@@ -46,6 +45,7 @@ mod motion;
 mod moving;
 mod phong;
 mod pixel_steps;
+mod planar;
 mod plane;
 mod point_light;
 mod pose;
@@ -68,8 +68,8 @@ pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use bounds::Bounds;
 pub use camera::{
-    CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL, ViewRectangle, angle_across, angle_of_tan_half, camera_entity,
-    eye, half_extent, tan_half,
+    CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
+    camera_entity, eye, half_extent, tan_half,
 };
 pub use camera_join::CameraJoinTable;
 pub use cuboid::{CuboidTable, Slabs};
@@ -83,7 +83,6 @@ pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
 pub use fisheye::{ImageCircle, fisheye_evidence};
-pub use flat::Flat;
 pub use glass::{GlassTable, glass_evidence};
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
@@ -91,15 +90,15 @@ pub use image_file::{Texels, read_exr};
 pub use image_head::{ImageHead, image_head, one_line};
 pub use image_texture::ImageTable;
 pub use integrator::{
-    ChosenIntegrator, aimed_evidence, followed_evidence, integrator_of, needed_if, occlusion_evidence,
-    unless_occlusion, weighed_evidence,
+    ChosenIntegrator, followed_evidence, integrator_of, light_sampling_evidence, mis_evidence, needed_if,
+    occlusion_evidence, unless_occlusion,
 };
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, check_lens, lens_evidence};
 pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
-pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, matte_evidence, matter_evidence};
+pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, material_kind_evidence, matte_evidence};
 pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence, metals_of_several_mirrors, multiple_scattering_evidence};
 pub use mirror::{MirrorTable, mirror_evidence};
 pub use motion::{
@@ -108,6 +107,7 @@ pub use motion::{
 pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
+pub use planar::Planar;
 pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
 pub use pose::{
@@ -122,23 +122,23 @@ pub use sphere::SphereTable;
 pub use spot_light::{SpotLightTable, versine_of_half};
 pub use srgb::linear_from_srgb;
 pub use texture::{
-    Laid, NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
+    NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
     filtered_evidence, texture_evidence, texture_of_kind,
 };
-pub use triangle::{Facet, TriangleTable, VertexNormalTable};
+pub use triangle::{TriangleRow, TriangleTable, VertexNormalTable};
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 pub use uv_slope::{UvSlope, UvSlopes, most_of};
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 
 use crate::plan::Table;
-use crate::scene::{Refusal, View};
+use crate::scene::{SceneError, View};
 use bevy_ecs::prelude::*;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
-/// Errors: the first [`Refusal`] in the order camera, shapes, matter, lights, textures, background, view.
-pub fn validate(scene: &World) -> Result<(), Refusal> {
-    ImageShape::extract(scene)?;
+/// Errors: the first [`SceneError`] in the order camera, shapes, matter, lights, textures, background, view.
+pub fn validate(scene: &World) -> Result<(), SceneError> {
+    ImageFrame::extract(scene)?;
     check_motion(scene)?;
     CameraAxes::extract(scene)?;
     camera::check_camera(scene)?;

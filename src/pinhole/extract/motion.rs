@@ -1,10 +1,10 @@
 use super::camera::camera_entity;
 use super::check::{finite_point, kind_and_name, number};
-use super::{aimed_evidence, shape_entities, texture_evidence, unevenly_scaled};
+use super::{light_sampling_evidence, shape_entities, texture_evidence, unevenly_scaled};
 use crate::plan::{Evidence, Table, entities};
 use crate::scene::{
-    Checker, ChildOf, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, Refusal, Shutter,
-    Sphere, SpotLight, Stripes, UsesMaterial, called,
+    Checker, ChildOf, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError,
+    Shutter, Sphere, SpotLight, Stripes, UsesMaterial, called,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -24,7 +24,7 @@ pub struct ShutterTable {
 impl Table for ShutterTable {
     const NAME: &'static str = "shutter";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let shutter = shutter_of(scene);
         Ok(Self { length: shutter.close - shutter.open, velocity: velocity_of(scene, camera) })
@@ -107,24 +107,24 @@ fn said(scene: &World, noun: &str, moving: Vec<Entity>) -> Evidence {
 ///
 /// Errors: a shutter on what is no camera, one that closes before it opens, a velocity that is not finite, motion of what
 /// cannot move while the shutter is open.
-pub fn check_motion(scene: &World) -> Result<(), Refusal> {
+pub fn check_motion(scene: &World) -> Result<(), SceneError> {
     let camera = camera_entity(scene)?;
     for entity in entities::<With<Shutter>>(scene) {
         if entity != camera {
             let accepted = "only the camera may carry a Shutter";
-            return Err(Refusal::new(called(scene, entity), "shutter", "given to no camera", accepted));
+            return Err(SceneError::new(called(scene, entity), "shutter", "given to no camera", accepted));
         }
         let who = kind_and_name(scene, "camera", entity);
         let Shutter { open, close } = shutter_of(scene);
         for (field, time) in [("open", open), ("close", close)] {
             if !(-FARTHEST_TIME..=FARTHEST_TIME).contains(&time) {
                 let accepted = format!("it must be a time from -{FARTHEST_TIME:e} to {FARTHEST_TIME:e}");
-                return Err(Refusal::new(who, field, number(time), accepted));
+                return Err(SceneError::new(who, field, number(time), accepted));
             }
         }
         if close < open {
             let accepted = format!("the shutter opens at {}, and must not close before", number(open));
-            return Err(Refusal::new(who, "close", number(close), accepted));
+            return Err(SceneError::new(who, "close", number(close), accepted));
         }
     }
     for entity in entities::<With<Motion>>(scene) {
@@ -135,10 +135,10 @@ pub fn check_motion(scene: &World) -> Result<(), Refusal> {
 }
 
 /// Whatever moves while the shutter is open must be able to.
-fn check_movers(scene: &World) -> Result<(), Refusal> {
+fn check_movers(scene: &World) -> Result<(), SceneError> {
     let moves = moves_while_open(scene);
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
-        Err(Refusal::new(kind_and_name(scene, kind, entity), "motion", value, accepted))
+        Err(SceneError::new(kind_and_name(scene, kind, entity), "motion", value, accepted))
     };
     let lights = [entities::<With<PointLight>>, entities::<With<DirectionalLight>>, entities::<With<SpotLight>>];
     if let Some(light) = lights.iter().flat_map(|lights| lights(scene)).find(|&light| moves(light)) {
@@ -149,7 +149,7 @@ fn check_movers(scene: &World) -> Result<(), Refusal> {
             "while the shutter is open only shapes and the camera may move, no light",
         );
     }
-    let (textured, aimed) = (texture_evidence(scene).needed, aimed_evidence(scene).needed);
+    let (textured, aimed) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
     for shape in shape_entities(scene).into_iter().filter(|&shape| moves(shape)) {
         let own = scene.entity(shape);
         let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);

@@ -1,10 +1,10 @@
 use super::check::{kind_and_name, positive_length};
-use super::flat::{Flat, flat};
 use super::motion::{moves_while_open, velocity_of};
+use super::planar::{Planar, planar};
 use super::sphere::placed_sphere;
 use super::{eye, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Disk, Rectangle, Refusal, Sphere};
+use crate::scene::{Disk, Rectangle, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -19,9 +19,9 @@ pub enum Body {
         radius: f64,
     },
     /// A disk.
-    Disk(Flat),
+    Disk(Planar),
     /// A rectangle.
-    Rectangle(Flat),
+    Rectangle(Planar),
 }
 
 /// Shapes that move while the shutter is open, of every kind, in spawn order; the tables of the kinds hold the others.
@@ -38,7 +38,7 @@ pub struct MovingTable {
 impl Table for MovingTable {
     const NAME: &'static str = "moving shapes";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (eye, moves) = (eye(scene)?, moves_while_open(scene));
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| moves(entity)) {
@@ -48,14 +48,14 @@ impl Table for MovingTable {
             } else if let Some(disk) = scene.get::<Disk>(entity) {
                 let who = kind_and_name(scene, "disk", entity);
                 let radius = positive_length(&who, "radius", disk.radius)?;
-                Body::Disk(flat(scene, &who, entity, [radius; 2])?)
+                Body::Disk(planar(scene, &who, entity, [radius; 2])?)
             } else if let Some(rectangle) = scene.get::<Rectangle>(entity) {
                 let who = kind_and_name(scene, "rectangle", entity);
                 let half = [
                     positive_length(&who, "width", rectangle.width)? / 2.0,
                     positive_length(&who, "depth", rectangle.depth)? / 2.0,
                 ];
-                Body::Rectangle(flat(scene, &who, entity, half)?)
+                Body::Rectangle(planar(scene, &who, entity, half)?)
             } else {
                 continue;
             };

@@ -1,7 +1,7 @@
 use super::check::kind_and_name;
 use super::check::{number, reflectance, triple};
 use crate::plan::{Table, entities};
-use crate::scene::{BlinnPhong, Phong, Refusal, Rgb};
+use crate::scene::{BlinnPhong, Phong, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The largest exponent: its highlight falls to half within 0.002°.
@@ -32,7 +32,7 @@ pub fn phong_peak(exponent: f64) -> f64 {
 impl Table for PhongTable {
     const NAME: &'static str = "phong highlights";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let mut table = Self::default();
         for entity in entities::<With<Phong>>(scene) {
             let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
@@ -50,19 +50,19 @@ impl Table for PhongTable {
 }
 
 /// The colour of a Phong material, all of whose numbers are checked.
-pub(super) fn phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], Refusal> {
+pub(super) fn phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
     exponent_within(who, phong.exponent)?;
     Ok(shared_light(who, phong.colour, phong.specular)?[0])
 }
 
 /// An exponent that a highlight may have.
-pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, Refusal> {
+pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, SceneError> {
     if (0.0..=LARGEST_EXPONENT).contains(&exponent) {
         Ok(exponent)
     } else {
         let accepted = format!("it must be a number from 0 to {LARGEST_EXPONENT:e}");
-        Err(Refusal::new(who, "exponent", number(exponent), accepted))
+        Err(SceneError::new(who, "exponent", number(exponent), accepted))
     }
 }
 
@@ -73,7 +73,7 @@ pub(super) fn beside_highlight(
     material: Entity,
     (who, field, value): (&str, &'static str, String),
     largest: Rgb,
-) -> Result<(), Refusal> {
+) -> Result<(), SceneError> {
     let phong = scene.get::<Phong>(material).map(|own| own.specular);
     let specular = phong.or_else(|| scene.get::<BlinnPhong>(material).map(|own| own.specular));
     let Some(specular) = specular.filter(|own| (own.to_vec() + largest.to_vec()).max_element() > 1.0) else {
@@ -84,11 +84,11 @@ pub(super) fn beside_highlight(
         "its parts come to {largest} and with the material's specular share {specular} must come to at most 1, for a \
          surface gives back no more than it gets"
     );
-    Err(Refusal::new(who, field, value, accepted))
+    Err(SceneError::new(who, field, value, accepted))
 }
 
 /// Colour and specular share, which may not come to more than all the light.
-pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f64; 3]; 2], Refusal> {
+pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f64; 3]; 2], SceneError> {
     reflectance(who, "colour", colour)?;
     reflectance(who, "specular", specular)?;
     if (colour.to_vec() + specular.to_vec()).max_element() <= 1.0 {
@@ -98,6 +98,6 @@ pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f6
         let accepted = format!(
             "with the colour {of_colour} each part must come to at most 1, for a surface gives back no more than it gets"
         );
-        Err(Refusal::new(who, "specular", triple(specular.to_vec()), accepted))
+        Err(SceneError::new(who, "specular", triple(specular.to_vec()), accepted))
     }
 }

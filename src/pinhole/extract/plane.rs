@@ -2,7 +2,7 @@ use super::check::{finite_point, kind_and_name, triple};
 use super::pose::{normal_world_from_object, pose};
 use super::{eye, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Plane, Refusal};
+use crate::scene::{Plane, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub struct PlaneTable {
 impl Table for PlaneTable {
     const NAME: &'static str = "planes";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
@@ -31,7 +31,7 @@ impl Table for PlaneTable {
             let largest = plane.normal.abs().max_element();
             if !(largest > 0.0 && plane.normal.is_finite()) {
                 let accepted = "it must be a finite direction other than 0";
-                return Err(Refusal::new(who, "normal", triple(plane.normal), accepted));
+                return Err(SceneError::new(who, "normal", triple(plane.normal), accepted));
             }
             let along = normal_world_from_object(pose.entity_from_world, plane.normal / largest);
             let normal = (along / along.abs().max_element()).normalize().as_vec3().as_dvec3();

@@ -1,7 +1,7 @@
 use super::check::{finite_point, kind_and_name, light_colour};
 use super::{eye, world_from_entity};
 use crate::plan::{Table, entities};
-use crate::scene::{PointLight, Refusal};
+use crate::scene::{PointLight, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ pub struct PointLightTable {
 impl Table for PointLightTable {
     const NAME: &'static str = "point lights";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for entity in entities::<With<PointLight>>(scene) {

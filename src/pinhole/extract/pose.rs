@@ -1,6 +1,6 @@
 use super::check::{finite_point, number, triple};
 use super::motion::way_before_opening;
-use crate::scene::{ChildOf, LookAt, Placement, Refusal, called};
+use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
@@ -24,27 +24,27 @@ pub struct Pose {
 /// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
 ///
 /// `who` is how a refusal calls the entity, such as `sphere "ball"`.
-pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, Refusal> {
+pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
 /// The way an entity looks: its own −z in the world, a unit vector.
-pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, Refusal> {
+pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
     let along = world_from_entity(scene, who, entity)?.matrix3 * DVec3::NEG_Z;
     let accepted = "its −z must keep a direction";
     direction(along)
-        .ok_or_else(|| Refusal::new(who, "placement", format!("a map of −z to {}", triple(along)), accepted))
+        .ok_or_else(|| SceneError::new(who, "placement", format!("a map of −z to {}", triple(along)), accepted))
 }
 
 // ANCHOR: pose
 /// The same map with its inverse.
-pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
+pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
     let (mut child, mut seen) = (entity, vec![entity]);
     while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
         if seen.contains(&parent) {
             let value = format!("part of a circle through {}", called(scene, parent));
-            return Err(Refusal::new(who, "parent", value, "parents must lead to an entity without one"));
+            return Err(SceneError::new(who, "parent", value, "parents must lead to an entity without one"));
         }
         seen.push(parent);
         let parent_name = format!("{who}'s parent {}", called(scene, parent));
@@ -59,20 +59,20 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
     let determinant = world_from_entity.matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() || !world_from_entity.translation.is_finite() {
         let value = format!("a map of determinant {}", number(determinant));
-        return Err(Refusal::new(who, "placement", value, "it must be finite and invertible"));
+        return Err(SceneError::new(who, "placement", value, "it must be finite and invertible"));
     }
     Ok(Pose { world_from_entity, entity_from_world })
 }
 // ANCHOR_END: pose
 
 /// The same up to the entity's parent only.
-fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, Refusal> {
+fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
     let look_at = scene.get::<LookAt>(entity);
     let position = finite_point(who, "position", placement.position)?;
     let scale = finite_point(who, "scale", placement.scale)?;
     if scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0 {
-        return Err(Refusal::new(
+        return Err(SceneError::new(
             who,
             "scale",
             triple(scale),
@@ -83,15 +83,20 @@ fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, 
     let off_unit = (quaternion.length_squared() - 1.0).abs();
     if !off_unit.is_finite() || off_unit > UNIT_TOLERANCE {
         let accepted = "it must be a finite quaternion of length 1";
-        return Err(Refusal::new(who, "orientation", quadruple(quaternion), accepted));
+        return Err(SceneError::new(who, "orientation", quadruple(quaternion), accepted));
     }
     let (axes, origin) = match look_at {
         None => (DMat3::from_quat(quaternion.normalize()), position),
         Some(_) if position != DVec3::ZERO => {
-            return Err(Refusal::new(who, "position", format!("set to {}", triple(position)), ONE_OF_THE_TWO));
+            return Err(SceneError::new(who, "position", format!("set to {}", triple(position)), ONE_OF_THE_TWO));
         }
         Some(_) if quaternion != DQuat::IDENTITY => {
-            return Err(Refusal::new(who, "orientation", format!("set to {}", quadruple(quaternion)), ONE_OF_THE_TWO));
+            return Err(SceneError::new(
+                who,
+                "orientation",
+                format!("set to {}", quadruple(quaternion)),
+                ONE_OF_THE_TWO,
+            ));
         }
         Some(look) => (look_at_axes(who, look)?, look.eye),
     };
@@ -139,19 +144,19 @@ fn quadruple(q: DQuat) -> String {
 /// The axes of something that stands at `eye` and looks at `target`: x to its right, y up, −z ahead.
 ///
 /// Errors: a coordinate that is not finite, `eye` at `target`, `up` of length 0 or along the view.
-pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, Refusal> {
+pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, SceneError> {
     finite_point(who, "eye", look.eye)?;
     finite_point(who, "target", look.target)?;
     let Some(back) = direction(look.eye - look.target) else {
-        return Err(Refusal::new(who, "target", triple(look.target), "it must be a point other than eye"));
+        return Err(SceneError::new(who, "target", triple(look.target), "it must be a point other than eye"));
     };
     let Some(up) = direction(look.up) else {
-        return Err(Refusal::new(who, "up", triple(look.up), "it must be a finite direction other than 0"));
+        return Err(SceneError::new(who, "up", triple(look.up), "it must be a finite direction other than 0"));
     };
     let right = up.cross(back);
     match direction(right) {
         Some(x) if right.length() >= LEAST_SINE => Ok(DMat3::from_cols(x, back.cross(x), back)),
-        _ => Err(Refusal::new(who, "up", triple(look.up), "it must not point along the view from eye to target")),
+        _ => Err(SceneError::new(who, "up", triple(look.up), "it must not point along the view from eye to target")),
     }
 }
 // ANCHOR_END: look_at_axes
@@ -172,8 +177,8 @@ mod tests {
     fn nested() -> Pose {
         let mut world = World::new();
         let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
-        let (position, flat) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(1.0, 0.125, -2.0));
-        let parent = world.spawn(Placement { position, orientation: tilt, scale: flat }).id();
+        let (position, planar) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(1.0, 0.125, -2.0));
+        let parent = world.spawn(Placement { position, orientation: tilt, scale: planar }).id();
         let own = Placement { position, orientation: tilt, scale: DVec3::new(-1.0, 3.0, 0.5) };
         let entity = world.spawn((own, ChildOf(parent))).id();
         pose(&world, "", entity).expect("a pose")

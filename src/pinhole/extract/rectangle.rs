@@ -1,15 +1,15 @@
 use super::check::{kind_and_name, positive_length};
-use super::flat::{Flat, flat};
+use super::planar::{Planar, planar};
 use super::{moves_while_open, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Rectangle, Refusal};
+use crate::scene::{Rectangle, SceneError};
 use bevy_ecs::prelude::*;
 
 /// Rectangles in render space, in spawn order, without those that [move](super::MovingTable): the points of a plane whose two coordinates both lie from −1 to 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RectangleTable {
     /// The plane and the coordinates.
-    pub flat: Vec<Flat>,
+    pub planar: Vec<Planar>,
     /// The shape's number.
     pub shape: Vec<u32>,
 }
@@ -17,20 +17,20 @@ pub struct RectangleTable {
 impl Table for RectangleTable {
     const NAME: &'static str = "rectangles";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (mut table, moves) = (Self::default(), moves_while_open(scene));
         for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| !moves(entity)) {
             let Some(rectangle) = scene.get::<Rectangle>(entity) else { continue };
             let who = kind_and_name(scene, "rectangle", entity);
             let width = positive_length(&who, "width", rectangle.width)?;
             let depth = positive_length(&who, "depth", rectangle.depth)?;
-            table.flat.push(flat(scene, &who, entity, [width / 2.0, depth / 2.0])?);
+            table.planar.push(planar(scene, &who, entity, [width / 2.0, depth / 2.0])?);
             table.shape.push(shape as u32);
         }
         Ok(table)
     }
 
     fn bytes(&self) -> usize {
-        self.flat.len() * (size_of::<Flat>() + size_of::<u32>())
+        self.planar.len() * (size_of::<Planar>() + size_of::<u32>())
     }
 }

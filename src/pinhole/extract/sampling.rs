@@ -1,7 +1,7 @@
 use super::camera::camera_entity;
 use super::check::kind_and_name;
 use crate::plan::Table;
-use crate::scene::{Refusal, Sampler, Sampling};
+use crate::scene::{Sampler, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The most samples a pixel may have: so many places along an axis does a number of 24 bits tell apart.
@@ -36,7 +36,7 @@ impl SamplingTable {
 impl Table for SamplingTable {
     const NAME: &'static str = "sampling";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let camera = camera_entity(scene)?;
         let Some(&Sampling { samples, seed, sampler, .. }) = scene.get::<Sampling>(camera) else {
             return Ok(Self { samples: 1, ..Self::default() });
@@ -44,7 +44,7 @@ impl Table for SamplingTable {
         if !(1..=MOST_SAMPLES).contains(&samples) {
             let who = kind_and_name(scene, "camera", camera);
             let accepted = format!("it must be a whole number from 1 to {MOST_SAMPLES}");
-            return Err(Refusal::new(who, "samples", samples.to_string(), accepted));
+            return Err(SceneError::new(who, "samples", samples.to_string(), accepted));
         }
         Ok(Self { samples, seed, sampler })
     }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::plan::{Table, entities};
 use crate::scene::{
-    Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, Refusal, Sphere, Triangle, UsesMaterial, called,
+    Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, SceneError, Sphere, Triangle, UsesMaterial, called,
 };
 use bevy_ecs::prelude::*;
 
@@ -113,7 +113,7 @@ pub fn shape_entities(scene: &World) -> Vec<Entity> {
 impl Table for ShapeTable {
     const NAME: &'static str = "shapes";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
@@ -147,20 +147,25 @@ pub(super) fn is_shape(scene: &World, entity: Entity) -> bool {
 }
 
 /// The one shape that an entity is.
-fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, Refusal> {
+fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, SceneError> {
     let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
     match carried[..] {
         [one] => Ok(one),
         _ => {
             let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
-            Err(Refusal::new(kind_and_name(scene, "shape", entity), "shape", value, "an entity may be one shape only"))
+            Err(SceneError::new(
+                kind_and_name(scene, "shape", entity),
+                "shape",
+                value,
+                "an entity may be one shape only",
+            ))
         }
     }
 }
 
 /// The entity that holds a shape's one material; none for a shape that emits light and reflects none.
-fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>, Refusal> {
+fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>, SceneError> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     match (is_material(scene, shape), used) {
         (true, None) => Ok(Some(shape)),
@@ -172,16 +177,16 @@ fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>
             let value = format!("used from {}", called(scene, used));
             let accepted =
                 format!("that entity must carry a {} or an Emissive and not be disabled", materials_in_words());
-            Err(Refusal::new(who, "material", value, accepted))
+            Err(SceneError::new(who, "material", value, accepted))
         }
         (false, None) if scene.get::<Emissive>(shape).is_some() => Ok(None),
         (false, None) => {
             let accepted = format!("a shape must carry a {}, a UsesMaterial or an Emissive", materials_in_words());
-            Err(Refusal::new(who, "material", "missing", accepted))
+            Err(SceneError::new(who, "material", "missing", accepted))
         }
         (true, Some(used)) => {
             let value = format!("given twice, its own and that of {}", called(scene, used));
-            Err(Refusal::new(who, "material", value, "a shape may have one only"))
+            Err(SceneError::new(who, "material", value, "a shape may have one only"))
         }
     }
 }

@@ -1,7 +1,7 @@
 use super::check::{finite_point, kind_and_name, number, positive_length};
 use super::{eye, moves_while_open, shape_entities, unevenly_scaled, world_from_entity};
 use crate::plan::Table;
-use crate::scene::{Refusal, Sphere};
+use crate::scene::{SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -31,7 +31,7 @@ impl SphereTable {
 impl Table for SphereTable {
     const NAME: &'static str = "spheres";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (eye, moves) = (eye(scene)?, moves_while_open(scene));
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
@@ -60,16 +60,16 @@ pub(super) fn placed_sphere(
     entity: Entity,
     sphere: &Sphere,
     eye: DVec3,
-) -> Result<(DVec3, f64), Refusal> {
+) -> Result<(DVec3, f64), SceneError> {
     let who = kind_and_name(scene, "sphere", entity);
     let pose = world_from_entity(scene, &who, entity)?;
     positive_length(&who, "radius", sphere.radius)?;
     // The same along all axes, mirrored or not.
     let scale = pose.matrix3.x_axis.length();
     let centre = finite_point(&who, "position", pose.translation - eye)?;
-    let scaled = |refusal: Refusal| {
+    let scaled = |scene_error: SceneError| {
         let value = format!("{} scaled by {}", number(sphere.radius), number(scale));
-        Refusal { value, ..refusal }
+        SceneError { value, ..scene_error }
     };
     Ok((centre, positive_length(&who, "radius", sphere.radius * scale).map_err(scaled)?))
 }

@@ -2,7 +2,7 @@ use super::check::{finite_point, kind_and_name, light_colour, number};
 use super::pose::ahead;
 use super::{eye, world_from_entity};
 use crate::plan::{Table, entities};
-use crate::scene::{Degrees, Refusal, SpotLight};
+use crate::scene::{Degrees, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ pub struct SpotLightTable {
 impl Table for SpotLightTable {
     const NAME: &'static str = "spot lights";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for entity in entities::<With<SpotLight>>(scene) {
@@ -50,15 +50,15 @@ impl Table for SpotLightTable {
 }
 
 /// 1 − cos of half of both angles, inner and outer.
-fn cone(who: &str, light: &SpotLight) -> Result<[f64; 2], Refusal> {
+fn cone(who: &str, light: &SpotLight) -> Result<[f64; 2], SceneError> {
     let (Degrees(inner), Degrees(outer)) = (light.inner_angle, light.outer_angle);
     if !(outer > 0.0 && outer <= 180.0) {
         let value = format!("{}°", number(outer));
-        return Err(Refusal::new(who, "outer_angle", value, "it must be an angle above 0° and up to 180°"));
+        return Err(SceneError::new(who, "outer_angle", value, "it must be an angle above 0° and up to 180°"));
     }
     if !(inner >= 0.0 && inner <= outer) {
         let accepted = format!("it must be an angle from 0° to the outer angle, {}°", number(outer));
-        return Err(Refusal::new(who, "inner_angle", format!("{}°", number(inner)), accepted));
+        return Err(SceneError::new(who, "inner_angle", format!("{}°", number(inner)), accepted));
     }
     Ok([versine_of_half(light.inner_angle), versine_of_half(light.outer_angle)])
 }

@@ -2,7 +2,7 @@ use super::check::{kind_and_name, positive_length, triple};
 use super::material::{material_entities, material_kind};
 use super::{MaterialKind, eye, pose, shape_entities};
 use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Checker, ImageTexture, Refusal, Stripes, TextureBy, UsesMaterial};
+use crate::scene::{Checker, ImageTexture, SceneError, Stripes, TextureBy, UsesMaterial};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
@@ -98,7 +98,7 @@ pub fn filtered_by_uv_evidence(scene: &World) -> Evidence {
 
 /// What a texture's coordinates are made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Laid {
+pub enum TextureMapping {
     /// There is no texture.
     #[default]
     Nowhere,
@@ -114,7 +114,7 @@ pub enum Laid {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TextureMap {
     /// What the coordinates are made of.
-    pub laid: Laid,
+    pub laid: TextureMapping,
     /// Coordinates a unit.
     pub matrix: DMat3,
     /// The coordinates of the origin.
@@ -131,7 +131,7 @@ pub struct TextureMaps {
 impl Table for TextureMaps {
     const NAME: &'static str = "texture maps";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         check_owners(scene)?;
         let map = material_entities(scene).into_iter().map(|material| texture_map(scene, material));
         Ok(Self { map: map.collect::<Result<_, _>>()? })
@@ -143,7 +143,7 @@ impl Table for TextureMaps {
 }
 
 /// How the texture that a material's entity carries is laid.
-fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
+fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, SceneError> {
     if let Some(checker) = scene.get::<Checker>(material) {
         let size = size_of_texture::<Checker>(scene, material, checker.size)?;
         return Ok(laid_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
@@ -161,7 +161,7 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
                 TextureBy::Space => "it must be a finite direction other than 0",
             };
             let who = kind_and_name(scene, Stripes::WORD, material);
-            return Err(Refusal::new(who, "across", triple(stripes.across), accepted));
+            return Err(SceneError::new(who, "across", triple(stripes.across), accepted));
         }
         let row = (across / longest).normalize() / size;
         return Ok(laid_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
@@ -169,7 +169,11 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
     if let Some(image) = scene.get::<ImageTexture>(material) {
         let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
         let map = laid_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
-        return Ok(if image.by == TextureBy::Space { TextureMap { laid: Laid::OnFaces, ..map } } else { map });
+        return Ok(if image.by == TextureBy::Space {
+            TextureMap { laid: TextureMapping::OnFaces, ..map }
+        } else {
+            map
+        });
     }
     Ok(TextureMap::default())
 }
@@ -177,17 +181,17 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, Refusal> {
 /// In space a cell's or image's middle is at the origin, along uv its corner.
 fn laid_by(by: TextureBy, matrix: DMat3) -> TextureMap {
     match by {
-        TextureBy::Uv => TextureMap { laid: Laid::AlongUv, matrix, shift: DVec3::ZERO },
-        TextureBy::Space => TextureMap { laid: Laid::InSpace, matrix, shift: DVec3::splat(0.5) },
+        TextureBy::Uv => TextureMap { laid: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
+        TextureBy::Space => TextureMap { laid: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
     }
 }
 
-fn size_of_texture<T: Texture>(scene: &World, material: Entity, size: f64) -> Result<f64, Refusal> {
+fn size_of_texture<T: Texture>(scene: &World, material: Entity, size: f64) -> Result<f64, SceneError> {
     positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
 }
 
 /// Every texture must belong to a material, and a material have one texture.
-fn check_owners(scene: &World) -> Result<(), Refusal> {
+fn check_owners(scene: &World) -> Result<(), SceneError> {
     let materials: BTreeSet<Entity> = material_entities(scene).into_iter().collect();
     let mut owned: Vec<(Entity, &str)> = Vec::new();
     owned.extend(entities::<With<Checker>>(scene).into_iter().map(|owner| (owner, Checker::WORD)));
@@ -198,7 +202,7 @@ fn check_owners(scene: &World) -> Result<(), Refusal> {
         let who = kind_and_name(scene, word, owner);
         if !materials.contains(&owner) {
             let accepted = "a texture belongs on an entity that is a material, such as one with a Matte";
-            return Err(Refusal::new(who, "material", "missing", accepted));
+            return Err(SceneError::new(who, "material", "missing", accepted));
         }
         let colourless = match material_kind(scene, owner) {
             Some(MaterialKind::Mirror) => "a mirror",
@@ -209,11 +213,11 @@ fn check_owners(scene: &World) -> Result<(), Refusal> {
         if !colourless.is_empty() {
             let accepted = "a texture colours light that leaves equally in all directions, as off a Matte, a Phong or a \
                             BlinnPhong";
-            return Err(Refusal::new(who, "material", colourless, accepted));
+            return Err(SceneError::new(who, "material", colourless, accepted));
         }
         if let Some((_, other)) = owned.get(at + 1).filter(|(other, _)| *other == owner) {
             let value = format!("given twice, as {word} and as {other}");
-            return Err(Refusal::new(who, "texture", value, "a material may have one texture only"));
+            return Err(SceneError::new(who, "texture", value, "a material may have one texture only"));
         }
     }
     Ok(())
@@ -244,7 +248,7 @@ pub struct ShapeSpaces {
 impl Table for ShapeSpaces {
     const NAME: &'static str = "shape spaces";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for shape in shape_entities(scene) {

@@ -2,7 +2,7 @@ use super::check::{finite_point, kind_and_name, number, triple};
 use super::exact_sum::{exact_cross, exact_difference};
 use super::{eye, normal_world_from_object, pose, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Refusal, Triangle};
+use crate::scene::{SceneError, Triangle};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
@@ -20,7 +20,7 @@ const OWN_UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 /// Its corners stand in an order of their own, whatever the author's, so that the same three corners give every ray the
 /// same distance to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Facet {
+pub struct TriangleRow {
     /// The corners, from the eye.
     pub corners: [DVec3; 3],
     /// The largest |x| + |y| + |z| of a corner.
@@ -31,7 +31,7 @@ pub struct Facet {
     pub reach: f64,
 }
 
-impl Facet {
+impl TriangleRow {
     /// The triangle of three corners.
     pub fn new(mut corners: [DVec3; 3]) -> Self {
         corners.sort_by(order);
@@ -60,7 +60,7 @@ fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleTable {
     /// The triangles.
-    pub facet: Vec<Facet>,
+    pub facet: Vec<TriangleRow>,
     /// The unit normal on the side to which the author's normals point, or else from which the author's corners go
     /// round anticlockwise in the world.
     pub normal: Vec<DVec3>,
@@ -77,7 +77,7 @@ impl TriangleTable {
     pub fn push(&mut self, corners: [DVec3; 3], uvs: [DVec2; 3], shape: u32) {
         let mut order_of_corners = [0, 1, 2];
         order_of_corners.sort_by(|&i, &j| order(&corners[i], &corners[j]));
-        let facet = Facet::new(corners);
+        let facet = TriangleRow::new(corners);
         // Every exchange of two corners turns the normal round.
         let turned = !matches!(order_of_corners, [0, 1, 2] | [1, 2, 0] | [2, 0, 1]);
         let cross = facet.cross();
@@ -94,7 +94,7 @@ impl TriangleTable {
 impl Table for TriangleTable {
     const NAME: &'static str = "triangles";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
@@ -112,7 +112,7 @@ impl Table for TriangleTable {
     }
 
     fn bytes(&self) -> usize {
-        let row = size_of::<Facet>() + size_of::<DVec3>() + size_of::<bool>() + size_of::<[DVec2; 3]>();
+        let row = size_of::<TriangleRow>() + size_of::<DVec3>() + size_of::<bool>() + size_of::<[DVec2; 3]>();
         self.facet.len() * (row + size_of::<u32>())
     }
 }
@@ -127,7 +127,7 @@ pub struct VertexNormalTable {
 impl Table for VertexNormalTable {
     const NAME: &'static str = "vertex normals";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for entity in shape_entities(scene) {
@@ -154,7 +154,7 @@ fn placed(
     entity: Entity,
     triangle: &Triangle,
     eye: DVec3,
-) -> Result<([DVec3; 3], Option<[DVec3; 3]>), Refusal> {
+) -> Result<([DVec3; 3], Option<[DVec3; 3]>), SceneError> {
     let who = kind_and_name(scene, "triangle", entity);
     let pose = pose(scene, &who, entity)?;
     let origin = finite_point(&who, "position", pose.world_from_entity.translation - eye)?;
@@ -170,7 +170,7 @@ fn placed(
     let across = (edges[0] / longest).cross(edges[1] / longest);
     if longest == 0.0 || across.length() <= LEAST_HEIGHT {
         let value = triangle.vertices.map(triple).join(", ");
-        return Err(Refusal::new(who, "vertices", value, "the three corners must not lie on one line"));
+        return Err(SceneError::new(who, "vertices", value, "the three corners must not lie on one line"));
     }
     let Some(normals) = triangle.normals else { return Ok((corners, None)) };
     let mut placed = [DVec3::ZERO; 3];
@@ -178,7 +178,7 @@ fn placed(
         let largest = normal.abs().max_element();
         if !(largest > 0.0 && normal.is_finite()) {
             let accepted = "each must be a finite direction other than 0";
-            return Err(Refusal::new(who, "normals", triple(normal), accepted));
+            return Err(SceneError::new(who, "normals", triple(normal), accepted));
         }
         let along = normal_world_from_object(pose.entity_from_world, normal / largest);
         *there = (along / along.abs().max_element()).normalize();
@@ -187,19 +187,19 @@ fn placed(
     let sides = placed.map(|normal| facing.dot(normal));
     if !(sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)) {
         let value = normals.map(triple).join(", ");
-        return Err(Refusal::new(who, "normals", value, "all three must point to one side of the triangle"));
+        return Err(SceneError::new(who, "normals", value, "all three must point to one side of the triangle"));
     }
     Ok((corners, Some(placed)))
 }
 
-fn checked_uvs(scene: &World, entity: Entity, triangle: &Triangle) -> Result<[DVec2; 3], Refusal> {
+fn checked_uvs(scene: &World, entity: Entity, triangle: &Triangle) -> Result<[DVec2; 3], SceneError> {
     let uvs = triangle.uvs.unwrap_or(OWN_UVS);
     match uvs.iter().find(|uv| !uv.is_finite()) {
         None => Ok(uvs),
         Some(uv) => {
             let who = kind_and_name(scene, "triangle", entity);
             let value = format!("({}, {})", number(uv.x), number(uv.y));
-            Err(Refusal::new(who, "uvs", value, "each coordinate must be a finite number"))
+            Err(SceneError::new(who, "uvs", value, "each coordinate must be a finite number"))
         }
     }
 }

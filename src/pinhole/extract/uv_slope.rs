@@ -1,6 +1,6 @@
 use super::{CuboidTable, DiskTable, RectangleTable, TriangleTable, UvSpaceTable, face_axes, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Plane, Refusal, Sphere};
+use crate::scene::{Plane, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -12,7 +12,7 @@ pub enum UvSlope {
     #[default]
     Nowhere,
     /// By the same everywhere: by these a step of the world.
-    Flat([DVec3; 2]),
+    Planar([DVec3; 2]),
     /// As longitude and latitude do about the origin of the shape's own space.
     Round,
     /// As on the face across one of three axes: by these a step of the world.
@@ -41,7 +41,7 @@ impl UvSlope {
     pub fn step(&self, own: DVec3, normal: DVec3, step: DVec3, own_step: DVec3) -> DVec3 {
         match self {
             Self::Nowhere => DVec3::ZERO,
-            Self::Flat([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
+            Self::Planar([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
             Self::Round => round_step(own, own_step),
             Self::Faces(slopes) => {
                 let axis = most_of(DVec3::from(slopes.map(|slope| normal.dot(slope) / slope.length())));
@@ -67,13 +67,13 @@ fn round_step(own: DVec3, step: DVec3) -> DVec3 {
 }
 
 /// That of a triangle with these two edges from its first corner, by u and v of its corners.
-fn flat_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {
+fn planar_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {
     let across = one.cross(other);
     let area_squared = across.length_squared();
     // Along the one edge the first changes by 1 and the second by 0, along the other the other way round.
     let (first, second) = (other.cross(across) / area_squared, across.cross(one) / area_squared);
     let (along_one, along_other) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
-    UvSlope::Flat([0, 1].map(|part| first * along_one[part] + second * along_other[part]))
+    UvSlope::Planar([0, 1].map(|part| first * along_one[part] + second * along_other[part]))
 }
 
 /// How u and v change along each shape, in the order of the shapes.
@@ -86,23 +86,24 @@ pub struct UvSlopes {
 impl Table for UvSlopes {
     const NAME: &'static str = "uv slopes";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let shapes = shape_entities(scene);
         let spaces = UvSpaceTable::extract(scene)?;
         let mut slope = vec![UvSlope::Nowhere; shapes.len()];
         for (shape, entity) in shapes.into_iter().enumerate() {
             if scene.get::<Plane>(entity).is_some() {
                 let matrix = spaces.uv_from_world[shape];
-                slope[shape] = UvSlope::Flat([matrix.row(0), matrix.row(1)]);
+                slope[shape] = UvSlope::Planar([matrix.row(0), matrix.row(1)]);
             } else if scene.get::<Sphere>(entity).is_some() {
                 slope[shape] = UvSlope::Round;
             }
         }
         // Their coordinates go from −1 to 1 where u and v go from 0 to 1.
         let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
-        let flats = disks.flat.iter().zip(&disks.shape).chain(rectangles.flat.iter().zip(&rectangles.shape));
-        for (flat, &shape) in flats {
-            slope[shape as usize] = UvSlope::Flat(flat.along.map(|along| 0.5 * along));
+        let planar_shapes =
+            disks.planar.iter().zip(&disks.shape).chain(rectangles.planar.iter().zip(&rectangles.shape));
+        for (planar, &shape) in planar_shapes {
+            slope[shape as usize] = UvSlope::Planar(planar.along.map(|along| 0.5 * along));
         }
         let cuboids = CuboidTable::extract(scene)?;
         for (slabs, &shape) in cuboids.slabs.iter().zip(&cuboids.shape) {
@@ -111,7 +112,7 @@ impl Table for UvSlopes {
         let triangles = TriangleTable::extract(scene)?;
         for (triangle, &shape) in triangles.shape.iter().enumerate() {
             let [a, b, c] = triangles.facet[triangle].corners;
-            slope[shape as usize] = flat_slope([b - a, c - a], triangles.uvs[triangle]);
+            slope[shape as usize] = planar_slope([b - a, c - a], triangles.uvs[triangle]);
         }
         Ok(Self { slope })
     }

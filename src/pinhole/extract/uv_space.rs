@@ -2,7 +2,7 @@ use super::check::{finite_point, kind_and_name};
 use super::pose::{normal_world_from_object, point_object_from_world};
 use super::{Pose, eye, pose, shape_entities};
 use crate::plan::Table;
-use crate::scene::{Plane, Refusal};
+use crate::scene::{Plane, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -28,7 +28,7 @@ impl UvSpaceTable {
 impl Table for UvSpaceTable {
     const NAME: &'static str = "uv spaces";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for entity in shape_entities(scene) {

@@ -32,7 +32,7 @@ pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&S
 
 /// The stage on offer.
 pub fn film_stage() -> Stage {
-    Stage::new("Add to the film", TileSystems::Film, add_to_film)
+    Stage::new("Accumulate film", TileSystems::Film, add_to_film)
         .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<SampleSigns>(signed_evidence)

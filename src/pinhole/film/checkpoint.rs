@@ -131,14 +131,14 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
         if let Some(planned) = film.planned.get(number) {
             out.write_u32s(planned)?;
         }
-        for lane in tile.sums() {
-            out.write_f64s(lane)?;
+        for component in tile.sums() {
+            out.write_f64s(component)?;
         }
         out.write_u32s(&tile.count)?;
         out.write_u32(u32::from(!tile.negative_count.is_empty()))?;
         out.write_u32s(&tile.negative_count)?;
-        for lane in &tile.negative {
-            out.write_f64s(lane)?;
+        for component in &tile.negative {
+            out.write_f64s(component)?;
         }
         out.write_u64(tile.rejected)?;
         out.write_u32(tile.first_rejected.len() as u32)?;
@@ -148,16 +148,16 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
             out.write_u32s(&rejected.radiance.map(f32::to_bits))?;
         }
         if let Some(moments) = film.moments.get(number) {
-            for lane in [&moments.r, &moments.g, &moments.b] {
-                out.write_f64s(lane)?;
+            for component in [&moments.r, &moments.g, &moments.b] {
+                out.write_f64s(component)?;
             }
         }
         if let Some(layers) = film.layers.get(number) {
-            for lane in layers.counts() {
-                out.write_u32s(lane)?;
+            for component in layers.counts() {
+                out.write_u32s(component)?;
             }
-            for lane in &layers.sums {
-                out.write_f64s(lane)?;
+            for component in &layers.sums {
+                out.write_f64s(component)?;
             }
         }
     }
@@ -180,16 +180,16 @@ fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<(
         }
         read_tile(&mut film.tiles[number], numbers)?;
         if let Some(FilmMoments { r, g, b }) = film.moments.get_mut(number) {
-            for lane in [r, g, b] {
-                numbers.read_f64s(lane)?;
+            for component in [r, g, b] {
+                numbers.read_f64s(component)?;
             }
         }
         if let Some(layers) = film.layers.get_mut(number) {
-            for lane in layers.counts_mut() {
-                numbers.read_u32s(lane)?;
+            for component in layers.counts_mut() {
+                numbers.read_u32s(component)?;
             }
-            for lane in &mut layers.sums {
-                numbers.read_f64s(lane)?;
+            for component in &mut layers.sums {
+                numbers.read_f64s(component)?;
             }
         }
     }
@@ -203,17 +203,17 @@ fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<(
 }
 
 fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Result<()> {
-    for lane in tile.sums_mut() {
-        numbers.read_f64s(lane)?;
+    for component in tile.sums_mut() {
+        numbers.read_f64s(component)?;
     }
     numbers.read_u32s(&mut tile.count)?;
     if numbers.read_u32()? != 0 {
         let rows = tile.count.len();
         tile.negative_count.resize(rows, 0);
         numbers.read_u32s(&mut tile.negative_count)?;
-        for lane in &mut tile.negative {
-            lane.resize(rows, 0.0);
-            numbers.read_f64s(lane)?;
+        for component in &mut tile.negative {
+            component.resize(rows, 0.0);
+            numbers.read_f64s(component)?;
         }
     }
     tile.rejected = numbers.read_u64()?;

@@ -1,6 +1,6 @@
 use super::develop::shown;
 use super::{FilmLayers, FilmMoments, FilmSplats};
-use crate::plan::{Column, Lane, LaneValues, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 
@@ -173,20 +173,21 @@ impl Column for FilmTile {
         self.count.len()
     }
 
-    fn lanes(&self) -> Vec<Lane<'_>> {
-        let mut lanes = vec![
-            Lane { name: "r", values: LaneValues::F64(&self.r) },
-            Lane { name: "g", values: LaneValues::F64(&self.g) },
-            Lane { name: "b", values: LaneValues::F64(&self.b) },
-            Lane { name: "count", values: LaneValues::U32(&self.count) },
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
+        let mut components = vec![
+            ColumnComponent { name: "r", values: ComponentValues::F64(&self.r) },
+            ColumnComponent { name: "g", values: ComponentValues::F64(&self.g) },
+            ColumnComponent { name: "b", values: ComponentValues::F64(&self.b) },
+            ColumnComponent { name: "count", values: ComponentValues::U32(&self.count) },
         ];
         if !self.negative_count.is_empty() {
             let names = ["negative_r", "negative_g", "negative_b"];
             let sums = names.into_iter().zip(&self.negative);
-            lanes.extend(sums.map(|(name, sums)| Lane { name, values: LaneValues::F64(sums) }));
-            lanes.push(Lane { name: "negative_count", values: LaneValues::U32(&self.negative_count) });
+            components.extend(sums.map(|(name, sums)| ColumnComponent { name, values: ComponentValues::F64(sums) }));
+            components
+                .push(ColumnComponent { name: "negative_count", values: ComponentValues::U32(&self.negative_count) });
         }
-        lanes
+        components
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {

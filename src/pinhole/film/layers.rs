@@ -1,6 +1,6 @@
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
 use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
-use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime, Shared, Stage, TileSystems};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems};
 use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
 use crate::scene::LayerKind;
 use crate::shade::SurfaceColours;
@@ -29,13 +29,13 @@ pub struct FilmLayers {
 impl FilmLayers {
     /// Those of no samples.
     pub fn new(rows: usize, kinds: &[LayerKind]) -> Self {
-        let lanes: usize = kinds.iter().filter(|kind| kind.is_mean()).map(|kind| kind.channels().len()).sum();
+        let components: usize = kinds.iter().filter(|kind| kind.is_mean()).map(|kind| kind.channels().len()).sum();
         Self {
             kinds: kinds.to_vec(),
             taken: vec![0; rows],
             met: vec![0; rows],
             entity: vec![NO_SHAPE; rows],
-            sums: vec![vec![0.0; rows]; lanes],
+            sums: vec![vec![0.0; rows]; components],
         }
     }
 
@@ -55,7 +55,7 @@ impl FilmLayers {
     }
 
     /// The lanes of sums of a kind, and which of all they are.
-    fn lanes_of(&self, asked: LayerKind) -> std::ops::Range<usize> {
+    fn components_of(&self, asked: LayerKind) -> std::ops::Range<usize> {
         let before = self.kinds.iter().filter(|kind| kind.is_mean() && **kind < asked);
         let first: usize = before.map(|kind| kind.channels().len()).sum();
         first..first + asked.channels().len()
@@ -65,7 +65,7 @@ impl FilmLayers {
     pub fn mean(&self, kind: LayerKind, channel: usize, row: usize) -> f64 {
         match kind {
             LayerKind::Coverage => f64::from(self.met[row]) / f64::from(self.taken[row].max(1)),
-            _ => self.sums[self.lanes_of(kind).start + channel][row] / f64::from(self.met[row].max(1)),
+            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.met[row].max(1)),
         }
     }
 
@@ -85,11 +85,13 @@ impl Column for FilmLayers {
         self.taken.len()
     }
 
-    fn lanes(&self) -> Vec<Lane<'_>> {
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
         let names = self.kinds.iter().filter(|kind| kind.is_mean()).flat_map(|kind| kind.channels());
         let counts = [("taken", &self.taken), ("met", &self.met), ("entity", &self.entity)];
-        let counts = counts.map(|(name, lane)| Lane { name, values: LaneValues::U32(lane) });
-        let sums = names.zip(&self.sums).map(|(&name, lane)| Lane { name, values: LaneValues::F64(lane) });
+        let counts = counts.map(|(name, component)| ColumnComponent { name, values: ComponentValues::U32(component) });
+        let sums = names
+            .zip(&self.sums)
+            .map(|(&name, component)| ColumnComponent { name, values: ComponentValues::F64(component) });
         counts.into_iter().chain(sums).collect()
     }
 
@@ -183,9 +185,9 @@ pub fn add_to_layers(
         }
         let materials = materials.as_deref().map(|materials| &**materials);
         let known = Known { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
-        let mut lanes = layers.sums.iter_mut();
+        let mut components = layers.sums.iter_mut();
         for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
-            let channels: Vec<&mut Vec<f64>> = lanes.by_ref().take(kind.channels().len()).collect();
+            let channels: Vec<&mut Vec<f64>> = components.by_ref().take(kind.channels().len()).collect();
             for (channel, sums) in channels.into_iter().enumerate() {
                 for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
                     sums[pixel_of(row)] += known.value(kind, row)[channel];
@@ -197,7 +199,7 @@ pub fn add_to_layers(
 
 /// The stage on offer.
 pub fn layers_stage() -> Stage {
-    Stage::new("Add to the layers", TileSystems::Layers, add_to_layers)
+    Stage::new("Accumulate layers", TileSystems::Layers, add_to_layers)
         .reads::<RasterPoints>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<Hits>(|scene| layer_evidence(scene, "hit layer", needs_hits))

@@ -1,6 +1,6 @@
 use super::FilmTile;
 use crate::extract::layer_evidence;
-use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime, Stage, TileSystems};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems};
 use crate::rays::{PixelSamples, sampling_evidence};
 use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
@@ -66,11 +66,11 @@ impl Column for FilmMoments {
         self.r.len()
     }
 
-    fn lanes(&self) -> Vec<Lane<'_>> {
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
         vec![
-            Lane { name: "r", values: LaneValues::F64(&self.r) },
-            Lane { name: "g", values: LaneValues::F64(&self.g) },
-            Lane { name: "b", values: LaneValues::F64(&self.b) },
+            ColumnComponent { name: "r", values: ComponentValues::F64(&self.r) },
+            ColumnComponent { name: "g", values: ComponentValues::F64(&self.g) },
+            ColumnComponent { name: "b", values: ComponentValues::F64(&self.b) },
         ]
     }
 
@@ -99,7 +99,7 @@ pub fn variance_evidence(scene: &World) -> Evidence {
 
 /// The stage on offer.
 pub fn moments_stage() -> Stage {
-    Stage::new("Add to the second moments", TileSystems::Moments, add_to_moments)
+    Stage::new("Accumulate second moments", TileSystems::Moments, add_to_moments)
         .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_if::<FilmTile>()

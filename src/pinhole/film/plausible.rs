@@ -28,9 +28,11 @@ fn is_plausible_tile(film: &Film, number: usize) -> bool {
     let counts = tile.count.iter().enumerate().all(|(row, &count)| count <= most_of(row));
     let negative = tile.negative_count.iter().zip(&tile.count).all(|(negative, count)| negative <= count);
     let rejected = tile.rejected <= tile.count.len() as u64 * u64::from(most);
-    let sums = tile.sums().into_iter().chain(&tile.negative).all(|lane| is_light(lane));
-    let moments =
-        film.moments.get(number).is_none_or(|own| [&own.r, &own.g, &own.b].into_iter().all(|lane| is_light(lane)));
+    let sums = tile.sums().into_iter().chain(&tile.negative).all(|component| is_light(component));
+    let moments = film
+        .moments
+        .get(number)
+        .is_none_or(|own| [&own.r, &own.g, &own.b].into_iter().all(|component| is_light(component)));
     let layers = film.layers.get(number).is_none_or(|own| {
         let met = own.met.iter().zip(&own.taken).all(|(met, taken)| met <= taken);
         met && own.taken.iter().all(|&taken| taken <= most)
@@ -45,6 +47,6 @@ fn are_plausible(splats: &FilmSplats, film: &Film, most: u32) -> bool {
     splats.paths <= paths && splats.sums.iter().flatten().all(|sum| sum.is_finite())
 }
 
-fn is_light(lane: &[f64]) -> bool {
-    lane.iter().all(|sum| (0.0..f64::INFINITY).contains(sum))
+fn is_light(component: &[f64]) -> bool {
+    component.iter().all(|sum| (0.0..f64::INFINITY).contains(sum))
 }

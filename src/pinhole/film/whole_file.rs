@@ -16,26 +16,26 @@ const STALE: Duration = Duration::from_secs(3600);
 /// The most links that lead from a name to a file.
 const MOST_LINKS: usize = 40;
 
-static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
+static IN_PROGRESS: AtomicUsize = AtomicUsize::new(0);
 
 /// How many files are being written: a program that ends now leaves as many temporary files behind.
-pub fn writes_under_way() -> usize {
-    UNDER_WAY.load(Ordering::SeqCst)
+pub fn writes_in_progress() -> usize {
+    IN_PROGRESS.load(Ordering::SeqCst)
 }
 
 /// Counts a write while it lives.
-struct UnderWay;
+struct InProgress;
 
-impl UnderWay {
+impl InProgress {
     fn begin() -> Self {
-        UNDER_WAY.fetch_add(1, Ordering::SeqCst);
+        IN_PROGRESS.fetch_add(1, Ordering::SeqCst);
         Self
     }
 }
 
-impl Drop for UnderWay {
+impl Drop for InProgress {
     fn drop(&mut self) {
-        UNDER_WAY.fetch_sub(1, Ordering::SeqCst);
+        IN_PROGRESS.fetch_sub(1, Ordering::SeqCst);
     }
 }
 
@@ -46,7 +46,7 @@ impl Drop for UnderWay {
 /// Errors: the path and what the system said (no permission, no space, a folder in the way); what stood there before
 /// is then still there.
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result {
-    let _under_way = UnderWay::begin();
+    let _in_progress = InProgress::begin();
     write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
 }
 
@@ -55,7 +55,7 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io:
 /// Missing folders are made.
 /// Errors: as [`write_whole`].
 pub fn check_place(path: &Path) -> Result {
-    let _under_way = UnderWay::begin();
+    let _in_progress = InProgress::begin();
     let place = resolved(path).and_then(|path| place_beside(&path));
     place.map(|_| ()).map_err(|source| Error::Write { path: path.into(), source })
 }
@@ -166,7 +166,7 @@ mod tests {
         let path = folder.path().join("picture.png");
         fs::write(&path, "before").expect("written");
         let failed = write_whole(&path, |file| {
-            assert!(writes_under_way() > 0);
+            assert!(writes_in_progress() > 0);
             file.write_all(b"half")?;
             Err(io::Error::other("no space"))
         });

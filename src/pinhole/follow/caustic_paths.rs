@@ -31,9 +31,9 @@ pub fn note_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut Caus
 
 /// The stage on offer.
 pub fn caustic_paths_stage() -> Stage {
-    Stage::new("Note whose caustics come from the lights", TileSystems::Classify, note_caustic_paths)
+    Stage::new("Mark caustic paths", TileSystems::Classify, note_caustic_paths)
         .on_camera_paths()
-        .on_first_leg()
+        .on_first_bounce()
         .kind(StageKind::Alternative)
         .reads::<WorldRays>()
         .reads::<MaterialRows>()

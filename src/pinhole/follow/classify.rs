@@ -34,7 +34,7 @@ column! {
 }
 
 /// Lists the rows of each kind of matter; after this each kind visits its own rows only.
-pub fn classify_matter(
+pub fn classify_materials(
     shapes: Res<Shared<ShapeTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Hits, Option<&mut MirrorRows>, Option<&mut GlassRows>, Option<&mut MetalRows>)>,
@@ -93,8 +93,8 @@ impl MetalRows {
 }
 
 /// The stage on offer.
-pub fn classify_matter_stage() -> Stage {
-    Stage::new("Classify matter", TileSystems::Classify, classify_matter)
+pub fn classify_materials_stage() -> Stage {
+    Stage::new("Classify materials", TileSystems::Classify, classify_materials)
         .reads::<Hits>()
         .writes::<MirrorRows>()
         .writes::<GlassRows>()

@@ -1,6 +1,6 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
-use crate::plan::{Column, Evidence, Lane, LaneValues, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime};
 use bevy_ecs::prelude::*;
 
 /// What else each ray's origin lies in beyond the four kinds of glass that [`Media`] names, in order of rank; exists only
@@ -116,8 +116,8 @@ impl Column for DeeperMedia {
         self.end.len()
     }
 
-    fn lanes(&self) -> Vec<Lane<'_>> {
-        vec![Lane { name: "end", values: LaneValues::U32(&self.end) }]
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
+        vec![ColumnComponent { name: "end", values: ComponentValues::U32(&self.end) }]
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {

@@ -1,12 +1,12 @@
 use super::CausticPaths;
 use crate::extract::{
-    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, aimed_evidence,
-    emissive_evidence, environment_light_evidence, followed_evidence, one_sided_evidence, traced_evidence,
+    AreaLightTable, EmissiveTable, EnvironmentLightTable, EnvironmentTable, IntegratorTable, NO_ROW, emissive_evidence,
+    environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, traced_evidence,
 };
 use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, Paths, WorldRays};
-use crate::shade::{Radiance, area_light_density, environment_density, environment_radiance};
+use crate::rays::{Depth, Paths, WorldRays};
+use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: power_heuristic
@@ -24,32 +24,32 @@ pub fn power_heuristic(own: f64, other: f64) -> f64 {
 }
 // ANCHOR_END: power_heuristic
 
-// ANCHOR: add_weighed_emission
+// ANCHOR: add_mis_emission
 /// Adds what the surface that a ray met emits, as far as nobody aimed at it, and no ray from the light finds the same way.
 ///
 /// Where no chance was in the ray's direction, or the surface cannot be aimed at, all of it counts.
 /// Else the surface that the ray came from has aimed at lights too; then the two ways to find this one are weighed, or the
 /// aimed one alone counts.
-pub fn add_weighed_emission(
+pub fn add_mis_emission(
     emissive: Res<Shared<EmissiveTable>>,
     lights: Res<Shared<AreaLightTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     mut tiles: Query<(
-        (&Leg, &Paths, &WorldRays, Option<&CausticPaths>),
+        (&Depth, &Paths, &WorldRays, Option<&CausticPaths>),
         (&Hits, &EmissiveRows, Option<&SurfaceSides>),
         &mut Radiance,
     )>,
 ) {
-    for ((leg, paths, rays, caustic), (hits, list, sides), mut radiance) in &mut tiles {
+    for ((depth, paths, rays, caustic), (hits, list, sides), mut radiance) in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {
                 continue;
             }
             let light = lights.light_of_shape[hits.shape[row] as usize];
-            let by_mirror = paths.density[row] == f64::INFINITY;
+            let by_mirror = paths.pdf[row] == f64::INFINITY;
             let from_light = |caustic: &CausticPaths| {
-                by_mirror && leg.0 > 0 && light != NO_ROW && caustic.spread[paths.first[row] as usize] != 0
+                by_mirror && depth.0 > 0 && light != NO_ROW && caustic.spread[paths.first[row] as usize] != 0
             };
             let share = if caustic.is_some_and(from_light) {
                 0.0
@@ -57,7 +57,7 @@ pub fn add_weighed_emission(
                 1.0
             } else if integrator.weighed {
                 let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
-                power_heuristic(paths.density[row], area_light_density(&lights, light as usize, from, at))
+                power_heuristic(paths.pdf[row], area_light_pdf(&lights, light as usize, from, at))
             } else {
                 0.0
             } as f32;
@@ -67,11 +67,11 @@ pub fn add_weighed_emission(
         }
     }
 }
-// ANCHOR_END: add_weighed_emission
+// ANCHOR_END: add_mis_emission
 
 /// The stage on offer: the alternative to adding all that surfaces emit.
-pub fn weighed_emission_stage() -> Stage {
-    Stage::new("Add what surfaces emit, as far as not aimed at", TileSystems::Shade, add_weighed_emission)
+pub fn mis_emission_stage() -> Stage {
+    Stage::new("Add emission, weighted by MIS", TileSystems::Shade, add_mis_emission)
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads::<Paths>()
@@ -85,18 +85,18 @@ pub fn weighed_emission_stage() -> Stage {
         .table::<EmissiveTable>()
         .table::<AreaLightTable>()
         .table::<IntegratorTable>()
-        .when(weighed_emission_evidence)
+        .when(mis_emission_evidence)
 }
 
 /// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
-fn weighed_emission_evidence(scene: &World) -> Evidence {
+fn mis_emission_evidence(scene: &World) -> Evidence {
     let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
     let traced = emits.clone().and(|| traced_evidence(scene));
-    if traced.needed { traced } else { emits.and(|| aimed_evidence(scene)) }
+    if traced.needed { traced } else { emits.and(|| light_sampling_evidence(scene)) }
 }
 
 /// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.
-pub fn add_weighed_environment(
+pub fn add_mis_environment(
     environment: Res<Shared<EnvironmentTable>>,
     light: Res<Shared<EnvironmentLightTable>>,
     integrator: Res<Shared<IntegratorTable>>,
@@ -105,10 +105,10 @@ pub fn add_weighed_environment(
     for (paths, rays, hits, mut radiance) in &mut tiles {
         for row in (0..rays.rows()).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
             let direction = rays.direction_of(row);
-            let share = if paths.density[row] == f64::INFINITY {
+            let share = if paths.pdf[row] == f64::INFINITY {
                 1.0
             } else if integrator.weighed {
-                power_heuristic(paths.density[row], environment_density(&light, environment.turn, direction))
+                power_heuristic(paths.pdf[row], environment_pdf(&light, environment.turn, direction))
             } else {
                 0.0
             };
@@ -121,8 +121,8 @@ pub fn add_weighed_environment(
 }
 
 /// The stage on offer: the alternative to adding all of the environment.
-pub fn weighed_environment_stage() -> Stage {
-    Stage::new("Add the environment, as far as not aimed at", TileSystems::Background, add_weighed_environment)
+pub fn mis_environment_stage() -> Stage {
+    Stage::new("Add the environment, weighted by MIS", TileSystems::Background, add_mis_environment)
         .kind(StageKind::Alternative)
         .reads::<Paths>()
         .reads::<WorldRays>()
@@ -132,5 +132,7 @@ pub fn weighed_environment_stage() -> Stage {
         .table::<EnvironmentTable>()
         .table::<EnvironmentLightTable>()
         .table::<IntegratorTable>()
-        .when(|scene| environment_light_evidence(scene).and(|| followed_evidence(scene)).and(|| aimed_evidence(scene)))
+        .when(|scene| {
+            environment_light_evidence(scene).and(|| followed_evidence(scene)).and(|| light_sampling_evidence(scene))
+        })
 }

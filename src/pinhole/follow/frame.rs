@@ -29,7 +29,7 @@ pub fn cosine_direction([u, v]: [f64; 2]) -> DVec3 {
 
 /// How densely [`cosine_direction`] gives directions of this cosine, in 1/sr; 0 at the horizon and below.
 #[inline(always)]
-pub fn cosine_density(cosine: f64) -> f64 {
+pub fn cosine_pdf(cosine: f64) -> f64 {
     cosine.max(0.0) * FRAC_1_PI
 }
 // ANCHOR_END: cosine_direction
@@ -80,7 +80,7 @@ mod tests {
             for v in corners {
                 let local = cosine_direction([u, v]);
                 assert!(local.z >= 1.0 / 4096.0 && (local.length() - 1.0).abs() < 4.0 * U, "{u} {v}: {local}");
-                assert!(cosine_density(local.z) > 0.0);
+                assert!(cosine_pdf(local.z) > 0.0);
                 for index in 0..500 {
                     // As the stages have them: the normal and the direction rounded to f32.
                     let normal = Draws::new(193, index).unit_vector().as_vec3();
@@ -90,12 +90,12 @@ mod tests {
                 }
             }
         }
-        assert_eq!([cosine_density(0.0), cosine_density(-0.5)], [0.0; 2]);
+        assert_eq!([cosine_pdf(0.0), cosine_pdf(-0.5)], [0.0; 2]);
         eprintln!("cosine directions: {tried} of the hardest numbers, all above the horizon");
     }
 
     #[test]
-    fn directions_are_as_likely_as_their_density() {
+    fn directions_are_as_likely_as_their_pdf() {
         const DRAWN: u64 = 200_000;
         // Rings of cos and sectors; ∫ cos θ / π over each is a difference of squares.
         let (rings, sectors) = (20, 30);

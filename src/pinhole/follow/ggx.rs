@@ -72,7 +72,7 @@ pub fn visible_normal(to_eye: DVec3, alpha: f64, [u, v]: [f64; 2]) -> DVec3 {
 /// How likely the light's direction mirrored in a [`visible_normal`] is, in 1/sr: G₁ D / (4 cos θ), whatever side of
 /// the surface it leads to.
 #[inline(always)]
-pub fn visible_density(to_light: DVec3, to_eye: DVec3, alpha: f64) -> f64 {
+pub fn visible_pdf(to_light: DVec3, to_eye: DVec3, alpha: f64) -> f64 {
     let half = to_light + to_eye;
     if half.z <= 0.0 || to_eye.z < 0.0 {
         return 0.0;
@@ -83,11 +83,11 @@ pub fn visible_density(to_light: DVec3, to_eye: DVec3, alpha: f64) -> f64 {
 
 /// A direction to the light by a visible normal, the density of having it, and its weight: BRDF · cosine / density.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glint {
+pub struct MicrofacetSample {
     /// To the light, in the surface's frame; a unit vector above the surface.
     pub to_light: DVec3,
     /// How likely it is, in 1/sr; above 0.
-    pub density: f64,
+    pub pdf: f64,
     /// The share of the light from there that is sent on, before the metal's colour; from 0 to 1.
     pub weight: f64,
 }
@@ -96,13 +96,13 @@ pub struct Glint {
 /// A direction that rough metal sends light from to `to_eye`; none where it leads below the surface, which is where
 /// light meets a second tiny mirror and is lost.
 #[inline(always)]
-pub fn ggx_sample(to_eye: DVec3, alpha: f64, numbers: [f64; 2]) -> Option<Glint> {
+pub fn ggx_sample(to_eye: DVec3, alpha: f64, numbers: [f64; 2]) -> Option<MicrofacetSample> {
     if to_eye.z <= 0.0 {
         return None;
     }
     let to_light = mirror_direction(-to_eye, visible_normal(to_eye, alpha, numbers));
-    let density = visible_density(to_light, to_eye, alpha);
-    (to_light.z > 0.0 && density > 0.0).then(|| Glint { to_light, density, weight: ggx_g1(to_light, alpha) })
+    let pdf = visible_pdf(to_light, to_eye, alpha);
+    (to_light.z > 0.0 && pdf > 0.0).then(|| MicrofacetSample { to_light, pdf, weight: ggx_g1(to_light, alpha) })
 }
 // ANCHOR_END: ggx_sample
 
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_as_likely_as_their_density() {
+    fn directions_are_as_likely_as_their_pdf() {
         const DRAWN: u64 = 100_000;
         for (which, alpha) in ALPHAS.into_iter().enumerate() {
             for (other, angle) in ANGLES.into_iter().enumerate() {
@@ -197,13 +197,13 @@ mod tests {
                 for (column, x) in x.windows(2).enumerate() {
                     for (row, y) in y.windows(2).enumerate() {
                         // A cone of facings about h is a cone 4 (v · h) times as wide of directions to the light.
-                        let density = |half: DVec3| match eye.dot(half) {
+                        let pdf = |half: DVec3| match eye.dot(half) {
                             facing if facing > 0.0 => {
-                                visible_density(mirror_direction(-eye, half), eye, alpha) * 4.0 * facing
+                                visible_pdf(mirror_direction(-eye, half), eye, alpha) * 4.0 * facing
                             }
                             _ => 0.0,
                         };
-                        let share = over_cell(&rule, alpha, [[x[0], x[1]], [y[0], y[1]]], density);
+                        let share = over_cell(&rule, alpha, [[x[0], x[1]], [y[0], y[1]]], pdf);
                         bins.expect(bin(column, row), share * DRAWN as f64);
                     }
                 }
@@ -248,14 +248,14 @@ mod tests {
 
     /// Weight times density is the BRDF times the cosine.
     #[test]
-    fn weights_are_what_the_density_leaves() {
+    fn weights_are_what_the_pdf_leaves() {
         let mut tried = 0;
         for index in 0..20_000 {
             let mut draws = Draws::new(1936, index);
             let (alpha, eye) = (draws.power_of_ten(-3.0, 0.0), eye_at(draws.between(0.0, 89.99)));
-            let Some(glint) = ggx_sample(eye, alpha, [draws.unit(), draws.unit()]) else { continue };
-            let sent = ggx_brdf(glint.to_light, eye, alpha) * glint.to_light.z;
-            assert!((glint.weight * glint.density / sent - 1.0).abs() < 1e-9, "{index}");
+            let Some(microfacet_sample) = ggx_sample(eye, alpha, [draws.unit(), draws.unit()]) else { continue };
+            let sent = ggx_brdf(microfacet_sample.to_light, eye, alpha) * microfacet_sample.to_light.z;
+            assert!((microfacet_sample.weight * microfacet_sample.pdf / sent - 1.0).abs() < 1e-9, "{index}");
             tried += 1;
         }
         eprintln!("ggx: {tried} weights × densities against the BRDF");
@@ -272,8 +272,8 @@ mod tests {
                 let (mut sum, mut squares) = (0.0, 0.0);
                 for index in 0..DRAWN {
                     let mut draws = Draws::new(1937, index);
-                    let glint = ggx_sample(eye_at(angle), alpha, [draws.unit(), draws.unit()]);
-                    let weight = glint.map_or(0.0, |glint| glint.weight);
+                    let microfacet_sample = ggx_sample(eye_at(angle), alpha, [draws.unit(), draws.unit()]);
+                    let weight = microfacet_sample.map_or(0.0, |microfacet_sample| microfacet_sample.weight);
                     assert!((0.0..=1.0).contains(&weight));
                     (sum, squares) = (sum + weight, squares + weight * weight);
                 }
@@ -326,13 +326,18 @@ mod tests {
                     if eye.z >= 0.0 {
                         let half = visible_normal(eye, alpha, numbers);
                         assert!(half.z > 0.0 && (half.length() - 1.0).abs() < 1e-14, "{alpha} {angle} {numbers:?}");
-                        assert!(visible_density(mirror_direction(-eye, half), eye, alpha).is_finite());
+                        assert!(visible_pdf(mirror_direction(-eye, half), eye, alpha).is_finite());
                     }
-                    let Some(glint) = ggx_sample(eye, alpha, numbers) else { continue };
-                    assert!(glint.to_light.is_finite() && glint.to_light.z > 0.0 && eye.z > 0.0);
-                    assert!(glint.density > 0.0 && glint.density.is_finite(), "{alpha} {angle} {numbers:?}");
-                    assert!((0.0..=1.0).contains(&glint.weight));
-                    assert!(ggx_brdf(glint.to_light, eye, alpha).is_finite());
+                    let Some(microfacet_sample) = ggx_sample(eye, alpha, numbers) else { continue };
+                    assert!(
+                        microfacet_sample.to_light.is_finite() && microfacet_sample.to_light.z > 0.0 && eye.z > 0.0
+                    );
+                    assert!(
+                        microfacet_sample.pdf > 0.0 && microfacet_sample.pdf.is_finite(),
+                        "{alpha} {angle} {numbers:?}"
+                    );
+                    assert!((0.0..=1.0).contains(&microfacet_sample.weight));
+                    assert!(ggx_brdf(microfacet_sample.to_light, eye, alpha).is_finite());
                 }
             }
         }

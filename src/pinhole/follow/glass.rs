@@ -7,17 +7,17 @@ use crate::extract::{
 };
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Depth, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::rays::{Draws, Paths, draws_of_one};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-// ANCHOR: glass_ways
+// ANCHOR: glass_samples
 /// A way on from a surface of glass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GlassWay {
+pub struct GlassSample {
     /// Where it goes, a unit vector.
     pub direction: DVec3,
     /// What is left, on this side, of the radiance that comes from there.
@@ -32,28 +32,28 @@ pub struct GlassWay {
 /// it is left.
 /// Where all is mirrored the second way has no share.
 #[inline(always)]
-pub fn glass_ways(direction: DVec3, normal: DVec3, eta: f64) -> [GlassWay; 2] {
+pub fn glass_samples(direction: DVec3, normal: DVec3, eta: f64) -> [GlassSample; 2] {
     let reflected = fresnel((-direction.dot(normal)).max(0.0), eta);
-    let mirrored = GlassWay { direction: mirror_direction(direction, normal), share: reflected, through: false };
-    let bent = refract(direction, normal, eta).map_or_else(GlassWay::default, |direction| GlassWay {
+    let mirrored = GlassSample { direction: mirror_direction(direction, normal), share: reflected, through: false };
+    let bent = refract(direction, normal, eta).map_or_else(GlassSample::default, |direction| GlassSample {
         direction,
         share: (1.0 - reflected) / (eta * eta),
         through: true,
     });
     [mirrored, bent]
 }
-// ANCHOR_END: glass_ways
+// ANCHOR_END: glass_samples
 
 // ANCHOR: glass_event
 /// One of the two ways by chance: mirrored as often as light is, by a number from 0 to below 1; so what is left of it is
 /// all of the mirrored light, or 1/η² of the bent.
 #[inline(always)]
-pub fn glass_event(direction: DVec3, normal: DVec3, eta: f64, number: f64) -> GlassWay {
-    let [mirrored, bent] = glass_ways(direction, normal, eta);
+pub fn glass_event(direction: DVec3, normal: DVec3, eta: f64, number: f64) -> GlassSample {
+    let [mirrored, bent] = glass_samples(direction, normal, eta);
     if number < mirrored.share || !bent.through {
-        GlassWay { share: 1.0, ..mirrored }
+        GlassSample { share: 1.0, ..mirrored }
     } else {
-        GlassWay { share: 1.0 / (eta * eta), ..bent }
+        GlassSample { share: 1.0 / (eta * eta), ..bent }
     }
 }
 // ANCHOR_END: glass_event
@@ -91,7 +91,7 @@ impl Met<'_> {
 
     /// The ray that a way is; none of it where a normal to shade by sends it to the wrong side.
     #[inline(always)]
-    fn ray(&self, row: usize, way: GlassWay) -> ScatteredRay {
+    fn ray(&self, row: usize, way: GlassSample) -> ScatteredRay {
         let surface = self.surfaces.get(row);
         let side = if way.through { -surface.normal } else { surface.normal };
         let leaves = way.direction.dot(side.as_dvec3()) > 0.0;
@@ -100,7 +100,7 @@ impl Met<'_> {
             origin: offset_origin(surface.position, side, surface.bound),
             direction: way.direction,
             share: self.paths.share(row).map(|part| part * share),
-            density: f64::INFINITY,
+            pdf: f64::INFINITY,
         }
     }
 
@@ -119,26 +119,26 @@ pub fn scatter_glass<const FROM_LIGHT: bool>(
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
     mut tiles: Query<(
-        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
+        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
         (Option<&Media>, Option<&DeeperMedia>),
         (&Surfaces, Option<&ShadingNormals>, &SurfaceSides, &GlassRows),
         &mut Scattered,
     )>,
 ) {
     for (
-        (tile, &leg, number, samples, rays, paths),
+        (tile, &depth, number, samples, rays, paths),
         (media, deeper),
         (surfaces, shading, sides, list),
         mut scattered,
     ) in &mut tiles
     {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
-        draws_of_one(&draws, Purpose::MatterChoice, &list.row, &mut numbers);
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
+        draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut numbers);
         let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         scattered.append(&list.row, |number, row| {
             let (direction, normal) = met.met(row);
             let way = glass_event(direction, normal, met.eta(number, row), numbers[number]);
-            met.ray(row, if FROM_LIGHT { GlassWay { share: 1.0, ..way } } else { way })
+            met.ray(row, if FROM_LIGHT { GlassSample { share: 1.0, ..way } } else { way })
         });
     }
 }
@@ -162,7 +162,7 @@ pub fn split_at_glass(
         for which in [0, 1] {
             scattered.append(&list.row, |number, row| {
                 let (direction, normal) = met.met(row);
-                let ray = met.ray(row, glass_ways(direction, normal, met.eta(number, row))[which]);
+                let ray = met.ray(row, glass_samples(direction, normal, met.eta(number, row))[which]);
                 let seen = ray.share.iter().any(|part| *part >= LEAST_SHARE);
                 if seen { ray } else { ScatteredRay::default() }
             });
@@ -173,21 +173,21 @@ pub fn split_at_glass(
 
 /// The stage that sends both rays on.
 pub fn glass_stage() -> Stage {
-    reading(Stage::new("Reflect and refract at glass", TileSystems::Scatter, split_at_glass))
+    reading(Stage::new("Split rays at glass", TileSystems::SampleBsdfs, split_at_glass))
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .when(|scene| glass_evidence(scene).and(|| both_ways_evidence(scene)))
+        .when(|scene| glass_evidence(scene).and(|| split_evidence(scene)))
 }
 
 /// The stage that sends one on by chance.
-pub fn glass_chance_stage() -> Stage {
-    reading(Stage::new("Reflect or refract at glass", TileSystems::Scatter, scatter_glass::<false>))
+pub fn glass_sample_stage() -> Stage {
+    reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, scatter_glass::<false>))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_if::<PixelSamples>()
         .table::<SamplingTable>()
         .when(|scene| {
-            let both = both_ways_evidence(scene);
+            let both = split_evidence(scene);
             let one = Evidence { needed: !both.needed, ..both };
             glass_evidence(scene).and(|| followed_evidence(scene)).and(|| one)
         })
@@ -195,7 +195,7 @@ pub fn glass_chance_stage() -> Stage {
 
 /// The stage that does so with light from lights.
 pub fn glass_light_stage() -> Stage {
-    reading(Stage::new("Reflect or refract light at glass", TileSystems::Scatter, scatter_glass::<true>))
+    reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, scatter_glass::<true>))
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads_if::<PixelSamples>()
@@ -218,7 +218,7 @@ fn reading(stage: Stage) -> Stage {
 }
 
 /// Evidence that nothing is left to chance at glass.
-fn both_ways_evidence(scene: &World) -> Evidence {
+fn split_evidence(scene: &World) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Whitted { .. }))
 }
 
@@ -235,7 +235,7 @@ mod tests {
             let mut draws = Numbers::new(1951, index);
             let (normal, eta) = (draws.unit_vector().normalize(), draws.power_of_ten(-0.5, 0.5));
             let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
-            let [mirrored, bent] = glass_ways(direction, normal, eta);
+            let [mirrored, bent] = glass_samples(direction, normal, eta);
             assert!((mirrored.share + bent.share * eta * eta - 1.0).abs() < 1e-12 || !bent.through);
             let mut sums = [0.0; 2];
             for step in 0..STEPS {
@@ -256,8 +256,8 @@ mod tests {
             let mut draws = Numbers::new(1952, index);
             let (normal, eta) = (draws.unit_vector().normalize(), draws.between(1.0, 3.0));
             let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
-            let [_, inward] = glass_ways(direction, normal, eta);
-            let [mirrored, outward] = glass_ways(inward.direction, normal, 1.0 / eta);
+            let [_, inward] = glass_samples(direction, normal, eta);
+            let [mirrored, outward] = glass_samples(inward.direction, normal, 1.0 / eta);
             assert!((outward.direction - direction).length() < 1e-13, "{index}");
             let once = 1.0 - mirrored.share;
             assert!(

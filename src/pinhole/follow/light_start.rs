@@ -2,7 +2,7 @@ use super::{cosine_direction, frame_of};
 use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
 use crate::intersect::{offset_bound, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
-use crate::rays::{Leg, Paths, SampleNumber, Tile, WorldRays};
+use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};
 use crate::scene::Sampler;
 use crate::shade::emitter::{WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
@@ -68,8 +68,10 @@ pub struct StartDraws {
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let light = table.chosen(draws.light);
-    let chosen = 1.0 / table.chance[light];
-    let aimed = |from: DVec3, wide: f64| direction_to_targets(&table.target, from, wide, draws.target, draws.direction);
+    let chosen = 1.0 / table.random[light];
+    let aimed = |from: DVec3, double_double: f64| {
+        direction_to_targets(&table.target, from, double_double, draws.target, draws.direction)
+    };
     match table.light[light] {
         LightSource::Area { emitter, radiance, one_sided } => {
             let point = leaving_point(&emitter, one_sided, draws.point, draws.side);
@@ -105,10 +107,13 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 pub fn start_on_lights(
     table: Res<Shared<LightPathTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    mut tiles: Query<((&Tile, &SampleNumber, &mut Leg), (&mut WorldRays, &mut Paths, &mut LightPower, &mut Radiance))>,
+    mut tiles: Query<(
+        (&Tile, &SampleNumber, &mut Depth),
+        (&mut WorldRays, &mut Paths, &mut LightPower, &mut Radiance),
+    )>,
 ) {
-    for ((tile, number, mut leg), (mut rays, mut paths, mut power, mut radiance)) in &mut tiles {
-        *leg = Leg(0);
+    for ((tile, number, mut depth), (mut rays, mut paths, mut power, mut radiance)) in &mut tiles {
+        *depth = Depth(0);
         let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
         let of = (&**table, tile, sampling.seed);
         let to = (&mut *rays, &mut *paths, &mut *power);
@@ -118,7 +123,7 @@ pub fn start_on_lights(
         }
         let rows = crate::plan::Column::rows(&*rays);
         let (r, g, b) = radiance.slices_mut(rows);
-        [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));
+        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
     }
 }
 
@@ -134,10 +139,10 @@ fn start_rows<D: Draw>(
 ) {
     let rows = tile.rows();
     let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
-    let (first, r, g, b, density) = paths.slices_mut(rows);
+    let (first, r, g, b, pdf) = paths.slices_mut(rows);
     let (pr, pg, pb) = power.slices_mut(rows);
-    [r, g, b].into_iter().for_each(|lane| lane.fill(1.0));
-    density.fill(f64::INFINITY);
+    [r, g, b].into_iter().for_each(|component| component.fill(1.0));
+    pdf.fill(f64::INFINITY);
     let mut at = 0;
     for row in 0..rows {
         let key = PixelKey::new(seed, tile.pixel_of(row));
@@ -156,7 +161,7 @@ fn start_rows<D: Draw>(
 
 /// The stage on offer.
 pub fn light_start_stage() -> Stage {
-    Stage::new("Start rays on lights", TileSystems::World, start_on_lights)
+    Stage::new("Sample emitted rays", TileSystems::World, start_on_lights)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .writes::<WorldRays>()

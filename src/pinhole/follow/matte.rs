@@ -3,7 +3,7 @@ use super::{Scattered, ScatteredRay};
 use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, WorldRays, draws_of_two};
+use crate::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, WorldRays, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::SurfaceColours;
@@ -33,13 +33,14 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
     materials: Res<Shared<MaterialTable>>,
     mut points: Local<Vec<[f64; 2]>>,
     mut tiles: Query<(
-        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
+        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
         (&Surfaces, Option<&ShadingNormals>, Option<&SurfaceColours>, &MaterialRows),
         &mut Scattered,
     )>,
 ) {
-    for ((tile, &leg, number, samples, rays, paths), (surfaces, shading, colours, list), mut scattered) in &mut tiles {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+    for ((tile, &depth, number, samples, rays, paths), (surfaces, shading, colours, list), mut scattered) in &mut tiles
+    {
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
         scattered.append(&list.row, |number, row| {
             let surface = surfaces.get(row);
@@ -60,7 +61,7 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
                 share: [0, 1, 2].map(|part| share[part] * colour[part]),
-                density: local.z * FRAC_1_PI,
+                pdf: local.z * FRAC_1_PI,
             }
         });
     }
@@ -69,14 +70,14 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
 
 /// The stage on offer for rays from the camera.
 pub fn matte_stage() -> Stage {
-    reading(Stage::new("Scatter off matte surfaces", TileSystems::Scatter, scatter_matte::<false>))
+    reading(Stage::new("Sample BSDFs: matte", TileSystems::SampleBsdfs, scatter_matte::<false>))
         .on_camera_paths()
         .when(scattered_evidence)
 }
 
 /// The stage on offer for rays from lights.
 pub fn matte_light_stage() -> Stage {
-    reading(Stage::new("Scatter light off matte surfaces", TileSystems::Scatter, scatter_matte::<true>))
+    reading(Stage::new("Sample BSDFs: matte, from lights", TileSystems::SampleBsdfs, scatter_matte::<true>))
         .on_light_paths()
         .when(|scene| traced_evidence(scene).and(|| scattered_evidence(scene)))
 }

@@ -53,7 +53,7 @@ pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut
             deeper.start(rays.rows());
         }
         let (first, second, third, fourth) = media.slices_mut(rays.rows());
-        [&mut *first, second, third, fourth].into_iter().for_each(|lane| lane.fill(NO_ROW));
+        [&mut *first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
         for (&row, &of) in list.row.iter().zip(&list.of) {
             if sides.outside[row as usize] == 0 {
                 first[row as usize] = of;
@@ -116,8 +116,8 @@ pub fn carry_media(
 
 /// The stage that starts.
 pub fn start_media_stage() -> Stage {
-    Stage::new("Find the glass that rays start in", TileSystems::Media, start_media)
-        .on_first_leg()
+    Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
+        .on_first_bounce()
         .reads::<WorldRays>()
         .reads::<SurfaceSides>()
         .reads::<GlassRows>()
@@ -139,7 +139,7 @@ pub fn absorb_stage() -> Stage {
 
 /// The stage that carries media over to the next leg.
 pub fn carry_media_stage() -> Stage {
-    Stage::new("Carry media to the next leg", TileSystems::Step, carry_media)
+    Stage::new("Carry media to the next bounce", TileSystems::Step, carry_media)
         .reads::<Scattered>()
         .reads::<Surfaces>()
         .reads::<SurfaceSides>()

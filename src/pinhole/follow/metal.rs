@@ -1,14 +1,14 @@
 use super::{
     MetalRows, MultipleScatteringTable, Scattered, ScatteredRay, cosine_direction, frame_of, ggx_brdf, ggx_sample,
-    visible_density,
+    visible_pdf,
 };
 use crate::extract::{
     MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, multiple_scattering_evidence, needed_if,
 };
 use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces, offset_origin};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{Depth, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::rays::{Draws, Paths, draws_of_one, draws_of_two};
-use crate::rays::{Leg, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::{LightRays, Radiance, ShadowHits, lit_evidence};
@@ -37,9 +37,9 @@ impl RoughMetals<'_> {
 
     /// How densely chance sends rays to `to_light`, in 1/sr.
     #[inline(always)]
-    pub fn density(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let visible = visible_density(to_light, to_eye, self.metals.alpha[metal]);
-        self.several.map_or(visible, |several| several.density(metal, to_light, to_eye, visible))
+    pub fn pdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let visible = visible_pdf(to_light, to_eye, self.metals.alpha[metal]);
+        self.several.map_or(visible, |several| several.pdf(metal, to_light, to_eye, visible))
     }
 
     /// A direction to the light, the density of having it, and BRDF · cosine / density; none where it leads below the
@@ -54,16 +54,20 @@ impl RoughMetals<'_> {
         numbers: [f64; 2],
         choice: f64,
     ) -> Option<(DVec3, f64, [f64; 3])> {
-        let glint = || ggx_sample(to_eye, self.metals.alpha[metal], numbers);
+        let microfacet_sample = || ggx_sample(to_eye, self.metals.alpha[metal], numbers);
         let Some(several) = self.several else {
-            let (glint, colour) = (glint()?, self.metals.colour[metal]);
-            return Some((glint.to_light, glint.density, colour.map(|colour| colour * glint.weight)));
+            let (microfacet_sample, colour) = (microfacet_sample()?, self.metals.colour[metal]);
+            return Some((
+                microfacet_sample.to_light,
+                microfacet_sample.pdf,
+                colour.map(|colour| colour * microfacet_sample.weight),
+            ));
         };
         let is_lost = several.is_lost(metal, to_eye, choice);
-        let to_light = if is_lost { cosine_direction(numbers) } else { glint()?.to_light };
-        let density = self.density(metal, to_light, to_eye);
-        let weights = self.brdf(metal, to_light, to_eye).map(|brdf| brdf * to_light.z / density);
-        (density > 0.0).then_some((to_light, density, weights))
+        let to_light = if is_lost { cosine_direction(numbers) } else { microfacet_sample()?.to_light };
+        let pdf = self.pdf(metal, to_light, to_eye);
+        let weights = self.brdf(metal, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        (pdf > 0.0).then_some((to_light, pdf, weights))
     }
 }
 
@@ -73,17 +77,17 @@ pub fn scatter_metal(
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     (mut points, mut choices): (Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
     mut tiles: Query<(
-        (&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
+        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
         (&Surfaces, Option<&ShadingNormals>, &MetalRows),
         &mut Scattered,
     )>,
 ) {
     let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
-    for ((tile, &leg, number, samples, rays, paths), (surfaces, shading, list), mut scattered) in &mut tiles {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+    for ((tile, &depth, number, samples, rays, paths), (surfaces, shading, list), mut scattered) in &mut tiles {
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
         if rough.several.is_some() {
-            draws_of_one(&draws, Purpose::MatterChoice, &list.row, &mut choices);
+            draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut choices);
         }
         scattered.append(&list.row, |number, row| {
             let (surface, metal) = (surfaces.get(row), list.of[number] as usize);
@@ -91,7 +95,7 @@ pub fn scatter_metal(
             let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
             let to_eye = world_from_local.transpose() * -rays.direction_of(row);
             let choice = choices.get(number).copied().unwrap_or_default();
-            let Some((to_light, density, weights)) = rough.sample(metal, to_eye, points[number], choice) else {
+            let Some((to_light, pdf, weights)) = rough.sample(metal, to_eye, points[number], choice) else {
                 return ScatteredRay::default();
             };
             let direction = world_from_local * to_light;
@@ -100,7 +104,7 @@ pub fn scatter_metal(
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
                 share: [0, 1, 2].map(|part| share[part] * weights[part]),
-                density,
+                pdf,
             }
         });
     }
@@ -140,7 +144,7 @@ pub fn add_metal(
 
 /// The stage that sends rays on.
 pub fn metal_stage() -> Stage {
-    Stage::new("Scatter off rough metal", TileSystems::Scatter, scatter_metal)
+    Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, scatter_metal)
         .kind(StageKind::Estimator)
         .reads::<WorldRays>()
         .reads::<Paths>()
@@ -157,7 +161,7 @@ pub fn metal_stage() -> Stage {
 
 /// The stage that answers lamps.
 pub fn metal_light_stage() -> Stage {
-    Stage::new("Add the light off rough metal", TileSystems::Shade, add_metal)
+    Stage::new("Evaluate direct light: metal", TileSystems::Shade, add_metal)
         .reads::<WorldRays>()
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()

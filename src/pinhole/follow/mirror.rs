@@ -29,7 +29,7 @@ pub fn scatter_mirror(
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction: mirror_direction(direction, normal),
                 share: [0, 1, 2].map(|part| share[part] * colour[part]),
-                density: f64::INFINITY,
+                pdf: f64::INFINITY,
             }
         });
     }
@@ -38,7 +38,7 @@ pub fn scatter_mirror(
 
 /// The stage on offer.
 pub fn mirror_stage() -> Stage {
-    Stage::new("Reflect at mirrors", TileSystems::Scatter, scatter_mirror)
+    Stage::new("Sample BSDFs: mirror", TileSystems::SampleBsdfs, scatter_mirror)
         .reads::<WorldRays>()
         .reads::<Paths>()
         .reads::<Surfaces>()

@@ -1,7 +1,7 @@
-use super::{cosine_density, ggx_sample};
+use super::{cosine_pdf, ggx_sample};
 use crate::extract::{MetalTable, metals_of_several_mirrors};
 use crate::plan::Table;
-use crate::scene::Refusal;
+use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
@@ -27,7 +27,9 @@ pub struct MultipleScatteringTable {
 fn sent_on(cosine: f64, alpha: f64) -> f64 {
     let to_eye = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
     let middle = |at: u32| (f64::from(at) + 0.5) / f64::from(MIRRORS);
-    let weight = |u: u32, v: u32| ggx_sample(to_eye, alpha, [middle(u), middle(v)]).map_or(0.0, |glint| glint.weight);
+    let weight = |u: u32, v: u32| {
+        ggx_sample(to_eye, alpha, [middle(u), middle(v)]).map_or(0.0, |microfacet_sample| microfacet_sample.weight)
+    };
     let sum: f64 = (0..MIRRORS).map(|u| (0..MIRRORS).map(|v| weight(u, v)).sum::<f64>()).sum();
     sum / f64::from(MIRRORS * MIRRORS)
 }
@@ -71,7 +73,7 @@ pub fn found_again(colour: f64, lost: f64) -> f64 {
 impl Table for MultipleScatteringTable {
     const NAME: &'static str = "multiple scattering";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let (metals, several) = (MetalTable::extract(scene)?, metals_of_several_mirrors(scene));
         let mut table = Self::default();
         for (metal, several) in several.into_iter().enumerate() {
@@ -113,9 +115,9 @@ impl MultipleScatteringTable {
     /// The density of directions of which as many as are lost go by the cosine, the others by the `visible` density, in
     /// 1/sr.
     #[inline(always)]
-    pub fn density(&self, metal: usize, to_light: DVec3, to_eye: DVec3, visible: f64) -> f64 {
+    pub fn pdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3, visible: f64) -> f64 {
         let lost = lost_at(&self.lost[metal], to_eye.z);
-        (1.0 - lost) * visible + lost * cosine_density(to_light.z)
+        (1.0 - lost) * visible + lost * cosine_pdf(to_light.z)
     }
     // ANCHOR_END: lobe
 
@@ -203,7 +205,7 @@ mod tests {
     /// Directions drawn are as many as the density says in bins of cosine and angle, those below the surface in a bin of
     /// their own.
     #[test]
-    fn directions_are_as_likely_as_their_density() {
+    fn directions_are_as_likely_as_their_pdf() {
         const DRAWN: u64 = 100_000;
         const LINES: usize = 12;
         for (which, (alpha, slant)) in [(0.4, 1.2_f64), (0.7, 0.5), (1.0, 0.0), (1.0, 1.45)].into_iter().enumerate() {
@@ -217,7 +219,7 @@ mod tests {
                     rule.sum(2.0 * PI * line(turn), 2.0 * PI * line(turn + 1), |turn| {
                         let across = (1.0 - z * z).sqrt();
                         let light = DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z);
-                        rough.density(0, light, eye)
+                        rough.pdf(0, light, eye)
                     })
                 });
                 bins.expect(cosine * LINES + turn, share * DRAWN as f64);
@@ -253,9 +255,9 @@ mod tests {
             for (u, v) in ends.into_iter().flat_map(|u| ends.map(|v| (u, v))) {
                 for choice in ends {
                     tried += 1;
-                    let Some((light, density, weights)) = rough.sample(0, eye, [u, v], choice) else { continue };
+                    let Some((light, pdf, weights)) = rough.sample(0, eye, [u, v], choice) else { continue };
                     let [weight, ..] = weights;
-                    assert!(light.is_finite() && density > 0.0 && density.is_finite(), "{alpha} {slant} {u} {v}");
+                    assert!(light.is_finite() && pdf > 0.0 && pdf.is_finite(), "{alpha} {slant} {u} {v}");
                     assert!((0.0..=4.0).contains(&weight), "{alpha} {slant} {u} {v}: {weight}");
                 }
             }

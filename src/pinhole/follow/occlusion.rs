@@ -2,19 +2,19 @@ use super::frame::{cosine_direction, frame_of};
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, offset_origin, shape_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Leg, PixelSamples, SampleNumber, Tile, draws_of_two};
+use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-// ANCHOR: aim_at_the_sky
+// ANCHOR: sample_sky
 /// Sends a ray towards the sky from every surface, as densely as the cosine to its normal.
 ///
 /// A sky of radiance 1 brings the irradiance π; its mean over such rays, where each is seen or hidden, is what the whole
 /// sky brings past what hides it.
-pub fn aim_at_the_sky(
+pub fn sample_sky(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     lists: Local<SkyLists>,
@@ -47,12 +47,12 @@ pub fn aim_by(
     for ((tile, number, samples), (hits, surfaces, mut rays)) in &mut tiles {
         list.clear();
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
-        let draws = Draws { sampling, tile, number, samples, paths: None, leg: Leg(0) };
+        let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };
         draws_of_two(&draws, Purpose::Direction, list, points);
         let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.len());
         path.copy_from_slice(list);
         reach.fill(integrator.distance);
-        [r, g, b].into_iter().for_each(|lane| lane.fill(PI as f32));
+        [r, g, b].into_iter().for_each(|component| component.fill(PI as f32));
         for (at, &row) in list.iter().enumerate() {
             let surface = surfaces.get(row as usize);
             let direction = (frame_of(surface.normal.as_dvec3()) * direction_of(points[at])).as_vec3();
@@ -61,7 +61,7 @@ pub fn aim_by(
         }
     }
 }
-// ANCHOR_END: aim_at_the_sky
+// ANCHOR_END: sample_sky
 
 /// Shows white where a row's ray, or the ray from its surface, leaves the scene, and black where something hides the sky.
 pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
@@ -81,7 +81,7 @@ pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &Shadow
 
 /// The stage that aims.
 pub fn sky_rays_stage() -> Stage {
-    Stage::new("Aim at the open sky", TileSystems::Aim, aim_at_the_sky)
+    Stage::new("Sample the open sky", TileSystems::SampleLights, sample_sky)
         .kind(StageKind::Alternative)
         .reads_if::<PixelSamples>()
         .reads::<Hits>()
@@ -94,7 +94,7 @@ pub fn sky_rays_stage() -> Stage {
 
 /// The stage that shows.
 pub fn sky_stage() -> Stage {
-    Stage::new("Show how much of the sky is seen", TileSystems::Shade, show_the_sky)
+    Stage::new("Show ambient occlusion", TileSystems::Shade, show_the_sky)
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads_if::<Hits>()

@@ -1,27 +1,27 @@
 use crate::extract::followed_evidence;
 use crate::plan::{Column, Stage, TileSystems};
-use crate::rays::{Leg, PathLight, Paths, WorldRays};
+use crate::rays::{Depth, PathLight, Paths, WorldRays};
 use bevy_ecs::prelude::*;
 
 /// Begins a way a row: all of what the camera's ray brings back reaches the film.
-pub fn start_paths(mut tiles: Query<(&mut Leg, &WorldRays, &mut Paths, Option<&mut PathLight>)>) {
-    for (mut leg, rays, mut paths, light) in &mut tiles {
-        *leg = Leg(0);
-        let (first, r, g, b, density) = paths.slices_mut(rays.rows());
+pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<&mut PathLight>)>) {
+    for (mut depth, rays, mut paths, light) in &mut tiles {
+        *depth = Depth(0);
+        let (first, r, g, b, pdf) = paths.slices_mut(rays.rows());
         first.iter_mut().zip(0..).for_each(|(first, row)| *first = row);
-        [r, g, b].into_iter().for_each(|lane| lane.fill(1.0));
-        density.fill(f64::INFINITY);
+        [r, g, b].into_iter().for_each(|component| component.fill(1.0));
+        pdf.fill(f64::INFINITY);
         if let Some(mut light) = light {
             let (r, g, b) = light.slices_mut(rays.rows());
-            [r, g, b].into_iter().for_each(|lane| lane.fill(0.0));
+            [r, g, b].into_iter().for_each(|component| component.fill(0.0));
         }
     }
 }
 
 /// The stage on offer.
 pub fn start_paths_stage() -> Stage {
-    Stage::new("Start ways of light", TileSystems::Start, start_paths)
-        .on_first_leg()
+    Stage::new("Start paths", TileSystems::Start, start_paths)
+        .on_first_bounce()
         .on_camera_paths()
         .reads::<WorldRays>()
         .writes::<Paths>()

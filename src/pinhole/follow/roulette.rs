@@ -1,19 +1,19 @@
 use super::Scattered;
 use crate::extract::{IntegratorTable, SamplingTable, needed_if};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Draws, Leg, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
+use crate::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
 
-// ANCHOR: chance_to_go_on
+// ANCHOR: survival_probability
 /// The chance with which a way goes on whose ray brings this share to the film; what goes on counts for more, so that no
 /// light is lost on average (Arvo and Kirk 1990).
 #[inline(always)]
-pub fn chance_to_go_on(share: [f64; 3]) -> f64 {
+pub fn survival_probability(share: [f64; 3]) -> f64 {
     share[0].max(share[1]).max(share[2]).min(1.0)
 }
-// ANCHOR_END: chance_to_go_on
+// ANCHOR_END: survival_probability
 
 /// Ends ways by chance from a leg on, and lets the others carry what those would have brought.
 ///
@@ -23,24 +23,24 @@ pub fn play_roulette(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     mut numbers: Local<Vec<f64>>,
-    mut tiles: Query<(&Tile, &Leg, Option<&SampleNumber>, Option<&PixelSamples>, &Paths, &mut Scattered)>,
+    mut tiles: Query<(&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &Paths, &mut Scattered)>,
 ) {
-    for (tile, &leg, number, samples, paths, mut scattered) in &mut tiles {
-        if leg.0 + 1 < integrator.roulette {
+    for (tile, &depth, number, samples, paths, mut scattered) in &mut tiles {
+        if depth.0 + 1 < integrator.roulette {
             continue;
         }
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), leg };
+        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
         draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
         let mut kept = 0;
         for row in 0..scattered.rows() {
-            let own = if scattered.density[row] == f64::INFINITY { integrator.narrowing } else { 1.0 };
+            let own = if scattered.pdf[row] == f64::INFINITY { integrator.narrowing } else { 1.0 };
             let share = [scattered.r[row], scattered.g[row], scattered.b[row]];
-            let chance = chance_to_go_on(share.map(|part| part * own));
-            if numbers[row] < chance {
+            let random = survival_probability(share.map(|part| part * own));
+            if numbers[row] < random {
                 scattered.moved(row, kept);
-                let more = 1.0 / chance;
+                let more = 1.0 / random;
                 let light = &mut *scattered;
-                [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|lane| lane[kept] *= more);
+                [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|component| component[kept] *= more);
                 kept += 1;
             }
         }
@@ -50,7 +50,7 @@ pub fn play_roulette(
 
 /// The stage on offer.
 pub fn roulette_stage() -> Stage {
-    Stage::new("End ways by chance", TileSystems::Roulette, play_roulette)
+    Stage::new("Russian roulette", TileSystems::Roulette, play_roulette)
         .kind(StageKind::Estimator)
         .reads::<Paths>()
         .reads_if::<PixelSamples>()

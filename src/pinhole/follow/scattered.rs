@@ -27,7 +27,7 @@ column! {
         /// Blue.
         b: f64,
         /// How densely chance sends rays this way, over solid angle; infinite where no chance was in it.
-        density: f64,
+        pdf: f64,
     }
 }
 
@@ -41,7 +41,7 @@ pub struct ScatteredRay {
     /// The share of what it brings back that reaches the film; a ray of none is left out.
     pub share: [f64; 3],
     /// How densely chance sends rays this way, in 1/sr.
-    pub density: f64,
+    pub pdf: f64,
 }
 
 impl Scattered {
@@ -56,7 +56,7 @@ impl Scattered {
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
         let length = self.path.len();
-        let (path, ox, oy, oz, dx, dy, dz, r, g, b, density) = self.slices_mut(length + rows.len());
+        let (path, ox, oy, oz, dx, dy, dz, r, g, b, pdf) = self.slices_mut(length + rows.len());
         let mut at = length;
         for (number, &row) in rows.iter().enumerate() {
             let ray = ray_of(number, row as usize);
@@ -64,7 +64,7 @@ impl Scattered {
             (ox[at], oy[at], oz[at]) = ray.origin.into();
             (dx[at], dy[at], dz[at]) = ray.direction.as_vec3().into();
             [r[at], g[at], b[at]] = ray.share;
-            density[at] = ray.density;
+            pdf[at] = ray.pdf;
             at += usize::from(ray.share != [0.0; 3]);
         }
         self.slices_mut(at);
@@ -73,10 +73,10 @@ impl Scattered {
     /// Moves a row to a place before it.
     pub(super) fn moved(&mut self, from: usize, to: usize) {
         self.path[to] = self.path[from];
-        [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|lane| lane[to] = lane[from]);
-        [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|lane| lane[to] = lane[from]);
-        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|lane| lane[to] = lane[from]);
-        self.density[to] = self.density[from];
+        [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|component| component[to] = component[from]);
+        [&mut self.dx, &mut self.dy, &mut self.dz].into_iter().for_each(|component| component[to] = component[from]);
+        [&mut self.r, &mut self.g, &mut self.b].into_iter().for_each(|component| component[to] = component[from]);
+        self.pdf[to] = self.pdf[from];
     }
 }
 
@@ -87,7 +87,7 @@ pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
 
 /// The stage on offer.
 pub fn start_scattered_stage() -> Stage {
-    Stage::new("Start with nothing scattered", TileSystems::Start, start_scattered)
+    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered)
         .writes::<Scattered>()
         .when(followed_evidence)
 }

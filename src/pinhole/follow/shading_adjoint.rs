@@ -23,7 +23,7 @@ pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: D
 /// Weighs the rays from lights that mirrors, glass and metal send on by normals other than their own.
 ///
 /// Matte surfaces weigh theirs themselves.
-pub fn weigh_by_shading_normals(
+pub fn correct_for_shading_normals(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&WorldRays, &Surfaces, &ShadingNormals, &mut Scattered)>,
 ) {
@@ -40,14 +40,16 @@ pub fn weigh_by_shading_normals(
             };
             let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
             let more = shading_adjoint(own, by, -direction, DVec3::from(onward));
-            [&mut scattered.r, &mut scattered.g, &mut scattered.b].into_iter().for_each(|lane| lane[ray] *= more);
+            [&mut scattered.r, &mut scattered.g, &mut scattered.b]
+                .into_iter()
+                .for_each(|component| component[ray] *= more);
         }
     }
 }
 
 /// The stage on offer.
 pub fn shading_adjoint_stage() -> Stage {
-    Stage::new("Count light by surfaces' own normals", TileSystems::Roulette, weigh_by_shading_normals)
+    Stage::new("Correct for shading normals", TileSystems::Roulette, correct_for_shading_normals)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads::<WorldRays>()

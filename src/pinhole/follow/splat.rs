@@ -32,7 +32,7 @@ impl Splats {
 
 /// Leaves what lights send straight to surfaces that spread light to the camera's paths: on the first leg only mirrors and
 /// glass go on.
-pub fn keep_polished(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>)>) {
+pub fn keep_specular(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>)>) {
     for (mut list, metals) in &mut tiles {
         list.row.clear();
         if let Some(mut metals) = metals {
@@ -42,10 +42,10 @@ pub fn keep_polished(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>
 }
 
 /// The stage that leaves.
-pub fn keep_polished_stage() -> Stage {
-    Stage::new("Keep to mirrors and glass at first", TileSystems::Classify, keep_polished)
+pub fn keep_specular_stage() -> Stage {
+    Stage::new("Keep specular bounces first", TileSystems::Classify, keep_specular)
         .on_light_paths()
-        .on_first_leg()
+        .on_first_bounce()
         .kind(StageKind::Alternative)
         .reads::<MaterialRows>()
         .writes::<MaterialRows>()
@@ -83,7 +83,7 @@ pub fn splat_light(
 
 /// The stage that lists.
 pub fn splat_stage() -> Stage {
-    Stage::new("Splat light on the film", TileSystems::AddLeg, splat_light)
+    Stage::new("Splat to the film", TileSystems::AddBounce, splat_light)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads::<Paths>()

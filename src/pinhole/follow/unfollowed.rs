@@ -2,19 +2,19 @@
 
 use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
 use crate::plan::{Stage, Table, TileSystems};
-use crate::scene::{Glass, Metal, Mirror, Refusal, UsesMaterial};
+use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
 /// Checks that where light is followed, stages on offer do so at every mirror, glass and metal of the scene: a chapter
 /// offers the stages taught so far, and such matter would be black in its picture without a word.
 ///
 /// Errors: the first shape of such matter that no stage on offer sends light on from.
-pub fn check_matter_is_followed(scene: &World, offer: &[Stage]) -> Result<(), Refusal> {
+pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
     let unmet = |word: &'static str, table: &str, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
         let scatters =
-            |stage: &Stage| stage.set == TileSystems::Scatter && stage.tables.iter().any(|read| read.name == table);
-        let goes_on = |stage: &Stage| stage.set == TileSystems::Follow;
+            |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.iter().any(|read| read.name == table);
+        let goes_on = |stage: &Stage| stage.set == TileSystems::RemainingBounces;
         if offer.iter().any(scatters) && offer.iter().any(goes_on) {
             return Ok(());
         }
@@ -27,7 +27,7 @@ pub fn check_matter_is_followed(scene: &World, offer: &[Stage]) -> Result<(), Re
         };
         let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
         let accepted = "no stage on offer sends light on from it; offer follow::stages(), which do";
-        Err(Refusal::new(name, word, "given", accepted))
+        Err(SceneError::new(name, word, "given", accepted))
     };
     unmet("mirror", MirrorTable::NAME, &|entity| entity.contains::<Mirror>())?;
     unmet("glass", GlassTable::NAME, &|entity| entity.contains::<Glass>())?;

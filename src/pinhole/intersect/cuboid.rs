@@ -1,10 +1,10 @@
 use super::classify::CuboidRows;
-use super::narrow::narrow;
-use super::sphere::{LANES, RayBlock, Verdict, nearness, vector};
+use super::double_double_planar::double_double_cuboid_t;
+use super::keep_closest::keep_closest;
+use super::sphere::{Intersection, LANES, RayBlock, nearness, vector};
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::cuboid_uv;
-use super::wide_flat::wide_cuboid_t;
-use super::{HitColumn, Hits, RayColumn, RayLanes};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -77,10 +77,10 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
 }
 // ANCHOR_END: slab
 
-// ANCHOR: cuboid_verdict
+// ANCHOR: cuboid_intersection
 /// Where O + tR meets a cuboid, in f64: it is inside from where it has entered the last slab to where it leaves the first.
 #[inline(always)]
-pub fn cuboid_verdict(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Verdict {
+pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Intersection {
     let f = slabs.centre - origin;
     let [near_x, far_x] = slab(f, direction, slabs.normal[0], slabs.half[0]);
     let [near_y, far_y] = slab(f, direction, slabs.normal[1], slabs.half[1]);
@@ -95,17 +95,17 @@ pub fn cuboid_verdict(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Verdict
     let (t, open) =
         if from_outside { (enters.t, enters.most - enters.least) } else { (leaves.t, leaves.most - leaves.least) };
     let sure = surely_inside & (from_outside | from_inside) & (open <= SMALL * t);
-    Verdict { t: if surely_not { f64::INFINITY } else { t }, doubtful: !surely_not & !sure }
+    Intersection { t: if surely_not { f64::INFINITY } else { t }, uncertain: !surely_not & !sure }
 }
 
 /// The smallest t > 0 at which O + tR lies on a face of a cuboid, or infinity; right also where f64 alone would leave a
 /// doubt.
 #[inline(always)]
 pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
-    let verdict = cuboid_verdict(origin, direction, slabs);
-    if verdict.doubtful { wide_cuboid_t(origin, direction, slabs).0 } else { verdict.t }
+    let intersection = cuboid_intersection(origin, direction, slabs);
+    if intersection.uncertain { double_double_cuboid_t(origin, direction, slabs).0 } else { intersection.t }
 }
-// ANCHOR_END: cuboid_verdict
+// ANCHOR_END: cuboid_intersection
 
 /// The axis of the face that O + tR meets first; of several met at once, the first.
 pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
@@ -121,7 +121,7 @@ pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
         };
         before((axis + 1) % 3) && before((axis + 2) % 3)
     };
-    (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| wide_cuboid_t(origin, direction, slabs).1)
+    (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| double_double_cuboid_t(origin, direction, slabs).1)
 }
 
 /// The axis of the face that a point lies on or is nearest to, in halves of the cuboid.
@@ -173,14 +173,14 @@ pub fn intersect_cuboids<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        cuboid_rows(rays.ray_lanes(), &cuboids, t, shape);
+        let (t, shape) = hits.hit_components();
+        cuboid_rows(rays.ray_components(), &cuboids, t, shape);
     }
 }
 
 /// A cuboid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn cuboid_rows(rays: RayLanes<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: &mut [u32]) {
+fn cuboid_rows(rays: RayBlockMut<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -188,14 +188,15 @@ fn cuboid_rows(rays: RayLanes<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: 
         let block = RayBlock::of(rays, start, end);
         for (slabs, &number) in cuboids.slabs.iter().zip(&cuboids.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                let f = slabs.centre - vector(&block.o, lane);
-                *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], slabs.reach);
+            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
+                let f = slabs.centre - vector(&block.o, component);
+                *nearness_of_component =
+                    nearness(f, vector(&block.d, component), block.inverse[component], slabs.reach);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
-                let verdict = |origin, direction| cuboid_verdict(origin, direction, slabs);
-                let wide = |origin, direction| wide_cuboid_t(origin, direction, slabs).0;
-                narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+                let intersection = |origin, direction| cuboid_intersection(origin, direction, slabs);
+                let double_double = |origin, direction| double_double_cuboid_t(origin, direction, slabs).0;
+                keep_closest(&block, intersection, double_double, number, &mut t[start..end], &mut shape[start..end]);
             }
         }
         start = end;
@@ -246,7 +247,7 @@ pub fn cuboid_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn cuboid_surface_stage() -> Stage {
-    Stage::new("Describe cuboid surfaces", TileSystems::Surface, fill_cuboid_surfaces)
+    Stage::new("Compute surfaces: cuboids", TileSystems::Surface, fill_cuboid_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<CuboidRows>()

@@ -1,11 +1,11 @@
 use super::classify::DiskRows;
-use super::flat::{crossing, describe_flats};
-use super::narrow::narrow;
-use super::sphere::{LANES, RayBlock, Verdict};
+use super::double_double_planar::double_double_disk_t;
+use super::keep_closest::keep_closest;
+use super::planar::{crossing, describe_planar};
+use super::sphere::{Intersection, LANES, RayBlock};
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
-use super::wide_flat::wide_disk_t;
-use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{DiskTable, Flat, ShapeTable, moves_while_open};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Disk;
@@ -13,52 +13,52 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-// ANCHOR: disk_verdict
+// ANCHOR: disk_intersection
 /// Where O + tR meets a disk, in f64: where it crosses the plane, if the squares of the coordinates there sum to 1 at most.
 ///
 /// A point that rounding moved by e each way has |p|² off by 2√2|p|e + 2e² at most, and 2|p| ≤ 1 + |p|².
 #[inline(always)]
-pub fn disk_verdict(origin: DVec3, direction: DVec3, flat: &Flat) -> Verdict {
-    let crossing = crossing(origin, direction, flat);
+pub fn disk_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
+    let crossing = crossing(origin, direction, planar);
     let [x, z] = crossing.at;
     let square = x * x + z * z;
     let slack = 3.0 * crossing.error * (1.0 + square + crossing.error);
     let at_the_edge = (square - 1.0).abs() <= slack;
     let hits = (square <= 1.0) & (crossing.t > 0.0) & !crossing.surely_not;
-    Verdict {
+    Intersection {
         t: if hits { crossing.t } else { f64::INFINITY },
-        doubtful: !crossing.surely_not & (!crossing.sure | at_the_edge),
+        uncertain: !crossing.surely_not & (!crossing.sure | at_the_edge),
     }
 }
 
 /// The t > 0 at which O + tR meets a disk, or infinity; right also where f64 alone would leave a doubt.
 #[inline(always)]
-pub fn disk_t(origin: DVec3, direction: DVec3, flat: &Flat) -> f64 {
-    let verdict = disk_verdict(origin, direction, flat);
-    if verdict.doubtful { wide_disk_t(origin, direction, flat) } else { verdict.t }
+pub fn disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
+    let intersection = disk_intersection(origin, direction, planar);
+    if intersection.uncertain { double_double_disk_t(origin, direction, planar) } else { intersection.t }
 }
-// ANCHOR_END: disk_verdict
+// ANCHOR_END: disk_intersection
 
 /// Narrows hits by all disks, for any column of rays.
 pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>, mut tiles: Query<(&R, &mut H)>) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        disk_rows(rays.ray_lanes(), &disks, t, shape);
+        let (t, shape) = hits.hit_components();
+        disk_rows(rays.ray_components(), &disks, t, shape);
     }
 }
 
 /// A disk at a time over all rays, so that the arithmetic of many rays is done at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn disk_rows(rays: RayLanes<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
+fn disk_rows(rays: RayBlockMut<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
-        for (flat, &number) in disks.flat.iter().zip(&disks.shape) {
-            let verdict = |origin, direction| disk_verdict(origin, direction, flat);
-            let wide = |origin, direction| wide_disk_t(origin, direction, flat);
-            narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+        for (planar, &number) in disks.planar.iter().zip(&disks.shape) {
+            let intersection = |origin, direction| disk_intersection(origin, direction, planar);
+            let double_double = |origin, direction| double_double_disk_t(origin, direction, planar);
+            keep_closest(&block, intersection, double_double, number, &mut t[start..end], &mut shape[start..end]);
         }
         start = end;
     }
@@ -71,9 +71,9 @@ pub fn fill_disk_surfaces(
     mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>, Option<&mut SurfaceSides>)>,
 ) {
     for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
-        let flat_of = |shape: u32| &disks.flat[shapes.row[shape as usize] as usize];
+        let planar_of = |shape: u32| &disks.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
@@ -89,7 +89,7 @@ pub fn disk_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn disk_surface_stage() -> Stage {
-    Stage::new("Describe disk surfaces", TileSystems::Surface, fill_disk_surfaces)
+    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<DiskRows>()

@@ -1,9 +1,9 @@
 use super::classify::EllipsoidRows;
-use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
+use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t};
+use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::sphere_uv;
-use super::wide::{wide_ellipsoid_point, wide_ellipsoid_t};
-use super::{HitColumn, Hits, RayColumn, RayLanes};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{
     Ellipsoid, EllipsoidTable, ShapeTable, direction_object_from_world, normal_world_from_object,
     point_object_from_world, unevenly_scaled,
@@ -18,14 +18,14 @@ use multiversion::multiversion;
 /// 2⁻⁵³, the rounding unit of f64.
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
 
-// ANCHOR: ellipsoid_verdict
+// ANCHOR: ellipsoid_intersection
 /// Where O + tR meets an ellipsoid, in f64: the ray is taken to the space where the ellipsoid is the unit sphere.
 ///
 /// p = A (O − C) and q = A R are transformed as a point and as a direction are, and q keeps the length that A gives it:
 /// then p + tq is A (O + tR − C) for the same t.
 /// The discriminant is 1 − |p − (p·q / q·q) q|², the part of p across the ray, as a sphere's is.
 #[inline(always)]
-pub fn ellipsoid_verdict(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> Verdict {
+pub fn ellipsoid_intersection(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> Intersection {
     let p = point_object_from_world(ellipsoid.unit_from_world, ellipsoid.centre, origin);
     let q = direction_object_from_world(ellipsoid.unit_from_world, direction);
     let (qq, pp) = (q.dot(q), p.dot(p));
@@ -47,7 +47,7 @@ pub fn ellipsoid_verdict(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid)
     let unsure_of_hit = (error_of_c >= 0.5 * UNIT_ROUNDOFF * c.abs())
         | (error_of_discriminant >= UNIT_ROUNDOFF * qq * root * half_chord);
     let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error_of_discriminant } else { c <= error_of_c };
-    Verdict { t, doubtful: if misses { unsure_of_miss } else { unsure_of_hit } }
+    Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }
 }
 
 /// How far rounding can have moved p + sq, in the space of the unit sphere; and what sums of about 1 lose.
@@ -67,10 +67,10 @@ fn mapping_error(ellipsoid: &Ellipsoid, origin: DVec3, s: f64, direction: DVec3)
 /// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity; right also where f64 alone would leave a doubt.
 #[inline(always)]
 pub fn ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
-    let verdict = ellipsoid_verdict(origin, direction, ellipsoid);
-    if verdict.doubtful { wide_ellipsoid_t(origin, direction, ellipsoid) } else { verdict.t }
+    let intersection = ellipsoid_intersection(origin, direction, ellipsoid);
+    if intersection.uncertain { double_double_ellipsoid_t(origin, direction, ellipsoid) } else { intersection.t }
 }
-// ANCHOR_END: ellipsoid_verdict
+// ANCHOR_END: ellipsoid_intersection
 
 /// Narrows hits by all ellipsoids, for any column of rays.
 pub fn intersect_ellipsoids<R: RayColumn, H: HitColumn>(
@@ -78,14 +78,14 @@ pub fn intersect_ellipsoids<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        ellipsoid_rows(rays.ray_lanes(), &ellipsoids, t, shape);
+        let (t, shape) = hits.hit_components();
+        ellipsoid_rows(rays.ray_components(), &ellipsoids, t, shape);
     }
 }
 
 /// An ellipsoid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn ellipsoid_rows(rays: RayLanes<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64], shape: &mut [u32]) {
+fn ellipsoid_rows(rays: RayBlockMut<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -93,12 +93,12 @@ fn ellipsoid_rows(rays: RayLanes<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64]
         let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
         for (ellipsoid, &number) in ellipsoids.ellipsoid.iter().zip(&ellipsoids.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                let f = ellipsoid.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], ellipsoid.reach);
+            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
+                let f = ellipsoid.centre - vector(&o, component);
+                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], ellipsoid.reach);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
-                narrow(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);
+                keep_closest(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);
             }
         }
         start = end;
@@ -106,7 +106,7 @@ fn ellipsoid_rows(rays: RayLanes<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64]
 }
 
 #[inline(always)]
-fn narrow(
+fn keep_closest(
     o: &[[f64; LANES]; 3],
     d: &[[f64; LANES]; 3],
     ellipsoid: &Ellipsoid,
@@ -114,17 +114,17 @@ fn narrow(
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
-    for lane in 0..LANES {
-        let verdict = ellipsoid_verdict(vector(o, lane), vector(d, lane), ellipsoid);
-        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
+    let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
+    for component in 0..LANES {
+        let intersection = ellipsoid_intersection(vector(o, component), vector(d, component), ellipsoid);
+        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
     }
-    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if doubtful[lane] {
-            found[lane] = wide_ellipsoid_t(vector(o, lane), vector(d, lane), ellipsoid);
+    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[component] {
+            found[component] = double_double_ellipsoid_t(vector(o, component), vector(d, component), ellipsoid);
         }
-        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
-            (*t, *shape) = (found[lane], number);
+        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
+            (*t, *shape) = (found[component], number);
         }
     }
 }
@@ -160,7 +160,7 @@ pub fn ellipsoid_surface(
     let mut across = normal_world_from_object(map, g);
     let mut error = mapping_error(ellipsoid, origin, t, direction);
     if error * ellipsoid.norm >= UNIT_ROUNDOFF * across.length() {
-        let (further, exact) = wide_ellipsoid_point(origin, direction, t, ellipsoid);
+        let (further, exact) = double_double_ellipsoid_point(origin, direction, t, ellipsoid);
         point += further * direction;
         (g, error) = (exact, 8.0 * EPSILON);
         across = normal_world_from_object(map, g);
@@ -224,7 +224,7 @@ pub fn ellipsoid_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn ellipsoid_surface_stage() -> Stage {
-    Stage::new("Describe ellipsoid surfaces", TileSystems::Surface, fill_ellipsoid_surfaces)
+    Stage::new("Compute surfaces: ellipsoids", TileSystems::Surface, fill_ellipsoid_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<EllipsoidRows>()
@@ -289,7 +289,7 @@ mod tests {
         let long = Ellipsoid::new(DVec3::new(0.0, 3e9, -4e9), DMat3::from_diagonal(DVec3::new(1.0, 1e-4, 1.0)), 1e4);
         let direction = DVec3::new(0.0, 0.6, -0.8);
         let t = ellipsoid_t(DVec3::ZERO, direction, &long);
-        let (_, g) = wide_ellipsoid_point(DVec3::ZERO, direction, t, &long);
+        let (_, g) = double_double_ellipsoid_point(DVec3::ZERO, direction, t, &long);
         assert!((g.length() - 1.0).abs() < 1e-15, "{g}");
     }
 }

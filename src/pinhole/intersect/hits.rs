@@ -32,7 +32,7 @@ impl Hits {
 
 /// The lanes of a ray column as the kernels of shapes read them, all of one length.
 #[derive(Clone, Copy)]
-pub struct RayLanes<'a> {
+pub struct RayBlockMut<'a> {
     /// Origin: x, y, z.
     pub origin: [&'a [f32]; 3],
     /// Direction, a unit vector to within f32: x, y, z.
@@ -42,10 +42,10 @@ pub struct RayLanes<'a> {
 /// A column of rays; every shape's kernel runs over any of them.
 pub trait RayColumn: Column {
     /// The lanes that are a ray.
-    fn ray_lanes(&self) -> RayLanes<'_>;
+    fn ray_components(&self) -> RayBlockMut<'_>;
 
     /// The row of the tile's rays with which each of these is on its way; none where they are those themselves.
-    fn path_lane(&self) -> Option<&[u32]> {
+    fn path_component(&self) -> Option<&[u32]> {
         None
     }
 }
@@ -53,18 +53,18 @@ pub trait RayColumn: Column {
 /// A column of hits that kernels narrow: a shape is met only before the distance that the row already holds.
 pub trait HitColumn: Column {
     /// Distances and shape numbers, as many as there are rays.
-    fn hit_lanes(&mut self) -> (&mut [f64], &mut [u32]);
+    fn hit_components(&mut self) -> (&mut [f64], &mut [u32]);
 }
 
 impl RayColumn for WorldRays {
-    fn ray_lanes(&self) -> RayLanes<'_> {
+    fn ray_components(&self) -> RayBlockMut<'_> {
         let (ox, oy, oz, dx, dy, dz) = self.slices();
-        RayLanes { origin: [ox, oy, oz], direction: [dx, dy, dz] }
+        RayBlockMut { origin: [ox, oy, oz], direction: [dx, dy, dz] }
     }
 }
 
 impl HitColumn for Hits {
-    fn hit_lanes(&mut self) -> (&mut [f64], &mut [u32]) {
+    fn hit_components(&mut self) -> (&mut [f64], &mut [u32]) {
         let rows = self.rows();
         self.slices_mut(rows)
     }
@@ -81,10 +81,7 @@ pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits)>) {
 
 /// The stage on offer.
 pub fn start_stage() -> Stage {
-    Stage::new("Start with nothing met", TileSystems::Start, start_hits)
-        .reads::<WorldRays>()
-        .writes::<Hits>()
-        .when(shape_evidence)
+    Stage::new("Clear hits", TileSystems::Start, start_hits).reads::<WorldRays>().writes::<Hits>().when(shape_evidence)
 }
 
 /// Evidence that the scene holds a shape of any kind.

@@ -8,11 +8,13 @@
 mod classify;
 mod cuboid;
 mod disk;
+mod double_double;
+mod double_double_planar;
 mod ellipsoid;
-mod flat;
 mod hits;
+mod keep_closest;
 mod moving;
-mod narrow;
+mod planar;
 mod plane;
 mod rectangle;
 mod shading_normal;
@@ -22,45 +24,45 @@ mod triangle;
 mod triangle_exact;
 mod triangle_surface;
 mod uv;
-mod wide;
-mod wide_flat;
 
 pub use classify::{
     CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows,
     TriangleRows, classify_hits, classify_stage,
 };
 pub use cuboid::{
-    cuboid_evidence, cuboid_face, cuboid_stage, cuboid_surface, cuboid_surface_stage, cuboid_t, cuboid_verdict,
+    cuboid_evidence, cuboid_face, cuboid_intersection, cuboid_stage, cuboid_surface, cuboid_surface_stage, cuboid_t,
     face_of_point, intersect_cuboids,
 };
-pub use disk::{disk_evidence, disk_stage, disk_surface_stage, disk_t, disk_verdict, intersect_disks};
+pub use disk::{disk_evidence, disk_intersection, disk_stage, disk_surface_stage, disk_t, intersect_disks};
+pub use double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t, double_double_sphere_t};
+pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
 pub use ellipsoid::{
-    ellipsoid_evidence, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage, ellipsoid_t, ellipsoid_verdict,
-    intersect_ellipsoids,
+    ellipsoid_evidence, ellipsoid_intersection, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage,
+    ellipsoid_t, intersect_ellipsoids,
 };
-pub use flat::{Crossing, crossing};
-pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes, shape_evidence, start_hits, start_stage};
+pub use hits::{HitColumn, Hits, NO_SHAPE, RayBlockMut, RayColumn, shape_evidence, start_hits, start_stage};
 pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
+pub use planar::{Crossing, crossing};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
 pub use rectangle::{
-    intersect_rectangles, rectangle_evidence, rectangle_stage, rectangle_surface_stage, rectangle_t, rectangle_verdict,
+    intersect_rectangles, rectangle_evidence, rectangle_intersection, rectangle_stage, rectangle_surface_stage,
+    rectangle_t,
 };
 pub use shading_normal::{
     ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
 };
 pub use sphere::{
-    Verdict, intersect_spheres, nearness, sphere_evidence, sphere_stage, sphere_surface_stage, sphere_t, sphere_verdict,
+    Intersection, intersect_spheres, nearness, sphere_evidence, sphere_intersection, sphere_stage,
+    sphere_surface_stage, sphere_t,
 };
 pub use surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
 pub use triangle::{
-    Edges, Shear, edges, intersect_triangles, longest_axis, triangle_evidence, triangle_stage, triangle_t,
-    triangle_verdict,
+    Edges, Shear, edges, intersect_triangles, longest_axis, triangle_evidence, triangle_intersection, triangle_stage,
+    triangle_t,
 };
 pub use triangle_exact::exact_triangle_t;
 pub use triangle_surface::{Meeting, triangle_surface, triangle_surface_stage};
-pub use uv::{cuboid_uv, flat_uv, sphere_uv};
-pub use wide::{wide_ellipsoid_point, wide_ellipsoid_t, wide_sphere_t};
-pub use wide_flat::{wide_cuboid_t, wide_disk_t, wide_rectangle_t};
+pub use uv::{cuboid_uv, planar_uv, sphere_uv};
 
 use crate::plan::Stage;
 

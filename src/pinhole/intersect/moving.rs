@@ -1,11 +1,11 @@
-use super::disk::disk_verdict;
-use super::narrow::narrow;
-use super::rectangle::rectangle_verdict;
-use super::sphere::{LANES, RayBlock, sphere_verdict, vector};
+use super::disk::disk_intersection;
+use super::double_double::double_double_sphere_t;
+use super::double_double_planar::{double_double_disk_t, double_double_rectangle_t};
+use super::keep_closest::keep_closest;
+use super::rectangle::rectangle_intersection;
+use super::sphere::{LANES, RayBlock, sphere_intersection, vector};
 use super::surface::{Surface, SurfaceSides, Surfaces, offset_bound, sum_of_parts};
-use super::wide::wide_sphere_t;
-use super::wide_flat::{wide_disk_t, wide_rectangle_t};
-use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RayLanes};
+use super::{HitColumn, Hits, NO_SHAPE, RayBlockMut, RayColumn};
 use crate::extract::{Body, MovingTable, ShapeKind, ShapeTable, moving_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
@@ -30,15 +30,15 @@ pub fn intersect_moving<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &RayTimes, &mut H)>,
 ) {
     for (rays, times, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        moving_rows(rays.ray_lanes(), (&times.time, rays.path_lane()), &moving, t, shape);
+        let (t, shape) = hits.hit_components();
+        moving_rows(rays.ray_components(), (&times.time, rays.path_component()), &moving, t, shape);
     }
 }
 
 /// A shape at a time over all rays, so that the arithmetic of many rays is done at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn moving_rows(
-    rays: RayLanes<'_>,
+    rays: RayBlockMut<'_>,
     (times_of_paths, path): (&[f64], Option<&[u32]>),
     moving: &MovingTable,
     t: &mut [f64],
@@ -50,37 +50,37 @@ fn moving_rows(
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
         let mut times = [0.0; LANES];
-        for (lane, row) in (start..end).enumerate() {
-            times[lane] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
+        for (component, row) in (start..end).enumerate() {
+            times[component] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
         }
         let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
             let mut own = RayBlock { o: block.o, d: block.d, inverse: block.inverse };
-            for (lane, &time) in times.iter().enumerate() {
-                let origin = at_rest(vector(&own.o, lane), *velocity, time);
-                (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
+            for (component, &time) in times.iter().enumerate() {
+                let origin = at_rest(vector(&own.o, component), *velocity, time);
+                (own.o[0][component], own.o[1][component], own.o[2][component]) = origin.into();
             }
             match body {
-                &Body::Sphere { centre, radius } => narrow(
+                &Body::Sphere { centre, radius } => keep_closest(
                     &own,
-                    |origin, direction| sphere_verdict(centre - origin, direction, radius),
-                    |origin, direction| wide_sphere_t(origin, direction, centre, radius),
+                    |origin, direction| sphere_intersection(centre - origin, direction, radius),
+                    |origin, direction| double_double_sphere_t(origin, direction, centre, radius),
                     number,
                     t,
                     shape,
                 ),
-                Body::Disk(flat) => narrow(
+                Body::Disk(planar) => keep_closest(
                     &own,
-                    |origin, direction| disk_verdict(origin, direction, flat),
-                    |origin, direction| wide_disk_t(origin, direction, flat),
+                    |origin, direction| disk_intersection(origin, direction, planar),
+                    |origin, direction| double_double_disk_t(origin, direction, planar),
                     number,
                     t,
                     shape,
                 ),
-                Body::Rectangle(flat) => narrow(
+                Body::Rectangle(planar) => keep_closest(
                     &own,
-                    |origin, direction| rectangle_verdict(origin, direction, flat),
-                    |origin, direction| wide_rectangle_t(origin, direction, flat),
+                    |origin, direction| rectangle_intersection(origin, direction, planar),
+                    |origin, direction| double_double_rectangle_t(origin, direction, planar),
                     number,
                     t,
                     shape,
@@ -109,7 +109,7 @@ pub fn fill_moving_surfaces(
                 Body::Sphere { centre, radius } => {
                     ((point - way - *centre).try_normalize().unwrap_or(-direction), sum_of_parts(*centre) + radius)
                 }
-                Body::Disk(flat) | Body::Rectangle(flat) => (flat.normal, sum_of_parts(flat.centre)),
+                Body::Disk(planar) | Body::Rectangle(planar) => (planar.normal, sum_of_parts(planar.centre)),
             };
             let bound = offset_bound(point, origin, size + sum_of_parts(way));
             let surface = Surface::facing(direction, point, normal, bound, shapes.material[shape]);
@@ -134,7 +134,7 @@ pub fn moving_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn moving_surface_stage() -> Stage {
-    Stage::new("Describe moving surfaces", TileSystems::Surface, fill_moving_surfaces)
+    Stage::new("Compute surfaces: moving shapes", TileSystems::Surface, fill_moving_surfaces)
         .reads::<WorldRays>()
         .reads::<RayTimes>()
         .reads::<Hits>()

@@ -1,6 +1,6 @@
 use super::classify::PlaneRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
-use super::{HitColumn, Hits, RayColumn, RayLanes};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -23,16 +23,16 @@ pub fn plane_t(origin: DVec3, direction: DVec3, normal: DVec3, offset: f64) -> f
 /// Narrows hits by all planes, for any column of rays.
 pub fn intersect_planes<R: RayColumn, H: HitColumn>(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&R, &mut H)>) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        plane_rows(rays.ray_lanes(), &planes, t, shape);
+        let (t, shape) = hits.hit_components();
+        plane_rows(rays.ray_components(), &planes, t, shape);
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn plane_rows(rays: RayLanes<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mut [u32]) {
+fn plane_rows(rays: RayBlockMut<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
-    let [ox, oy, oz] = rays.origin.map(|lane| &lane[..rows]);
-    let [dx, dy, dz] = rays.direction.map(|lane| &lane[..rows]);
+    let [ox, oy, oz] = rays.origin.map(|component| &component[..rows]);
+    let [dx, dy, dz] = rays.direction.map(|component| &component[..rows]);
     let shape = &mut shape[..rows];
     for plane in 0..planes.normal.len() {
         let (normal, offset, number) = (planes.normal[plane], planes.offset[plane], planes.shape[plane]);
@@ -100,7 +100,7 @@ pub fn plane_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn plane_surface_stage() -> Stage {
-    Stage::new("Describe plane surfaces", TileSystems::Surface, fill_plane_surfaces)
+    Stage::new("Compute surfaces: planes", TileSystems::Surface, fill_plane_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<PlaneRows>()

@@ -1,11 +1,11 @@
 use super::classify::RectangleRows;
-use super::flat::{crossing, describe_flats};
-use super::narrow::narrow;
-use super::sphere::{LANES, RayBlock, Verdict};
+use super::double_double_planar::double_double_rectangle_t;
+use super::keep_closest::keep_closest;
+use super::planar::{crossing, describe_planar};
+use super::sphere::{Intersection, LANES, RayBlock};
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
-use super::wide_flat::wide_rectangle_t;
-use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{Flat, RectangleTable, ShapeTable, moves_while_open};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use crate::extract::{Planar, RectangleTable, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Rectangle;
@@ -15,23 +15,23 @@ use multiversion::multiversion;
 
 /// Where O + tR meets a rectangle, in f64: where it crosses the plane, if both coordinates there lie from −1 to 1.
 #[inline(always)]
-pub fn rectangle_verdict(origin: DVec3, direction: DVec3, flat: &Flat) -> Verdict {
-    let crossing = crossing(origin, direction, flat);
+pub fn rectangle_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
+    let crossing = crossing(origin, direction, planar);
     let [x, z] = crossing.at.map(f64::abs);
     let farther = if x > z { x } else { z };
     let at_the_edge = (farther - 1.0).abs() <= crossing.error;
     let hits = (x <= 1.0) & (z <= 1.0) & (crossing.t > 0.0) & !crossing.surely_not;
-    Verdict {
+    Intersection {
         t: if hits { crossing.t } else { f64::INFINITY },
-        doubtful: !crossing.surely_not & (!crossing.sure | at_the_edge),
+        uncertain: !crossing.surely_not & (!crossing.sure | at_the_edge),
     }
 }
 
 /// The t > 0 at which O + tR meets a rectangle, or infinity; right also where f64 alone would leave a doubt.
 #[inline(always)]
-pub fn rectangle_t(origin: DVec3, direction: DVec3, flat: &Flat) -> f64 {
-    let verdict = rectangle_verdict(origin, direction, flat);
-    if verdict.doubtful { wide_rectangle_t(origin, direction, flat) } else { verdict.t }
+pub fn rectangle_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
+    let intersection = rectangle_intersection(origin, direction, planar);
+    if intersection.uncertain { double_double_rectangle_t(origin, direction, planar) } else { intersection.t }
 }
 
 /// Narrows hits by all rectangles, for any column of rays.
@@ -40,23 +40,23 @@ pub fn intersect_rectangles<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        rectangle_rows(rays.ray_lanes(), &rectangles, t, shape);
+        let (t, shape) = hits.hit_components();
+        rectangle_rows(rays.ray_components(), &rectangles, t, shape);
     }
 }
 
 /// A rectangle at a time over all rays, so that the arithmetic of many rays is done at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn rectangle_rows(rays: RayLanes<'_>, rectangles: &RectangleTable, t: &mut [f64], shape: &mut [u32]) {
+fn rectangle_rows(rays: RayBlockMut<'_>, rectangles: &RectangleTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
-        for (flat, &number) in rectangles.flat.iter().zip(&rectangles.shape) {
-            let verdict = |origin, direction| rectangle_verdict(origin, direction, flat);
-            let wide = |origin, direction| wide_rectangle_t(origin, direction, flat);
-            narrow(&block, verdict, wide, number, &mut t[start..end], &mut shape[start..end]);
+        for (planar, &number) in rectangles.planar.iter().zip(&rectangles.shape) {
+            let intersection = |origin, direction| rectangle_intersection(origin, direction, planar);
+            let double_double = |origin, direction| double_double_rectangle_t(origin, direction, planar);
+            keep_closest(&block, intersection, double_double, number, &mut t[start..end], &mut shape[start..end]);
         }
         start = end;
     }
@@ -76,9 +76,9 @@ pub fn fill_rectangle_surfaces(
     )>,
 ) {
     for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
-        let flat_of = |shape: u32| &rectangles.flat[shapes.row[shape as usize] as usize];
+        let planar_of = |shape: u32| &rectangles.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_flats(flat_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
@@ -94,7 +94,7 @@ pub fn rectangle_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn rectangle_surface_stage() -> Stage {
-    Stage::new("Describe rectangle surfaces", TileSystems::Surface, fill_rectangle_surfaces)
+    Stage::new("Compute surfaces: rectangles", TileSystems::Surface, fill_rectangle_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<RectangleRows>()

@@ -1,8 +1,8 @@
 use super::classify::SphereRows;
+use super::double_double::double_double_sphere_t;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
 use super::uv::sphere_uv;
-use super::wide::wide_sphere_t;
-use super::{HitColumn, Hits, RayColumn, RayLanes};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -18,21 +18,21 @@ pub(super) const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
 /// What the quick method says of a ray and a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verdict {
+pub struct Intersection {
     /// The smallest t > 0 at which they meet, or infinity.
     pub t: f64,
     /// Whether rounding could have changed whether they meet, or t by more than 2⁻²⁴ of itself.
-    pub doubtful: bool,
+    pub uncertain: bool,
 }
 
-// ANCHOR: sphere_verdict
+// ANCHOR: sphere_intersection
 /// Where O + tR meets a sphere, f = C − O, in f64.
 ///
 /// The discriminant is taken from the part of f across the ray, r² − |f − sR|², so that nothing of the size of the
 /// distance is squared and cancelled (Haines et al., *Ray Tracing Gems* ch. 7).
 /// The nearer root is taken as c / (R·R (s + h)), c = f·f − r², where s − h would cancel.
 #[inline(always)]
-pub fn sphere_verdict(f: DVec3, direction: DVec3, radius: f64) -> Verdict {
+pub fn sphere_intersection(f: DVec3, direction: DVec3, radius: f64) -> Intersection {
     let (dd, ff, rr) = (direction.dot(direction), f.dot(f), radius * radius);
     let s = f.dot(direction) / dd;
     let across = f - s * direction;
@@ -49,7 +49,7 @@ pub fn sphere_verdict(f: DVec3, direction: DVec3, radius: f64) -> Verdict {
     let error = discriminant_error(ff, rr, ll);
     let unsure_of_hit = (error >= c.abs()) | (error >= UNIT_ROUNDOFF * dd * root * half_chord);
     let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error } else { c <= error };
-    Verdict { t, doubtful: if misses { unsure_of_miss } else { unsure_of_hit } }
+    Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }
 }
 
 /// How far rounding can have moved the discriminant.
@@ -65,10 +65,10 @@ fn discriminant_error(ff: f64, rr: f64, ll: f64) -> f64 {
 /// The smallest t > 0 at which O + tR lies on a sphere, or infinity; right also where f64 alone would leave a doubt.
 #[inline(always)]
 pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> f64 {
-    let verdict = sphere_verdict(centre - origin, direction, radius);
-    if verdict.doubtful { wide_sphere_t(origin, direction, centre, radius) } else { verdict.t }
+    let intersection = sphere_intersection(centre - origin, direction, radius);
+    if intersection.uncertain { double_double_sphere_t(origin, direction, centre, radius) } else { intersection.t }
 }
-// ANCHOR_END: sphere_verdict
+// ANCHOR_END: sphere_intersection
 
 /// At least 0 where a ray may meet the sphere or be in doubt, below 0 where it passes by for certain.
 ///
@@ -87,14 +87,14 @@ pub fn intersect_spheres<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        sphere_rows(rays.ray_lanes(), &spheres, t, shape);
+        let (t, shape) = hits.hit_components();
+        sphere_rows(rays.ray_components(), &spheres, t, shape);
     }
 }
 
 /// A sphere at a time over all rays, so that the arithmetic of many rays is done at once.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: &mut [u32]) {
+fn sphere_rows(rays: RayBlockMut<'_>, spheres: &SphereTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -103,12 +103,13 @@ fn sphere_rows(rays: RayLanes<'_>, spheres: &SphereTable, t: &mut [f64], shape: 
         for sphere in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                *nearness_of_lane = nearness(centre - vector(&o, lane), vector(&d, lane), inverse[lane], radius);
+            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
+                *nearness_of_component =
+                    nearness(centre - vector(&o, component), vector(&d, component), inverse[component], radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
-                narrow(&o, &d, centre, radius, spheres.shape[sphere], t, shape);
+                keep_closest(&o, &d, centre, radius, spheres.shape[sphere], t, shape);
             }
         }
         start = end;
@@ -124,26 +125,30 @@ pub(super) struct RayBlock {
 
 impl RayBlock {
     #[inline(always)]
-    pub fn of(rays: RayLanes<'_>, start: usize, end: usize) -> Self {
-        let [ox, oy, oz] = rays.origin.map(|lane| &lane[..end]);
-        let [dx, dy, dz] = rays.direction.map(|lane| &lane[..end]);
+    pub fn of(rays: RayBlockMut<'_>, start: usize, end: usize) -> Self {
+        let [ox, oy, oz] = rays.origin.map(|component| &component[..end]);
+        let [dx, dy, dz] = rays.direction.map(|component| &component[..end]);
         let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, row) in (start..end).enumerate() {
-            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+        for (component, row) in (start..end).enumerate() {
+            (o[0][component], o[1][component], o[2][component]) =
+                (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            (d[0][component], d[1][component], d[2][component]) =
+                (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
         Self::measured(o, d)
     }
 
     /// The rays of some rows, at most as many as there are lanes.
     #[inline(always)]
-    pub fn of_rows(rays: RayLanes<'_>, rows: &[u32]) -> Self {
+    pub fn of_rows(rays: RayBlockMut<'_>, rows: &[u32]) -> Self {
         let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
         let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (lane, &row) in rows.iter().enumerate() {
+        for (component, &row) in rows.iter().enumerate() {
             let row = row as usize;
-            (o[0][lane], o[1][lane], o[2][lane]) = (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][lane], d[1][lane], d[2][lane]) = (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
+            (o[0][component], o[1][component], o[2][component]) =
+                (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
+            (d[0][component], d[1][component], d[2][component]) =
+                (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
         }
         Self::measured(o, d)
     }
@@ -151,8 +156,8 @@ impl RayBlock {
     #[inline(always)]
     fn measured(o: [[f64; LANES]; 3], d: [[f64; LANES]; 3]) -> Self {
         let mut inverse = [1.0_f64; LANES];
-        for (lane, inverse) in inverse.iter_mut().enumerate() {
-            *inverse = 1.0 / vector(&d, lane).dot(vector(&d, lane));
+        for (component, inverse) in inverse.iter_mut().enumerate() {
+            *inverse = 1.0 / vector(&d, component).dot(vector(&d, component));
         }
         Self { o, d, inverse }
     }
@@ -160,12 +165,12 @@ impl RayBlock {
 
 /// Three lanes' numbers as a vector.
 #[inline(always)]
-pub(super) fn vector(lanes: &[[f64; LANES]; 3], lane: usize) -> DVec3 {
-    DVec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
+pub(super) fn vector(components: &[[f64; LANES]; 3], component: usize) -> DVec3 {
+    DVec3::new(components[0][component], components[1][component], components[2][component])
 }
 
 #[inline(always)]
-fn narrow(
+fn keep_closest(
     o: &[[f64; LANES]; 3],
     d: &[[f64; LANES]; 3],
     centre: DVec3,
@@ -174,17 +179,17 @@ fn narrow(
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let (mut found, mut doubtful) = ([f64::INFINITY; LANES], [false; LANES]);
-    for lane in 0..LANES {
-        let verdict = sphere_verdict(centre - vector(o, lane), vector(d, lane), radius);
-        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
+    let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
+    for component in 0..LANES {
+        let intersection = sphere_intersection(centre - vector(o, component), vector(d, component), radius);
+        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
     }
-    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if doubtful[lane] {
-            found[lane] = wide_sphere_t(vector(o, lane), vector(d, lane), centre, radius);
+    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[component] {
+            found[component] = double_double_sphere_t(vector(o, component), vector(d, component), centre, radius);
         }
-        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
-            (*t, *shape) = (found[lane], number);
+        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
+            (*t, *shape) = (found[component], number);
         }
     }
 }
@@ -247,7 +252,7 @@ pub fn sphere_stage() -> Stage {
 
 /// The stage that fills surfaces.
 pub fn sphere_surface_stage() -> Stage {
-    Stage::new("Describe sphere surfaces", TileSystems::Surface, fill_sphere_surfaces)
+    Stage::new("Compute surfaces: spheres", TileSystems::Surface, fill_sphere_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<SphereRows>()

@@ -1,7 +1,7 @@
-use super::sphere::{LANES, RayBlock, UNIT_ROUNDOFF, Verdict, nearness, vector};
+use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
 use super::triangle_exact::exact_triangle_t;
-use super::{HitColumn, Hits, RayColumn, RayLanes};
-use crate::extract::{Facet, TriangleTable};
+use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use crate::extract::{TriangleRow, TriangleTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
@@ -71,7 +71,7 @@ pub struct Edges {
 /// m is the sum of the six sheared lengths.
 /// Two triangles with two corners in common reckon with the same numbers there, so that no ray slips between.
 #[inline(always)]
-pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_size: f64) -> Edges {
+pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Edges {
     const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
     let seen = |corner: DVec3| {
         let [x, y, z] = turned::<Z>(corner - origin);
@@ -86,7 +86,7 @@ pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_siz
 }
 // ANCHOR_END: edges
 
-// ANCHOR: triangle_verdict
+// ANCHOR: triangle_intersection
 /// Where O + tR meets a triangle.
 ///
 /// It does where the three areas have one sign, 0 counted with either; their sum is the whole area as the ray sees it, and
@@ -94,7 +94,7 @@ pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_siz
 /// In doubt are areas that rounding could have given their sign, and a t that it could have moved by 2⁻²⁵ of itself or
 /// across 0.
 #[inline(always)]
-pub fn verdict<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_size: f64) -> Verdict {
+pub fn intersection<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Intersection {
     let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, facet, ray_size);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let misses = (least < -error) & (most > error);
@@ -106,25 +106,25 @@ pub fn verdict<const Z: usize>(origin: DVec3, shear: Shear, facet: &Facet, ray_s
     let unsure = (sum_error >= 0.25 * UNIT_ROUNDOFF * sum.abs()) | (4.0 * error >= 0.25 * UNIT_ROUNDOFF * whole.abs());
     let behind = (t <= 0.0) & (sum.abs() > sum_error);
     // A ray that is none has no error that is a number.
-    let doubtful = !misses & !(inside & (behind | !unsure)) & (error < f64::INFINITY);
-    Verdict { t: if inside & (t > 0.0) { t } else { f64::INFINITY }, doubtful }
+    let uncertain = !misses & !(inside & (behind | !unsure)) & (error < f64::INFINITY);
+    Intersection { t: if inside & (t > 0.0) { t } else { f64::INFINITY }, uncertain }
 }
-// ANCHOR_END: triangle_verdict
+// ANCHOR_END: triangle_intersection
 
 /// What f64 says of a ray and a triangle.
-pub fn triangle_verdict(origin: DVec3, direction: DVec3, facet: &Facet) -> Verdict {
+pub fn triangle_intersection(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Intersection {
     let size = origin.abs().element_sum();
     match longest_axis(direction) {
-        0 => verdict::<0>(origin, Shear::along::<0>(direction), facet, size),
-        1 => verdict::<1>(origin, Shear::along::<1>(direction), facet, size),
-        _ => verdict::<2>(origin, Shear::along::<2>(direction), facet, size),
+        0 => intersection::<0>(origin, Shear::along::<0>(direction), facet, size),
+        1 => intersection::<1>(origin, Shear::along::<1>(direction), facet, size),
+        _ => intersection::<2>(origin, Shear::along::<2>(direction), facet, size),
     }
 }
 
 /// The t > 0 at which O + tR meets a triangle, or infinity; exact arithmetic judges where f64 alone would leave a doubt.
-pub fn triangle_t(origin: DVec3, direction: DVec3, facet: &Facet) -> f64 {
-    let verdict = triangle_verdict(origin, direction, facet);
-    if verdict.doubtful { exact_triangle_t(origin, direction, facet) } else { verdict.t }
+pub fn triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
+    let intersection = triangle_intersection(origin, direction, facet);
+    if intersection.uncertain { exact_triangle_t(origin, direction, facet) } else { intersection.t }
 }
 
 /// Narrows hits by all triangles, for any column of rays.
@@ -133,8 +133,8 @@ pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
     mut tiles: Query<(&R, &mut H)>,
 ) {
     for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.hit_lanes();
-        triangle_rows(rays.ray_lanes(), &triangles, t, shape);
+        let (t, shape) = hits.hit_components();
+        triangle_rows(rays.ray_components(), &triangles, t, shape);
     }
 }
 
@@ -148,7 +148,7 @@ const GROUP: usize = 4;
 ///
 /// Rays are taken in the order of the axes along which they are longest, so that sixteen together need one kind of shear.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn triangle_rows(rays: RayLanes<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
+fn triangle_rows(rays: RayBlockMut<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
     let mut start = 0;
     while start < t.len() {
         let end = t.len().min(start + CHUNK);
@@ -168,7 +168,7 @@ struct ByAxis {
 
 impl ByAxis {
     #[inline(always)]
-    fn of(rays: RayLanes<'_>, start: usize, end: usize) -> Self {
+    fn of(rays: RayBlockMut<'_>, start: usize, end: usize) -> Self {
         let mut axes = [0_u8; CHUNK];
         let mut counts = [0_usize; 3];
         let [dx, dy, dz] = rays.direction;
@@ -190,7 +190,7 @@ impl ByAxis {
 /// Narrows the hits of some rows, whose rays are all longest along `Z`.
 #[inline(always)]
 fn rows_along<const Z: usize>(
-    rays: RayLanes<'_>,
+    rays: RayBlockMut<'_>,
     rows: &[u32],
     triangles: &TriangleTable,
     t: &mut [f64],
@@ -200,29 +200,29 @@ fn rows_along<const Z: usize>(
         let RayBlock { o, d, inverse } = RayBlock::of_rows(rays, rows);
         let (mut x, mut y, mut z, mut size) = ([0.0; LANES], [0.0; LANES], [1.0; LANES], [0.0; LANES]);
         let (mut own_t, mut own_shape) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
-        for (lane, &row) in rows.iter().enumerate() {
-            let shear = Shear::along::<Z>(vector(&d, lane));
-            (x[lane], y[lane], z[lane]) = (shear.x, shear.y, shear.z);
-            size[lane] = vector(&o, lane).abs().element_sum();
-            (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
+        for (component, &row) in rows.iter().enumerate() {
+            let shear = Shear::along::<Z>(vector(&d, component));
+            (x[component], y[component], z[component]) = (shear.x, shear.y, shear.z);
+            size[component] = vector(&o, component).abs().element_sum();
+            (own_t[component], own_shape[component]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
         for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                let f = facet.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
+            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
+                let f = facet.centre - vector(&o, component);
+                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], facet.reach);
             }
             let (near, _) = nearest.as_chunks::<GROUP>();
             let t = own_t[..rows.len()].chunks_mut(GROUP);
             for (group, (t, shape)) in t.zip(own_shape[..rows.len()].chunks_mut(GROUP)).enumerate() {
                 if near[group].iter().any(|&nearness| nearness >= 0.0) {
-                    narrow::<Z>(&o, &d, &sheared, group, facet, number, t, shape);
+                    keep_closest::<Z>(&o, &d, &sheared, group, facet, number, t, shape);
                 }
             }
         }
-        for (lane, &row) in rows.iter().enumerate() {
-            (t[row as usize], shape[row as usize]) = (own_t[lane], own_shape[lane]);
+        for (component, &row) in rows.iter().enumerate() {
+            (t[row as usize], shape[row as usize]) = (own_t[component], own_shape[component]);
         }
     }
 }
@@ -232,32 +232,32 @@ type Sheared = [[f64; LANES]; 4];
 
 /// Narrows the hits of one group of a block's rays, which are all longest along `Z`.
 #[inline(always)]
-fn narrow<const Z: usize>(
+fn keep_closest<const Z: usize>(
     o: &[[f64; LANES]; 3],
     d: &[[f64; LANES]; 3],
     sheared: &Sheared,
     group: usize,
-    facet: &Facet,
+    facet: &TriangleRow,
     number: u32,
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let of_group = |lanes: &[f64; LANES]| lanes.as_chunks::<GROUP>().0[group];
+    let of_group = |components: &[f64; LANES]| components.as_chunks::<GROUP>().0[group];
     let ([ox, oy, oz], [x, y, z, size]) = (o.each_ref().map(of_group), sheared.each_ref().map(of_group));
-    let (mut found, mut doubtful) = ([f64::INFINITY; GROUP], [false; GROUP]);
-    for lane in 0..GROUP {
-        let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
-        let origin = DVec3::new(ox[lane], oy[lane], oz[lane]);
-        let verdict = verdict::<Z>(origin, shear, facet, size[lane]);
-        (found[lane], doubtful[lane]) = (verdict.t, verdict.doubtful);
+    let (mut found, mut uncertain) = ([f64::INFINITY; GROUP], [false; GROUP]);
+    for component in 0..GROUP {
+        let shear = Shear { x: x[component], y: y[component], z: z[component] };
+        let origin = DVec3::new(ox[component], oy[component], oz[component]);
+        let intersection = intersection::<Z>(origin, shear, facet, size[component]);
+        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
     }
-    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if doubtful[lane] {
-            let row = group * GROUP + lane;
-            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), facet);
+    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[component] {
+            let row = group * GROUP + component;
+            found[component] = exact_triangle_t(vector(o, row), vector(d, row), facet);
         }
-        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
-            (*t, *shape) = (found[lane], number);
+        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
+            (*t, *shape) = (found[component], number);
         }
     }
 }
@@ -281,12 +281,12 @@ pub fn triangle_evidence(scene: &World) -> Evidence {
 mod tests {
     use super::*;
 
-    fn facet(corners: [[f64; 3]; 3]) -> Facet {
-        Facet::new(corners.map(DVec3::from))
+    fn facet(corners: [[f64; 3]; 3]) -> TriangleRow {
+        TriangleRow::new(corners.map(DVec3::from))
     }
 
     /// Half of a square of side 2, three units ahead.
-    fn half() -> Facet {
+    fn half() -> TriangleRow {
         facet([[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [-1.0, 1.0, -3.0]])
     }
 

@@ -1,6 +1,6 @@
 //! Rays and triangles without any rounding, for the few that f64 leaves in doubt.
 
-use crate::extract::{ExactSum, ExactVector, Facet, exact_cross, exact_difference, exact_dot};
+use crate::extract::{ExactSum, ExactVector, TriangleRow, exact_cross, exact_difference, exact_dot};
 use glam::DVec3;
 
 /// A ray and a triangle, exactly.
@@ -14,7 +14,7 @@ struct ExactEdges {
 }
 
 impl ExactEdges {
-    fn of(origin: DVec3, direction: DVec3, facet: &Facet) -> Self {
+    fn of(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
         let corners = facet.corners.map(|corner| exact_difference(corner, origin));
         let direction = exact_difference(direction, DVec3::ZERO);
         let [a, b, c] = &corners;
@@ -29,7 +29,7 @@ impl ExactEdges {
 /// An edge and a corner belong to every triangle that has them; a ray in the triangle's plane meets nothing.
 #[cold]
 #[inline(never)]
-pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &Facet) -> f64 {
+pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
     if !(origin.is_finite() && direction.is_finite()) {
         return f64::INFINITY;
     }
@@ -46,7 +46,7 @@ pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &Facet) -> f64 {
 /// sign of R · (B − A) × (C − A), exactly.
 #[cold]
 #[inline(never)]
-pub fn exact_weights(origin: DVec3, direction: DVec3, facet: &Facet) -> ([f64; 3], f64) {
+pub fn exact_weights(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> ([f64; 3], f64) {
     let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, facet);
     let along = whole.rounded();
     (areas.map(|area| area.rounded() / along), along)

@@ -4,7 +4,7 @@ use super::sphere::UNIT_ROUNDOFF;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::triangle::{Edges, Shear, edges, longest_axis, triangle_evidence};
 use super::triangle_exact::exact_weights;
-use crate::extract::{Facet, ShapeTable, TriangleTable};
+use crate::extract::{ShapeTable, TriangleRow, TriangleTable};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
@@ -22,7 +22,7 @@ pub struct Meeting {
 impl Meeting {
     /// Where a ray that meets a triangle does so.
     #[inline(always)]
-    pub fn of(origin: DVec3, direction: DVec3, facet: &Facet) -> Self {
+    pub fn of(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
         match longest_axis(direction) {
             0 => Self::by::<0>(origin, direction, facet),
             1 => Self::by::<1>(origin, direction, facet),
@@ -33,7 +33,7 @@ impl Meeting {
     /// The shares are the areas over their sum; what rounding has pushed below 0 is 0.
     /// Where the sum is so small that a share could be off by more than 2⁻²⁶, exact arithmetic finds them.
     #[inline(always)]
-    fn by<const Z: usize>(origin: DVec3, direction: DVec3, facet: &Facet) -> Self {
+    fn by<const Z: usize>(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
         let (shear, size) = (Shear::along::<Z>(direction), origin.abs().element_sum());
         let Edges { areas, error, .. } = edges::<Z>(origin, shear, facet, size);
         let whole: f64 = areas.iter().sum();
@@ -118,7 +118,7 @@ pub fn fill_triangle_surfaces(
 
 /// The stage that fills surfaces.
 pub fn triangle_surface_stage() -> Stage {
-    Stage::new("Describe triangle surfaces", TileSystems::Surface, fill_triangle_surfaces)
+    Stage::new("Compute surfaces: triangles", TileSystems::Surface, fill_triangle_surfaces)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<TriangleRows>()

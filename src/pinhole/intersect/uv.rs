@@ -22,7 +22,7 @@ pub fn sphere_uv(own: DVec3) -> [f64; 2] {
 /// A disk keeps the square about it, for a radius and an angle would have a seam and a point without an angle, and squares
 /// of a checkerboard would not stay square.
 #[inline(always)]
-pub fn flat_uv(at: [f64; 2]) -> [f64; 2] {
+pub fn planar_uv(at: [f64; 2]) -> [f64; 2] {
     at.map(|part| within_unit(0.5 + 0.5 * part))
 }
 
@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(at(1, -1.0, 2.0, -4.0), [0.0, 0.0]);
         assert_eq!(at(1, 1.0, -2.0, -4.0), [1.0, 1.0]);
         assert_eq!(at(1, 0.0, 2.0, 0.0), [0.5, 0.5]);
-        assert_eq!(flat_uv([1.0 + 1e-16, -1.0 - 1e-16]), [1.0, 0.0]);
-        assert_eq!(flat_uv([f64::NAN, -0.5]), [0.0, 0.25]);
+        assert_eq!(planar_uv([1.0 + 1e-16, -1.0 - 1e-16]), [1.0, 0.0]);
+        assert_eq!(planar_uv([f64::NAN, -0.5]), [0.0, 0.25]);
     }
 }

@@ -6,18 +6,18 @@
 pub mod convention;
 
 mod inside;
+mod mistake;
 mod pilot;
 mod preflight;
-mod slip;
 mod slow;
 mod stats;
 mod trace;
 mod unseen;
 mod view;
 
+pub use mistake::{MISTAKES, Mistake};
 pub use pilot::{Pilot, pilot};
 pub use preflight::{Preflight, preflight};
-pub use slip::{SLIPS, Slip};
 pub use slow::{Effort, slow};
 pub use stats::{RenderStats, StageStats};
 pub use trace::{Recorded, Trace, trace, trace_sample};

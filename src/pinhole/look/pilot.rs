@@ -1,8 +1,8 @@
 use crate::Result;
-use crate::extract::ImageShape;
+use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, ExtractedTable, Plan, Stage, Table};
-use crate::rays::{Leg, Tile};
+use crate::rays::{Depth, Tile};
 use crate::render::{Hook, look_at_pieces, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
@@ -16,7 +16,7 @@ const SIDE: u32 = 8;
 /// Half of the smallest step of a PNG near black.
 const DARK: f32 = 1.5e-4;
 /// On later legs fewer and fewer rays are left, and they say less and less of what is wrong.
-const LEGS: u32 = 4;
+const MAX_DEPTH: u32 = 4;
 
 /// What a few rays of the picture to come have met and brought back.
 #[derive(Clone, Debug, Default)]
@@ -65,7 +65,7 @@ struct Counted {
 ///
 /// Errors: an image without a shape.
 pub fn pilot(scene: &World, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
     let pieces = pieces(image, side);
     let mut pilot = Pilot { pieces: pieces.len(), ..Pilot::default() };
@@ -106,7 +106,7 @@ pub fn pilot(scene: &World, prepared: (&Plan, &[ExtractedTable]), patience: Dura
 
 /// The pieces: each in the middle of its part of the picture, and all of a small one; in an order in which the first few
 /// are spread evenly already.
-fn pieces(image: ImageShape, side: u32) -> Vec<Tile> {
+fn pieces(image: ImageFrame, side: u32) -> Vec<Tile> {
     let along = |pixels: u32, most: u32| -> Vec<[u32; 2]> {
         let count = (pixels / SIDE).clamp(1, most);
         let side = side.min(pixels);
@@ -138,7 +138,7 @@ fn counting_hook() -> Hook {
             [Hits::NAME, ShadowHits::NAME].map(|name| stage.writes.iter().any(|column| column.name == name));
         let count = move |world: &mut World,
                           tiles: &mut QueryState<
-            (&Leg, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),
+            (&Depth, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),
             With<Tile>,
         >| {
             if !(hits || shadows) {
@@ -146,9 +146,9 @@ fn counting_hook() -> Hook {
             }
             let mut counted = world.remove_resource::<Counted>().unwrap_or_default();
             let (mut met, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
-            let mut leg = 0;
+            let mut depth = 0;
             for (own, hit, light) in tiles.iter(world) {
-                leg = own.0;
+                depth = own.0;
                 if let Some(hit) = hit {
                     rows += hit.rows();
                     met += hit.shape.iter().filter(|&&shape| shape != NO_SHAPE).count();
@@ -160,18 +160,18 @@ fn counting_hook() -> Hook {
                     }
                 }
             }
-            if hits && leg == 0 {
+            if hits && depth == 0 {
                 counted.met = met;
             }
             if hits {
-                if counted.bounce.0 != leg {
+                if counted.bounce.0 != depth {
                     counted.before += counted.bounce.1;
                 }
-                counted.bounce = (leg, rows);
+                counted.bounce = (depth, rows);
             }
-            if shadows && leg < LEGS {
-                counted.to_lights.insert(leg, to_lights);
-                counted.blocked.insert(leg, blocked);
+            if shadows && depth < MAX_DEPTH {
+                counted.to_lights.insert(depth, to_lights);
+                counted.blocked.insert(depth, blocked);
             }
             world.insert_resource(counted);
         };
@@ -187,7 +187,7 @@ mod tests {
     /// Every piece is tried once, and the first few of them lie in all quarters of the picture.
     #[test]
     fn pieces_are_spread_evenly_from_the_first_on() {
-        let image = ImageShape { width: 960, height: 540 };
+        let image = ImageFrame { width: 960, height: 540 };
         let pieces = pieces(image, SIDE);
         let all: BTreeSet<_> = pieces.iter().map(|tile| (tile.x, tile.y)).collect();
         assert_eq!((pieces.len(), all.len()), (96, 96));

@@ -3,8 +3,8 @@ use super::pilot::{Pilot, pilot};
 use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
-    ImageShape, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, aimed_evidence, emissive_evidence,
-    followed_evidence, glass_evidence, integrator_of, mirror_evidence, shadowed_point_evidence, traced_evidence,
+    ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
+    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, traced_evidence,
 };
 use crate::plan::{Evidence, ExtractedTable, Plan, Table};
 use crate::scene::{DirectionalLight, Environment, Integrator};
@@ -54,13 +54,13 @@ pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), asked: Pre
     }
     let pilot = pilot(scene, prepared, asked.patience.unwrap_or(PATIENCE))?;
     let shapes = ShapeTable::extract(scene).map_err(Error::from)?;
-    let (effort, legs) = (effort(scene, asked)?, IntegratorTable::extract(scene)?.legs);
+    let (effort, max_depth) = (effort(scene, asked)?, IntegratorTable::extract(scene)?.max_depth);
     let mut told = Vec::new();
     if pilot.rays > 0 {
         told.extend(by_pilot(scene, &pilot, &shapes));
-        told.extend(many_bounces(&pilot, legs));
+        told.extend(many_bounces(&pilot, max_depth));
     } else {
-        told.push(never_done(&pilot, &why_slow(scene, &pilot, legs, shapes.name.len()), effort));
+        told.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.name.len()), effort));
     }
     told.extend(shape_around_camera(scene, &shapes)?);
     told.extend(unseen(scene));
@@ -94,7 +94,7 @@ fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
 
 fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
     let (points, areas) = (point_evidence(scene), emissive_evidence(scene).or(environment_evidence(scene)));
-    let aimed = points.needed || aimed_evidence(scene).needed;
+    let aimed = points.needed || light_sampling_evidence(scene).needed;
     let lit = points.or(areas);
     let blocked: usize = pilot.blocked.values().sum();
     let integrator = integrator_of(scene).integrator;
@@ -110,7 +110,7 @@ fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
     if !aimed && matches!(integrator, Integrator::Path { .. }) {
         let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
         return format!(
-            "{found} of {rays} rays came upon a light by chance ({}); LightSampling::Weighed aims at lights too",
+            "{found} of {rays} rays came upon a light by random ({}); LightStrategy::Mis aims at lights too",
             lit.reason
         );
     }
@@ -137,7 +137,7 @@ fn environment_evidence(scene: &World) -> Evidence {
 
 /// How many samples there are to take, a way from a light being one; without an end by time.
 fn effort(scene: &World, asked: Preflight) -> Result<Effort> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     let pixels = f64::from(image.width) * f64::from(image.height);
     let paths = if traced_evidence(scene).needed { LightTracingTable::extract(scene)?.paths } else { 0.0 };
     let samples = f64::from(SamplingTable::extract(scene)?.samples) * (1.0 + paths);

@@ -34,11 +34,11 @@ pub fn slow(seconds_a_ray: f64, effort: Effort) -> Option<String> {
 }
 
 /// Says that surfaces hand light on to one another for very long, which makes a picture slow without making it better.
-pub fn many_bounces(pilot: &Pilot, legs: u32) -> Option<String> {
+pub fn many_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
     (pilot.followed_by >= MANY_BOUNCES).then(|| {
         format!(
             "each ray from the camera is followed by {:.0} more on average, because the surfaces that it comes by absorb \
-             next to no light; darker surfaces, or fewer than the {legs} legs that the integrator allows, render faster",
+             next to no light; darker surfaces, or fewer than the {max_depth} max_depth that the integrator allows, render faster",
             pilot.followed_by
         )
     })
@@ -60,10 +60,10 @@ pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
 }
 
 /// What makes a ray slow in this scene.
-pub fn why_slow(scene: &World, pilot: &Pilot, legs: u32, shapes: usize) -> String {
+pub fn why_slow(scene: &World, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
     if f64::from(pilot.deepest) >= MANY_BOUNCES {
         return format!(
-            "after {} bounces its path still went on, and the integrator allows {legs} legs; a smaller number, or surfaces \
+            "after {} bounces its path still went on, and the integrator allows {max_depth} max_depth; a smaller number, or surfaces \
              that absorb more, would end it",
             pilot.deepest
         );

@@ -71,7 +71,7 @@ impl RenderStats {
         // Each kind of light appends its rays to those before.
         let aimed = stages.iter().filter(|stage| stage.stage.starts_with("Aim at "));
         let light_rays = aimed.map(|stage| stage.rows).max().unwrap_or(0);
-        let rays = rays_of("Turn rays into the world") + light_rays;
+        let rays = rays_of("Transform rays to world space") + light_rays;
         let tile_side = tile_side.min(rendered.film.tile_side);
         let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();
         let left_out = rendered.plan.rows.iter().filter(|row| !row.kept);

@@ -1,7 +1,7 @@
-use crate::plan::{Column, ColumnKind, LaneNumber, Lifetime, Plan, Stage};
-use crate::rays::{Leg, PathLight, Paths, Tile};
+use crate::plan::{Column, ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
+use crate::rays::{Depth, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_pixel};
-use crate::scene::{Refusal, TracePixel};
+use crate::scene::{SceneError, TracePixel};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::collections::HashMap;
@@ -17,11 +17,11 @@ pub struct Recorded {
     /// The sample's number within the pixel.
     pub sample: u32,
     /// The leg of the light's way; 0 is the one to the eye.
-    pub leg: u32,
+    pub depth: u32,
     /// The column that it wrote.
     pub column: ColumnKind,
     /// The lanes of each row of the column; no rows where nothing is known of this pixel.
-    pub rows: Vec<Vec<(&'static str, LaneNumber)>>,
+    pub rows: Vec<Vec<(&'static str, ComponentNumber)>>,
 }
 
 /// What recorders have written, in order.
@@ -57,11 +57,11 @@ pub fn trace(scene: &World, offer: &[Stage], pixel: TracePixel) -> Result<Trace>
 ///
 /// Errors: also a sample that the camera does not take.
 pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u32) -> Result<Trace> {
-    let image = <crate::extract::ImageShape as crate::plan::Table>::extract(scene)?;
+    let image = <crate::extract::ImageFrame as crate::plan::Table>::extract(scene)?;
     if pixel.x >= image.width || pixel.y >= image.height {
         let value = format!("{},{}", pixel.x, pixel.y);
         let accepted = format!("the image has pixels 0,0 to {},{}", image.width - 1, image.height - 1);
-        return Err(Error::from(Refusal::new("the trace", "pixel", value, accepted)));
+        return Err(Error::from(SceneError::new("the trace", "pixel", value, accepted)));
     }
     let samples = <crate::extract::SamplingTable as crate::plan::Table>::extract(scene)?.samples;
     if sample >= samples {
@@ -69,7 +69,7 @@ pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u
             1 => "the camera takes one sample of each pixel, number 0".into(),
             _ => format!("the camera takes samples 0 to {} of each pixel", samples - 1),
         };
-        return Err(Error::from(Refusal::new("the trace", "sample", sample.to_string(), accepted)));
+        return Err(Error::from(SceneError::new("the trace", "sample", sample.to_string(), accepted)));
     }
     let hook = record_hook(pixel, sample);
     let mut inspection = inspect_pixel(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
@@ -89,16 +89,18 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
             for tile in tiles.iter(world) {
                 let tile = world.entity(tile);
                 let Some(path) = tile.get::<Tile>().and_then(|place| place.row_of(pixel.x, pixel.y)) else { continue };
-                let leg = tile.get::<Leg>().map_or(0, |leg| leg.0);
-                let is_on_its_way = |paths: &Paths| paths.first.contains(&(path as u32));
-                if leg > 0 && !tile.get::<Paths>().is_some_and(is_on_its_way) {
+                let depth = tile.get::<Depth>().map_or(0, |depth| depth.0);
+                let is_alive = |paths: &Paths| paths.first.contains(&(path as u32));
+                if depth > 0 && !tile.get::<Paths>().is_some_and(is_alive) {
                     continue;
                 }
                 for &column in &columns {
-                    let lanes = (column.lanes)(&tile);
-                    let show = |row| lanes.iter().map(|lane| (lane.name, lane.values.number(row))).collect();
-                    let rows = rows_on_leg(&tile, column, path as u32).into_iter().map(show).collect();
-                    recorded.push(Recorded { stage: name, sample, leg, column, rows });
+                    let components = (column.components)(&tile);
+                    let show = |row| {
+                        components.iter().map(|component| (component.name, component.values.number(row))).collect()
+                    };
+                    let rows = rows_at_depth(&tile, column, path as u32).into_iter().map(show).collect();
+                    recorded.push(Recorded { stage: name, sample, depth, column, rows });
                 }
             }
             world.get_resource_or_init::<Recording>().0.extend(recorded);
@@ -109,8 +111,8 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
 
 /// The rows of a column that belong to a pixel on the leg at hand: those of its rays, which on later legs are some rows
 /// or none.
-fn rows_on_leg(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize> {
-    let later = tile.get::<Leg>().is_some_and(|leg| leg.0 > 0);
+fn rows_at_depth(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize> {
+    let later = tile.get::<Depth>().is_some_and(|depth| depth.0 > 0);
     match tile.get::<Paths>().filter(|_| later && column.lifetime != Lifetime::Film && column.name != PathLight::NAME) {
         None => column.rows_of_path(tile, path),
         Some(paths) => {
@@ -125,36 +127,36 @@ impl fmt::Display for Trace {
         // A stage that runs later on the same leg may write over what an earlier one wrote.
         let mut last: HashMap<(u32, &str), usize> = HashMap::new();
         for (position, recorded) in self.stages.iter().enumerate() {
-            last.insert((recorded.leg, recorded.column.name), position);
+            last.insert((recorded.depth, recorded.column.name), position);
         }
-        let left_out = self.legs_left_out();
+        let left_out = self.bounces_left_out();
         let mut told = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
-            if last.get(&(recorded.leg, recorded.column.name)) != Some(&position) || listing {
+            if last.get(&(recorded.depth, recorded.column.name)) != Some(&position) || listing {
                 continue;
             }
-            if left_out.contains(&recorded.leg) {
-                if recorded.leg == left_out.start && told != Some(recorded.leg) {
+            if left_out.contains(&recorded.depth) {
+                if recorded.depth == left_out.start && told != Some(recorded.depth) {
                     let (first, end) = (left_out.start, left_out.end - 1);
                     writeln!(f, "legs {first} to {end} are left out; --all prints them")?;
-                    told = Some(recorded.leg);
+                    told = Some(recorded.depth);
                 }
                 continue;
             }
-            if told != Some(recorded.leg) {
-                let (pixel, sample, leg) = (self.pixel, self.sample, recorded.leg);
-                writeln!(f, "pixel {},{}   sample {sample}, leg {leg}", pixel.x, pixel.y)?;
-                told = Some(leg);
+            if told != Some(recorded.depth) {
+                let (pixel, sample, depth) = (self.pixel, self.sample, recorded.depth);
+                writeln!(f, "pixel {},{}   sample {sample}, leg {depth}", pixel.x, pixel.y)?;
+                told = Some(depth);
             }
             let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
             let head = format!("{name:<9} {space:<20} {unit:<24}");
             if recorded.rows.is_empty() {
                 writeln!(f, "{head} nothing")?;
             }
-            for (row, lanes) in recorded.rows.iter().enumerate() {
+            for (row, components) in recorded.rows.iter().enumerate() {
                 let head = if row == 0 { &head } else { "" };
-                writeln!(f, "{head:<55} {}", self.show_row(lanes))?;
+                writeln!(f, "{head:<55} {}", self.show_row(components))?;
             }
         }
         Ok(())
@@ -163,25 +165,25 @@ impl fmt::Display for Trace {
 
 impl Trace {
     /// The legs that are not printed: those in the middle of a long way.
-    fn legs_left_out(&self) -> Range<u32> {
-        let legs = self.stages.iter().map(|recorded| recorded.leg).max().map_or(0, |last| last + 1);
+    fn bounces_left_out(&self) -> Range<u32> {
+        let max_depth = self.stages.iter().map(|recorded| recorded.depth).max().map_or(0, |last| last + 1);
         let [first, last] = SHOWN;
-        if self.prints_all || legs <= first + last { 0..0 } else { first..legs - last }
+        if self.prints_all || max_depth <= first + last { 0..0 } else { first..max_depth - last }
     }
 
     /// The name of the shape of this number; none where nothing was hit.
-    pub fn shape_name(&self, number: LaneNumber) -> Option<&str> {
-        let LaneNumber::U32(Some(number)) = number else { return None };
+    pub fn shape_name(&self, number: ComponentNumber) -> Option<&str> {
+        let ComponentNumber::U32(Some(number)) = number else { return None };
         self.shapes.get(number as usize).map(String::as_str)
     }
 
     /// Lanes of a row, vectors in brackets, a shape by its name.
-    fn show_row(&self, lanes: &[(&'static str, LaneNumber)]) -> String {
-        let word = |&(name, value): &(&'static str, LaneNumber)| match name {
+    fn show_row(&self, components: &[(&'static str, ComponentNumber)]) -> String {
+        let word = |&(name, value): &(&'static str, ComponentNumber)| match name {
             "shape" => format!("shape {}", self.shape_name(value).unwrap_or("none")),
             name => format!("{name} {value}"),
         };
-        let words: Vec<String> = lanes.iter().filter(|(name, _)| *name != "path").map(word).collect();
+        let words: Vec<String> = components.iter().filter(|(name, _)| *name != "path").map(word).collect();
         words.join("  ")
     }
 }

@@ -9,16 +9,16 @@ use bevy_ecs::prelude::*;
 
 /// A sentence for each kind of light or matter that the scene has and its integrator does not show.
 pub fn unseen(scene: &World) -> Vec<String> {
-    let (matter, lamps) = (matte_evidence(scene), emissive_evidence(scene));
-    let (polished, metal) = (mirror_evidence(scene).or(glass_evidence(scene)), metal_evidence(scene));
-    let lit_by_area = lamps.needed && (matter.needed || metal.needed);
+    let (material, lamps) = (matte_evidence(scene), emissive_evidence(scene));
+    let (specular, metal) = (mirror_evidence(scene).or(glass_evidence(scene)), metal_evidence(scene));
+    let lit_by_area = lamps.needed && (material.needed || metal.needed);
     let mut told = Vec::new();
     match integrator_of(scene).integrator {
         Integrator::RayCasting => {
-            if polished.needed {
+            if specular.needed {
                 told.push(format!(
                     "ray casting shows mirrors and glass dark ({}); Integrator::Whitted follows them",
-                    polished.reason
+                    specular.reason
                 ));
             }
             // Beside other lights, that surfaces which emit are only seen is what was asked for.
@@ -45,7 +45,7 @@ pub fn unseen(scene: &World) -> Vec<String> {
             }
         }
         Integrator::AmbientOcclusion { .. } => {
-            let all = polished.or(metal);
+            let all = specular.or(metal);
             if all.needed {
                 told.push(format!(
                     "ambient occlusion shows mirrors, glass and metal as it shows all surfaces ({}); Integrator::Path \
@@ -55,11 +55,11 @@ pub fn unseen(scene: &World) -> Vec<String> {
             }
         }
         Integrator::Distribution { .. } => {
-            if lamps.needed && matter.needed && polished.needed {
+            if lamps.needed && material.needed && specular.needed {
                 told.push(format!(
                     "light that comes by way of mirrors or glass ({}) from surfaces that emit ({}) is missing from \
                      matte surfaces, which send no rays on; Integrator::Path finds it",
-                    polished.reason, lamps.reason
+                    specular.reason, lamps.reason
                 ));
             }
         }

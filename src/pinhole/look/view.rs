@@ -1,7 +1,7 @@
-use crate::extract::ImageShape;
-use crate::plan::{Column, ColumnKind, Evidence, LaneValues, Shared, Stage, Table, TileSystems};
+use crate::extract::ImageFrame;
+use crate::plan::{Column, ColumnKind, ComponentValues, Evidence, Shared, Stage, Table, TileSystems};
 use crate::rays::{RasterPoints, Tile};
-use crate::scene::{Refusal, View};
+use crate::scene::{SceneError, View};
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::EntityRef;
@@ -16,7 +16,7 @@ pub struct ViewTable {
 impl Table for ViewTable {
     const NAME: &'static str = "view";
 
-    fn extract(scene: &World) -> Result<Self, Refusal> {
+    fn extract(scene: &World) -> Result<Self, SceneError> {
         let viewers = crate::plan::entities::<With<View>>(scene);
         let view = viewers.first().and_then(|&viewer| scene.get::<View>(viewer));
         Ok(Self { column: view.map(|view| view.column.clone()).unwrap_or_default() })
@@ -35,7 +35,7 @@ fn paint_view(columns: Vec<ColumnKind>) -> impl FnMut(&mut World, &mut QueryStat
         let asked = &world.resource::<Shared<ViewTable>>().column;
         let Some(column) = columns.iter().copied().find(|column| column.name == asked) else { return };
         let image: [u32; 2] = {
-            let image = world.resource::<Shared<ImageShape>>();
+            let image = world.resource::<Shared<ImageFrame>>();
             [image.width, image.height]
         };
         for tile in tiles.iter(world).collect::<Vec<_>>() {
@@ -61,9 +61,13 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
 
 /// The path of each row of a column, in order: the row's number, unless a lane says otherwise.
 pub fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
-    let lanes = (column.lanes)(tile);
-    match lanes.iter().find(|lane| lane.name == "path" || lane.name == "row").map(|lane| lane.values) {
-        Some(LaneValues::U32(paths)) => paths.iter().map(|&path| path as usize).collect(),
+    let components = (column.components)(tile);
+    match components
+        .iter()
+        .find(|component| component.name == "path" || component.name == "row")
+        .map(|component| component.values)
+    {
+        Some(ComponentValues::U32(paths)) => paths.iter().map(|&path| path as usize).collect(),
         _ => (0..(column.rows)(tile)).collect(),
     }
 }
@@ -76,6 +80,6 @@ pub fn view_stage(offer: &[Stage]) -> Stage {
         .reads_the_view()
         .writes::<Radiance>()
         .table::<ViewTable>()
-        .table::<ImageShape>()
+        .table::<ImageFrame>()
         .when(|scene| Evidence::of::<View>(scene, "view"))
 }

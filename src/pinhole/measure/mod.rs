@@ -9,10 +9,10 @@ pub mod cuboid_aim;
 pub mod enclosure;
 #[path = "../../lab/measure/exact.rs"]
 pub mod exact;
+#[path = "../../lab/measure/exact_angle.rs"]
+pub mod exact_angle;
 #[path = "../../lab/measure/exact_vector.rs"]
 pub mod exact_vector;
-#[path = "../../lab/measure/flat_aim.rs"]
-pub mod flat_aim;
 #[path = "../../lab/measure/hemisphere.rs"]
 pub mod hemisphere;
 #[path = "../../lab/measure/number.rs"]
@@ -21,7 +21,7 @@ pub mod number;
 pub mod oracle_plane;
 #[path = "../../lab/measure/oracle_sphere.rs"]
 pub mod oracle_sphere;
+#[path = "../../lab/measure/planar_aim.rs"]
+pub mod planar_aim;
 #[path = "../../lab/measure/ray_aim.rs"]
 pub mod ray_aim;
-#[path = "../../lab/measure/exact_angle.rs"]
-pub mod exact_angle;

@@ -21,7 +21,7 @@ pub enum Lifetime {
 
 /// The numbers of one lane of a column, borrowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LaneValues<'a> {
+pub enum ComponentValues<'a> {
     /// 64-bit floats.
     F64(&'a [f64]),
     /// 32-bit floats.
@@ -30,13 +30,13 @@ pub enum LaneValues<'a> {
     U32(&'a [u32]),
 }
 
-impl LaneValues<'_> {
+impl ComponentValues<'_> {
     /// The number of a row.
-    pub fn number(&self, row: usize) -> LaneNumber {
+    pub fn number(&self, row: usize) -> ComponentNumber {
         match self {
-            Self::F64(values) => LaneNumber::F64(values[row]),
-            Self::F32(values) => LaneNumber::F32(values[row]),
-            Self::U32(values) => LaneNumber::U32((values[row] != u32::MAX).then_some(values[row])),
+            Self::F64(values) => ComponentNumber::F64(values[row]),
+            Self::F32(values) => ComponentNumber::F32(values[row]),
+            Self::U32(values) => ComponentNumber::U32((values[row] != u32::MAX).then_some(values[row])),
         }
     }
 
@@ -61,7 +61,7 @@ impl LaneValues<'_> {
 /// The number that one row of a lane holds; JSON has every digit of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum LaneNumber {
+pub enum ComponentNumber {
     /// A 64-bit float.
     F64(f64),
     /// A 32-bit float.
@@ -71,7 +71,7 @@ pub enum LaneNumber {
 }
 
 /// As a person reads it: fixed decimals, so that two runs compare line by line.
-impl fmt::Display for LaneNumber {
+impl fmt::Display for ComponentNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = match *self {
             Self::F64(value) => value,
@@ -89,36 +89,36 @@ impl fmt::Display for LaneNumber {
 }
 
 /// A number type that lanes are made of.
-pub trait LaneValue: Copy + Default {
+pub trait ComponentValue: Copy + Default {
     /// Wraps a slice of it.
-    fn values(slice: &[Self]) -> LaneValues<'_>;
+    fn values(slice: &[Self]) -> ComponentValues<'_>;
 }
 
-impl LaneValue for f64 {
-    fn values(slice: &[Self]) -> LaneValues<'_> {
-        LaneValues::F64(slice)
+impl ComponentValue for f64 {
+    fn values(slice: &[Self]) -> ComponentValues<'_> {
+        ComponentValues::F64(slice)
     }
 }
 
-impl LaneValue for f32 {
-    fn values(slice: &[Self]) -> LaneValues<'_> {
-        LaneValues::F32(slice)
+impl ComponentValue for f32 {
+    fn values(slice: &[Self]) -> ComponentValues<'_> {
+        ComponentValues::F32(slice)
     }
 }
 
-impl LaneValue for u32 {
-    fn values(slice: &[Self]) -> LaneValues<'_> {
-        LaneValues::U32(slice)
+impl ComponentValue for u32 {
+    fn values(slice: &[Self]) -> ComponentValues<'_> {
+        ComponentValues::U32(slice)
     }
 }
 
 /// One named lane of a column.
 #[derive(Clone, Copy, Debug)]
-pub struct Lane<'a> {
+pub struct ColumnComponent<'a> {
     /// The field's name.
     pub name: &'static str,
     /// Its numbers, one a row.
-    pub values: LaneValues<'a>,
+    pub values: ComponentValues<'a>,
 }
 
 /// What a stage writes for the rows of a tile: a component of the tile's entity, an array a lane.
@@ -137,7 +137,7 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     /// How many rows it holds.
     fn rows(&self) -> usize;
     /// Its lanes in order.
-    fn lanes(&self) -> Vec<Lane<'_>>;
+    fn components(&self) -> Vec<ColumnComponent<'_>>;
     /// A row as a colour to be shown as it is (0 is black, 1 is full), for an image of `size` pixels.
     fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
 }
@@ -149,11 +149,11 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
 #[macro_export]
 macro_rules! column {
     ($(#[$doc:meta])* pub struct $column:ident($name:literal, $space:literal, $unit:literal, $lifetime:ident) {
-        $($(#[$lane_doc:meta])* $lane:ident: $number:ty,)+
+        $($(#[$component_doc:meta])* $component:ident: $number:ty,)+
     }) => {
         $(#[$doc])*
         #[derive(bevy_ecs::prelude::Component, Clone, Debug, Default, PartialEq)]
-        pub struct $column { $($(#[$lane_doc])* pub $lane: Vec<$number>,)+ }
+        pub struct $column { $($(#[$component_doc])* pub $component: Vec<$number>,)+ }
 
         #[allow(dead_code, unused_parens)]
         impl $column {
@@ -161,19 +161,19 @@ macro_rules! column {
             #[inline(always)]
             pub fn slices(&self) -> ($(&[$number]),+) {
                 let rows = $crate::plan::Column::rows(self);
-                ($(&self.$lane[..rows]),+)
+                ($(&self.$component[..rows]),+)
             }
 
             /// All lanes, in order, made `rows` long.
             #[inline(always)]
             pub fn slices_mut(&mut self, rows: usize) -> ($(&mut [$number]),+) {
-                $(self.$lane.resize(rows, Default::default());)+
-                ($(&mut self.$lane[..rows]),+)
+                $(self.$component.resize(rows, Default::default());)+
+                ($(&mut self.$component[..rows]),+)
             }
 
             /// No rows, memory kept.
             pub fn clear(&mut self) {
-                $(self.$lane.clear();)+
+                $(self.$component.clear();)+
             }
         }
 
@@ -184,13 +184,13 @@ macro_rules! column {
             const LIFETIME: $crate::plan::Lifetime = $crate::plan::Lifetime::$lifetime;
 
             fn rows(&self) -> usize {
-                [$(self.$lane.len()),+][0]
+                [$(self.$component.len()),+][0]
             }
 
-            fn lanes(&self) -> Vec<$crate::plan::Lane<'_>> {
-                vec![$($crate::plan::Lane {
-                    name: stringify!($lane),
-                    values: $crate::plan::LaneValue::values(&self.$lane),
+            fn components(&self) -> Vec<$crate::plan::ColumnComponent<'_>> {
+                vec![$($crate::plan::ColumnComponent {
+                    name: stringify!($component),
+                    values: $crate::plan::ComponentValue::values(&self.$component),
                 }),+]
             }
 
@@ -222,7 +222,7 @@ pub struct ColumnKind {
     /// How many rows the tile's column holds, 0 without it.
     pub rows: fn(&EntityRef<'_>) -> usize,
     /// The column's lanes, none without it.
-    pub lanes: for<'w> fn(&EntityRef<'w>) -> Vec<Lane<'w>>,
+    pub components: for<'w> fn(&EntityRef<'w>) -> Vec<ColumnComponent<'w>>,
     /// A row as a colour, for an image of this size; the tile must have the column.
     pub paint: fn(&EntityRef<'_>, usize, [u32; 2]) -> [f32; 3],
 }
@@ -240,7 +240,7 @@ impl ColumnKind {
             },
             present: |tile| tile.contains::<C>(),
             rows: |tile| tile.get::<C>().map_or(0, C::rows),
-            lanes: |tile| tile.get::<C>().map_or_else(Vec::new, C::lanes),
+            components: |tile| tile.get::<C>().map_or_else(Vec::new, C::components),
             paint: |tile, row, size| tile.get::<C>().map_or([0.0; 3], |column| column.paint(row, size)),
         }
     }
@@ -256,14 +256,14 @@ impl ColumnKind {
         let mut tile = world.spawn_empty();
         (self.insert)(&mut tile);
         let entity = tile.id();
-        (self.lanes)(&world.entity(entity)).iter().map(|lane| lane.values.bytes_a_row()).sum()
+        (self.components)(&world.entity(entity)).iter().map(|component| component.values.bytes_a_row()).sum()
     }
 
     /// The rows that belong to a path: the row of its number, or, where the column has a `path` lane, those that name it.
     pub fn rows_of_path(&self, tile: &EntityRef<'_>, path: u32) -> Vec<usize> {
-        let lanes = (self.lanes)(tile);
-        match lanes.iter().find(|lane| lane.name == "path").map(|lane| lane.values) {
-            Some(LaneValues::U32(paths)) => (0..paths.len()).filter(|&row| paths[row] == path).collect(),
+        let components = (self.components)(tile);
+        match components.iter().find(|component| component.name == "path").map(|component| component.values) {
+            Some(ComponentValues::U32(paths)) => (0..paths.len()).filter(|&row| paths[row] == path).collect(),
             _ if (path as usize) < (self.rows)(tile) => vec![path as usize],
             _ => Vec::new(),
         }

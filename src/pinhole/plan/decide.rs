@@ -155,7 +155,7 @@ fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTree
         .collect();
     let painted_over = view.is_some_and(|column| column.name != "radiance" || !stage.runs_in(RowKind::Pixel))
         && !stage.reads_view
-        && (matches!(stage.set, TileSystems::Step | TileSystems::Follow)
+        && (matches!(stage.set, TileSystems::Step | TileSystems::RemainingBounces)
             || !stage.runs_in(RowKind::Pixel)
             || stage.writes.iter().all(|column| column.name == "radiance"));
     let (kept, reason) = if !evidence.needed {

@@ -35,8 +35,13 @@ impl Evidence {
     /// Needed if any enabled entity carries one of these components and is `reachable`.
     ///
     /// Not `Or` in a filter: a query that only reads finds nothing where one of its components was never spawned.
-    pub fn among_any(scene: &World, noun: &str, any: &[Carried], reachable: impl Fn(EntityRef<'_>) -> bool) -> Self {
-        let all = |find: fn(&Carried) -> fn(&World) -> Vec<Entity>| {
+    pub fn among_any(
+        scene: &World,
+        noun: &str,
+        any: &[ComponentKind],
+        reachable: impl Fn(EntityRef<'_>) -> bool,
+    ) -> Self {
+        let all = |find: fn(&ComponentKind) -> fn(&World) -> Vec<Entity>| {
             let mut found: Vec<Entity> = any.iter().flat_map(|carried| find(carried)(scene)).collect();
             found.sort_by_key(|entity| entity.index());
             found.dedup();
@@ -94,12 +99,12 @@ impl Evidence {
 
 /// A component, as evidence looks for those that carry it.
 #[derive(Clone, Copy)]
-pub struct Carried {
+pub struct ComponentKind {
     enabled: fn(&World) -> Vec<Entity>,
     declared: fn(&World) -> Vec<Entity>,
 }
 
-impl Carried {
+impl ComponentKind {
     /// The component `C`.
     pub const fn of<C: Component>() -> Self {
         Self { enabled: entities::<With<C>>, declared: declared::<With<C>> }

@@ -15,9 +15,11 @@ mod stage;
 mod systems;
 mod table;
 
-pub use column::{Column, ColumnKind, Lane, LaneNumber, LaneValue, LaneValues, Lifetime, column};
+pub use column::{
+    Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
+};
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
-pub use evidence::{Carried, Evidence, counted, entities};
+pub use evidence::{ComponentKind, Evidence, counted, entities};
 pub use stage::{Slot, Stage, StageKind};
 pub use systems::{Bounce, Sample, TileSystems};
 pub use table::{ExtractedTable, Shared, Table, TableKind};

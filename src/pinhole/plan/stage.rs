@@ -22,7 +22,7 @@ pub struct Slot(pub usize);
 /// A stage on offer: what it is called, what it reads and writes, when a scene needs it, the system that runs.
 #[derive(Clone)]
 pub struct Stage {
-    /// In words, such as "Turn rays into the world".
+    /// In words, such as "Transform rays to world space".
     pub name: &'static str,
     /// Where it stands in the order.
     pub set: TileSystems,
@@ -37,7 +37,7 @@ pub struct Stage {
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
     /// Whether it runs on every leg of light's way, or on the first one only.
-    pub on_every_leg: bool,
+    pub on_every_bounce: bool,
     /// The passes it runs in.
     pub passes: &'static [RowKind],
     /// Whether it appends rows to what it writes, where others have appended theirs before.
@@ -71,7 +71,7 @@ impl Stage {
             reads_if: Vec::new(),
             reads_where: Vec::new(),
             writes: Vec::new(),
-            on_every_leg: set.on_every_leg(),
+            on_every_bounce: set.on_every_bounce(),
             passes: set.passes(),
             appends: false,
             tables: Vec::new(),
@@ -84,8 +84,8 @@ impl Stage {
     }
 
     /// It runs on the first leg of light's way only.
-    pub fn on_first_leg(mut self) -> Self {
-        self.on_every_leg = false;
+    pub fn on_first_bounce(mut self) -> Self {
+        self.on_every_bounce = false;
         self
     }
 

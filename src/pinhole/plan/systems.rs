@@ -48,13 +48,13 @@ pub enum TileSystems {
     /// Where on the camera's lens light is joined to it.
     Join,
     /// Rays from surfaces towards lights.
-    Aim,
+    SampleLights,
     /// Every light counts as seen, before anything is met on the way to it.
-    Unblock,
+    ClearShadows,
     /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
-    Occlude,
+    TraceShadowRays,
     /// Light that chance may find too counts for less.
-    Weigh,
+    MisWeights,
     /// Light that arrives is added up.
     Shade,
     /// What each ray has come through is known.
@@ -62,17 +62,17 @@ pub enum TileSystems {
     /// What light lost on its way here is taken off.
     Absorb,
     /// Rays go on from surfaces, each kind of matter's after the other's.
-    Scatter,
+    SampleBsdfs,
     /// Some of them end by chance.
     Roulette,
     /// What the leg brought is added to its way's light.
-    AddLeg,
+    AddBounce,
     /// The scattered rays become those of the next leg.
     Step,
     /// All further legs, each the sets from `Start` to `Step` again.
-    Follow,
+    RemainingBounces,
     /// The light of all legs becomes the radiance of the first.
-    Gather,
+    SumBounces,
     /// What lies outside a camera's image circle is made black.
     Mask,
     /// Where a reader asked to see a column, it is painted instead.
@@ -103,19 +103,19 @@ impl TileSystems {
         Self::Background,
         Self::Layers,
         Self::Join,
-        Self::Aim,
-        Self::Unblock,
-        Self::Occlude,
-        Self::Weigh,
+        Self::SampleLights,
+        Self::ClearShadows,
+        Self::TraceShadowRays,
+        Self::MisWeights,
         Self::Shade,
         Self::Media,
         Self::Absorb,
-        Self::Scatter,
+        Self::SampleBsdfs,
         Self::Roulette,
-        Self::AddLeg,
+        Self::AddBounce,
         Self::Step,
-        Self::Follow,
-        Self::Gather,
+        Self::RemainingBounces,
+        Self::SumBounces,
         Self::Mask,
         Self::View,
         Self::Moments,
@@ -123,14 +123,15 @@ impl TileSystems {
     ];
 
     /// Whether the stages of this set run on every leg of light's way.
-    pub fn on_every_leg(self) -> bool {
+    pub fn on_every_bounce(self) -> bool {
         (Self::Start..=Self::Step).contains(&self) && self != Self::Layers && self != Self::Footprint
     }
 
     /// The passes that the stages of this set run in: what light does at surfaces is the same whichever way it is followed.
     pub fn passes(self) -> &'static [RowKind] {
-        let of_camera = matches!(self, Self::Background | Self::Layers | Self::Footprint | Self::Aim | Self::Weigh);
-        let on_both = (Self::Start..=Self::Follow).contains(&self) && !of_camera && self != Self::AddLeg;
+        let of_camera =
+            matches!(self, Self::Background | Self::Layers | Self::Footprint | Self::SampleLights | Self::MisWeights);
+        let on_both = (Self::Start..=Self::RemainingBounces).contains(&self) && !of_camera && self != Self::AddBounce;
         if on_both { &[RowKind::Pixel, RowKind::LightPath] } else { &[RowKind::Pixel] }
     }
 
@@ -146,7 +147,7 @@ impl TileSystems {
                 | Self::Footprint
                 | Self::Colour
                 | Self::Texture
-                | Self::Occlude
+                | Self::TraceShadowRays
         )
     }
 }

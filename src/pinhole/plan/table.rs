@@ -1,4 +1,4 @@
-use crate::scene::Refusal;
+use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ pub trait Table: Sized + Send + Sync + 'static {
     /// The word that the plan uses.
     const NAME: &'static str;
     /// Reads the table off the scene, in spawn order, relative to the eye.
-    fn extract(scene: &World) -> Result<Self, Refusal>;
+    fn extract(scene: &World) -> Result<Self, SceneError>;
     /// Bytes that its arrays take.
     fn bytes(&self) -> usize;
 }
@@ -37,7 +37,7 @@ pub struct TableKind {
     /// The word that the plan uses.
     pub name: &'static str,
     /// Reads it off the scene.
-    pub extract: fn(&World) -> Result<ExtractedTable, Refusal>,
+    pub extract: fn(&World) -> Result<ExtractedTable, SceneError>,
     /// Whether a render world holds it.
     pub present: fn(&World) -> bool,
 }

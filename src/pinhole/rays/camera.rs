@@ -1,5 +1,5 @@
 use super::ScreenPoints;
-use crate::extract::{PinholeLens, ViewRectangle, lens_evidence};
+use crate::extract::{OrthographicWindow, PerspectiveProjection, lens_evidence};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use bevy_ecs::prelude::*;
@@ -49,7 +49,7 @@ pub fn camera_ray_orthographic(screen: DVec2, half_height: f64) -> DVec3 {
 // ANCHOR_END: camera_ray_orthographic
 
 /// Fills a tile's camera rays for a perspective camera; their origins stay 0.
-pub fn fill_perspective(lens: Res<Shared<PinholeLens>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+pub fn fill_perspective(lens: Res<Shared<PerspectiveProjection>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
         perspective_rows(screen, lens.tan_half_vertical, &mut rays);
     }
@@ -67,7 +67,7 @@ fn perspective_rows(screen: &ScreenPoints, tan_half_vertical: f64, rays: &mut Ca
 }
 
 /// Fills a tile's camera rays for an orthographic camera; their directions are all −z.
-pub fn fill_orthographic(view: Res<Shared<ViewRectangle>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+pub fn fill_orthographic(view: Res<Shared<OrthographicWindow>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
         let rows = screen.rows();
         let (x, y) = screen.slices();
@@ -81,11 +81,11 @@ pub fn fill_orthographic(view: Res<Shared<ViewRectangle>>, mut tiles: Query<(&Sc
 
 /// The stage on offer for perspective cameras.
 pub fn perspective_stage() -> Stage {
-    Stage::new("Aim rays from the eye", TileSystems::Camera, fill_perspective)
+    Stage::new("Generate camera rays: perspective", TileSystems::Camera, fill_perspective)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .writes::<CameraRays>()
-        .table::<PinholeLens>()
+        .table::<PerspectiveProjection>()
         .when(|scene| match lens_evidence(scene) {
             lens if lens.needed => Evidence { needed: false, ..lens },
             _ => Evidence::of::<PerspectiveCamera>(scene, "perspective camera"),
@@ -94,11 +94,11 @@ pub fn perspective_stage() -> Stage {
 
 /// The stage on offer for orthographic cameras.
 pub fn orthographic_stage() -> Stage {
-    Stage::new("Start rays on the rectangle", TileSystems::Camera, fill_orthographic)
+    Stage::new("Generate camera rays: orthographic", TileSystems::Camera, fill_orthographic)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .writes::<CameraRays>()
-        .table::<ViewRectangle>()
+        .table::<OrthographicWindow>()
         .when(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
 }
 

@@ -1,4 +1,4 @@
-use super::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
@@ -16,7 +16,7 @@ pub struct Draws<'a> {
     /// The ways of the rows; none on a first leg that nothing follows.
     pub paths: Option<&'a Paths>,
     /// The leg.
-    pub leg: Leg,
+    pub depth: Depth,
 }
 
 impl Draws<'_> {
@@ -37,11 +37,11 @@ pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
         into.extend(keys.map(|key| draw.two(key).map(unit)));
     }
     into.clear();
-    let (number, leg, keys) = (of.number(), of.leg.0, of.keys(rows));
+    let (number, depth, keys) = (of.number(), of.depth.0, of.keys(rows));
     match of.sampling.sampler {
-        Sampler::Independent => fill(Independent::new(number, leg, purpose), keys, into),
-        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, leg, purpose), keys, into),
-        Sampler::Sobol => fill(Sobol::new(number, leg, purpose), keys, into),
+        Sampler::Independent => fill(Independent::new(number, depth, purpose), keys, into),
+        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, depth, purpose), keys, into),
+        Sampler::Sobol => fill(Sobol::new(number, depth, purpose), keys, into),
     }
 }
 
@@ -51,10 +51,10 @@ pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
         into.extend(keys.map(|key| unit(draw.one(key))));
     }
     into.clear();
-    let (number, leg, keys) = (of.number(), of.leg.0, of.keys(rows));
+    let (number, depth, keys) = (of.number(), of.depth.0, of.keys(rows));
     match of.sampling.sampler {
-        Sampler::Independent => fill(Independent::new(number, leg, purpose), keys, into),
-        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, leg, purpose), keys, into),
-        Sampler::Sobol => fill(Sobol::new(number, leg, purpose), keys, into),
+        Sampler::Independent => fill(Independent::new(number, depth, purpose), keys, into),
+        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, depth, purpose), keys, into),
+        Sampler::Sobol => fill(Sobol::new(number, depth, purpose), keys, into),
     }
 }

@@ -1,5 +1,5 @@
 use super::{CameraRays, ScreenPoints};
-use crate::extract::ImageShape;
+use crate::extract::ImageFrame;
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::scene::EquirectangularCamera;
 use bevy_ecs::prelude::*;
@@ -26,7 +26,7 @@ pub fn screen_from_equirectangular(direction: DVec3, aspect: f64) -> DVec2 {
 }
 
 /// Fills a tile's camera rays for a camera of all directions; their origins stay 0.
-pub fn fill_equirectangular(image: Res<Shared<ImageShape>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+pub fn fill_equirectangular(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
         let (x, y) = screen.slices();
         let (_, _, _, dx, dy, dz) = rays.slices_mut(screen.rows());
@@ -39,10 +39,10 @@ pub fn fill_equirectangular(image: Res<Shared<ImageShape>>, mut tiles: Query<(&S
 
 /// The stage on offer for cameras of all directions.
 pub fn equirectangular_stage() -> Stage {
-    Stage::new("Aim rays all round", TileSystems::Camera, fill_equirectangular)
+    Stage::new("Generate camera rays: equirectangular", TileSystems::Camera, fill_equirectangular)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .writes::<CameraRays>()
-        .table::<ImageShape>()
+        .table::<ImageFrame>()
         .when(|scene| Evidence::of::<EquirectangularCamera>(scene, "equirectangular camera"))
 }

@@ -42,7 +42,7 @@ pub fn fill_fisheye(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenP
 
 /// The stage on offer for fisheye cameras.
 pub fn fisheye_stage() -> Stage {
-    Stage::new("Aim rays by angle", TileSystems::Camera, fill_fisheye)
+    Stage::new("Generate camera rays: fisheye", TileSystems::Camera, fill_fisheye)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .writes::<CameraRays>()

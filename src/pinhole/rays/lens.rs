@@ -1,6 +1,6 @@
-use super::chance::{Rows, draw_two};
+use super::random::{Rows, draw_two};
 use super::{CameraRays, PixelSamples, RasterPoints, SampleNumber, ScreenPoints, Tile};
-use crate::extract::{LensTable, PinholeLens, SamplingTable, lens_evidence};
+use crate::extract::{LensTable, PerspectiveProjection, SamplingTable, lens_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
 use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
@@ -101,7 +101,7 @@ pub fn draw_lens_points(
 // ANCHOR: fill_lens_rays
 /// Fills a tile's camera rays for a camera with a lens: each starts on it.
 pub fn fill_lens_rays(
-    pinhole: Res<Shared<PinholeLens>>,
+    pinhole: Res<Shared<PerspectiveProjection>>,
     lens: Res<Shared<LensTable>>,
     mut tiles: Query<(&ScreenPoints, &LensPoints, &mut CameraRays)>,
 ) {
@@ -121,7 +121,7 @@ pub fn fill_lens_rays(
 
 /// The stage that draws points.
 pub fn lens_point_stage() -> Stage {
-    Stage::new("Draw points on the lens", TileSystems::Lens, draw_lens_points)
+    Stage::new("Sample the lens", TileSystems::Lens, draw_lens_points)
         .kind(StageKind::Alternative)
         .reads::<RasterPoints>()
         .reads_if::<PixelSamples>()
@@ -133,12 +133,12 @@ pub fn lens_point_stage() -> Stage {
 
 /// The stage on offer for perspective cameras with a lens.
 pub fn lens_stage() -> Stage {
-    Stage::new("Aim rays through the lens", TileSystems::Camera, fill_lens_rays)
+    Stage::new("Generate camera rays: thin lens", TileSystems::Camera, fill_lens_rays)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .reads::<LensPoints>()
         .writes::<CameraRays>()
-        .table::<PinholeLens>()
+        .table::<PerspectiveProjection>()
         .table::<LensTable>()
         .when(lens_evidence)
 }

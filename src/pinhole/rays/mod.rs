@@ -5,16 +5,16 @@
 //! Each file holds the pure function of one row and the system that fills the column with it.
 
 mod camera;
-mod chance;
+mod depth;
 mod draws;
 mod equirectangular;
 mod fisheye;
-mod leg;
 mod lens;
 mod ndc;
 mod paths;
 mod place_samples;
 mod project;
+mod random;
 mod raster;
 mod screen;
 mod times;
@@ -24,12 +24,12 @@ pub use camera::{
     CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
     orthographic_stage, perspective_stage,
 };
+pub use depth::{Depth, pixel_of_row};
 pub use draws::{Draws, draws_of_one, draws_of_two};
 pub use equirectangular::{
     camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
 };
 pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
-pub use leg::{Leg, pixel_of_row};
 pub use lens::{
     LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage,
     lens_stage, polygon_point,

@@ -1,6 +1,6 @@
 use super::RasterPoints;
 use super::raster::aligned_rows;
-use crate::extract::ImageShape;
+use crate::extract::ImageFrame;
 use crate::plan::{Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -32,7 +32,7 @@ pub fn ndc_from_raster(raster: DVec2, size: DVec2) -> DVec2 {
 // ANCHOR_END: ndc_from_raster
 
 /// Fills a tile's NDC points.
-pub fn fill_ndc(image: Res<Shared<ImageShape>>, mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
+pub fn fill_ndc(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
     for (raster, mut ndc) in &mut tiles {
         ndc_rows(raster, image.size(), &mut ndc);
     }
@@ -51,10 +51,10 @@ fn ndc_rows(raster: &RasterPoints, size: DVec2, ndc: &mut NdcPoints) {
 
 /// The stage on offer.
 pub fn ndc_stage() -> Stage {
-    Stage::new("Free points of the image's size", TileSystems::Ndc, fill_ndc)
+    Stage::new("Compute NDC points", TileSystems::Ndc, fill_ndc)
         .reads::<RasterPoints>()
         .writes::<NdcPoints>()
-        .table::<ImageShape>()
+        .table::<ImageFrame>()
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ column! {
         /// Blue.
         b: f64,
         /// How densely chance sends rays this way, over solid angle; infinite where no chance was in it.
-        density: f64,
+        pdf: f64,
     }
 }
 

@@ -126,7 +126,7 @@ mod tests {
 
     /// The importance, integrated over a surface that fills the image, is one a pixel.
     #[test]
-    fn a_pixel_s_importance_is_the_density_of_its_rays() {
+    fn a_pixel_s_importance_is_the_pdf_of_its_rays() {
         let mut tried = 0;
         for index in 0..3000 {
             let mut draws = Draws::new(2702, index);

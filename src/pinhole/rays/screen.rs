@@ -1,5 +1,5 @@
 use super::NdcPoints;
-use crate::extract::ImageShape;
+use crate::extract::ImageFrame;
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -32,7 +32,7 @@ pub fn screen_from_ndc(ndc: DVec2, aspect: f64) -> DVec2 {
 // ANCHOR_END: screen_from_ndc
 
 /// Fills a tile's screen points.
-pub fn fill_screen(image: Res<Shared<ImageShape>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>) {
+pub fn fill_screen(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&NdcPoints, &mut ScreenPoints)>) {
     for (ndc, mut screen) in &mut tiles {
         screen_rows(ndc, image.aspect(), &mut screen);
     }
@@ -51,10 +51,10 @@ fn screen_rows(ndc: &NdcPoints, aspect: f64, screen: &mut ScreenPoints) {
 
 /// The stage on offer.
 pub fn screen_stage() -> Stage {
-    Stage::new("Centre points on the screen", TileSystems::Screen, fill_screen)
+    Stage::new("Compute screen points", TileSystems::Screen, fill_screen)
         .reads::<NdcPoints>()
         .writes::<ScreenPoints>()
-        .table::<ImageShape>()
+        .table::<ImageFrame>()
 }
 
 #[cfg(test)]

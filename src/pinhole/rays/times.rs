@@ -1,4 +1,4 @@
-use super::chance::{Rows, draw_one};
+use super::random::{Rows, draw_one};
 use super::{PixelSamples, RasterPoints, SampleNumber, Tile};
 use crate::extract::{SamplingTable, ShutterTable, motion_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
@@ -36,7 +36,7 @@ pub fn draw_times(
 
 /// The stage on offer.
 pub fn time_stage() -> Stage {
-    Stage::new("Draw times", TileSystems::Lens, draw_times)
+    Stage::new("Sample times", TileSystems::Lens, draw_times)
         .reads::<RasterPoints>()
         .reads_if::<PixelSamples>()
         .writes::<RayTimes>()

@@ -1,5 +1,5 @@
 use super::{CameraRays, RayTimes};
-use crate::extract::{CameraAxes, LensTable, ShutterTable, ViewRectangle, camera_moves_evidence};
+use crate::extract::{CameraAxes, LensTable, OrthographicWindow, ShutterTable, camera_moves_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
@@ -37,7 +37,7 @@ impl WorldRays {
 /// sample leaves none.
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
-    many_origins: (Option<Res<Shared<ViewRectangle>>>, Option<Res<Shared<LensTable>>>),
+    many_origins: (Option<Res<Shared<OrthographicWindow>>>, Option<Res<Shared<LensTable>>>),
     moves: Option<Res<Shared<ShutterTable>>>,
     mut tiles: Query<(&CameraRays, Option<&RayTimes>, &mut WorldRays)>,
 ) {
@@ -88,7 +88,7 @@ fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, ti
 
 /// The stage on offer.
 pub fn world_stage() -> Stage {
-    Stage::new("Turn rays into the world", TileSystems::World, fill_world)
+    Stage::new("Transform rays to world space", TileSystems::World, fill_world)
         .reads::<CameraRays>()
         .writes::<WorldRays>()
         .table::<CameraAxes>()

@@ -1,10 +1,10 @@
 use super::Execution;
+use super::in_progress::{film_for, shares};
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
 use super::tile_side::tile_side;
-use super::under_way::{film_for, shares};
 use crate::Result;
-use crate::extract::ImageShape;
+use crate::extract::ImageFrame;
 use crate::film::{Film, FilmTile};
 use crate::follow::Stop;
 use crate::plan::{ExtractedTable, Plan, Stage, Table, TileSystems};
@@ -22,7 +22,7 @@ pub struct Inspection {
     /// The entities that hold columns, left to right, then down.
     pub tiles: Vec<Entity>,
     /// The image's shape.
-    pub image: ImageShape,
+    pub image: ImageFrame,
     /// How long the stages ran.
     pub time: Duration,
 }
@@ -34,16 +34,17 @@ pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspect
 
 /// The same; hooks follow each stage, and see what it wrote before a later one writes over it.
 pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[Hook]) -> Result<Inspection> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     let film = Film::new(image.width, image.height, tile_side);
     inspect_film(scene, offer, image, film, Run::FIRST, hooks)
 }
 
 /// The same stages, of which those that step on and follow do nothing: what the first leg of light's way wrote stays to be
 /// looked at.
-pub fn first_leg_only(offer: &[Stage]) -> Vec<Stage> {
+pub fn first_bounce_only(offer: &[Stage]) -> Vec<Stage> {
     let mut offer = offer.to_vec();
-    for stage in offer.iter_mut().filter(|stage| matches!(stage.set, TileSystems::Step | TileSystems::Follow)) {
+    for stage in offer.iter_mut().filter(|stage| matches!(stage.set, TileSystems::Step | TileSystems::RemainingBounces))
+    {
         stage.system = Arc::new(|| (|| {}).into_configs());
     }
     offer
@@ -59,7 +60,7 @@ pub fn inspect_pixel(
     sample: u32,
     hooks: &[Hook],
 ) -> Result<Inspection> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     let film = film_of(Tile { x, y, width: 1, height: 1 });
     inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
 }
@@ -118,7 +119,7 @@ pub fn usual_tile_side(scene: &World, plan: &Plan) -> u32 {
 fn inspect_film(
     scene: &World,
     offer: &[Stage],
-    image: ImageShape,
+    image: ImageFrame,
     film: Film,
     run: Run,
     hooks: &[Hook],

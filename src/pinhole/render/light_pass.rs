@@ -1,13 +1,13 @@
 use super::Execution;
 use super::clock::StageClock;
 use super::render_world::RenderWorld;
-use crate::extract::{FilterTable, ImageShape, LightTracingTable, SamplingTable};
+use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
 use crate::follow::{LIGHT_PATHS, Splats, Stop};
 use crate::plan::{ExtractedTable, Plan, RowKind, Shared, Table};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
-use crate::scene::Refusal;
+use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -32,7 +32,12 @@ pub(super) struct LightPass {
 }
 
 /// How many batches a render's light pass runs at once at most; 0 without such a pass.
-pub(super) fn batches(scene: &World, plan: &Plan, sampling: SamplingTable, image: ImageShape) -> Result<u64, Refusal> {
+pub(super) fn batches(
+    scene: &World,
+    plan: &Plan,
+    sampling: SamplingTable,
+    image: ImageFrame,
+) -> Result<u64, SceneError> {
     if !has_light_pass(plan) {
         return Ok(0);
     }
@@ -59,7 +64,7 @@ pub(super) struct Means<'a> {
 
 impl LightPass {
     /// The pass, where the plan has one.
-    pub fn of(scene: &World, plan: &Plan, workers: usize) -> Result<Option<Self>, Refusal> {
+    pub fn of(scene: &World, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
         if !has_light_pass(plan) {
             return Ok(None);
         }

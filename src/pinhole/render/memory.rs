@@ -1,8 +1,8 @@
-use crate::extract::{FilterTable, ImageShape, LayerTable, adaptive_of};
+use crate::extract::{FilterTable, ImageFrame, LayerTable, adaptive_of};
 use crate::film::{FilmLayers, FilmMoments};
 use crate::follow::Splats;
 use crate::plan::{Column, Plan, Table};
-use crate::scene::{Filter, LayerKind, Refusal, TooLittleMemory, called, check_memory};
+use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
 
 /// The most memory this process has held at once, in bytes; none where the system does not say.
@@ -14,7 +14,7 @@ pub fn peak_memory() -> Option<u64> {
 }
 
 /// Bytes that a render of a scene takes for each pixel of its film, and at its end for the layers of a file.
-pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, Refusal> {
+pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
     let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
@@ -46,8 +46,8 @@ pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, Refusal> {
 /// Checks that the film of a render can be had, before any of it is asked for.
 ///
 /// Errors: the resolution, what it needs, what there is, and about which resolution fits.
-pub fn check_film_fits(scene: &World, plan: &Plan) -> Result<(), Refusal> {
-    let image = ImageShape::extract(scene)?;
+pub fn check_film_fits(scene: &World, plan: &Plan) -> Result<(), SceneError> {
+    let image = ImageFrame::extract(scene)?;
     let (width, height) = (image.width, image.height);
     let a_pixel = film_bytes_a_pixel(scene, plan)?;
     let pixels = u64::from(width) * u64::from(height);
@@ -55,7 +55,7 @@ pub fn check_film_fits(scene: &World, plan: &Plan) -> Result<(), Refusal> {
         let who = crate::extract::camera_entity(scene)
             .map_or("camera".into(), |own| format!("camera {}", called(scene, own)));
         let accepted = format!("such a film {too_little}; {}", fitting([width, height], a_pixel, too_little));
-        Refusal::new(who, "resolution", format!("{width} × {height}"), accepted)
+        SceneError::new(who, "resolution", format!("{width} × {height}"), accepted)
     })
 }
 

@@ -7,6 +7,7 @@
 mod adaptive;
 mod clock;
 mod execution;
+mod in_progress;
 mod inspect;
 mod key;
 mod light_pass;
@@ -16,14 +17,14 @@ mod render_world;
 mod rendered;
 mod steps;
 mod tile_side;
-mod under_way;
 mod workers;
 
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
 pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
+pub use in_progress::RenderInProgress;
 pub use inspect::{
-    Inspection, first_leg_only, inspect, inspect_pixel, inspect_stages, look_at_pieces, usual_tile_side,
+    Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, look_at_pieces, usual_tile_side,
 };
 pub use key::film_key;
 pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};
@@ -31,4 +32,3 @@ pub use passes::{Limits, Outcome, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use rendered::{Rendered, render};
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
-pub use under_way::RenderUnderWay;

@@ -1,6 +1,6 @@
 use super::adaptive::{Achieved, achieved, planned_samples};
 use super::steps::{WHOLE, samples_after, steps_of};
-use super::{RenderUnderWay, Watch};
+use super::{RenderInProgress, Watch};
 use crate::film::Film;
 use crate::scene::Adaptive;
 use crate::{Error, Result};
@@ -49,7 +49,7 @@ pub struct Outcome {
 ///
 /// Errors: what `keep` says.
 pub fn render_in_passes(
-    render: &mut RenderUnderWay,
+    render: &mut RenderInProgress,
     limits: &Limits,
     watch: &dyn Watch,
     keep: &mut dyn FnMut(&Film) -> Result,
@@ -119,7 +119,7 @@ impl Passes {
     /// Runs passes up to a step; whether it got there.
     fn run_to(
         &mut self,
-        render: &mut RenderUnderWay,
+        render: &mut RenderInProgress,
         end: u32,
         watch: &dyn Watch,
         keep: &mut dyn FnMut(&Film) -> Result,
@@ -178,7 +178,7 @@ impl Passes {
         fits.then_some(done + samples)
     }
 
-    fn ended(&self, render: &RenderUnderWay, mut outcome: Outcome) -> Result<Outcome> {
+    fn ended(&self, render: &RenderInProgress, mut outcome: Outcome) -> Result<Outcome> {
         outcome.samples = samples_after(render.film.least_done());
         outcome.time = self.started.elapsed();
         Ok(outcome)

@@ -4,10 +4,10 @@ use super::steps::Run;
 use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
-use crate::follow::{Stop, check_matter_is_followed, is_whole};
+use crate::follow::{Stop, check_materials_are_followed, is_whole};
 use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
-use crate::rays::{ActivePixels, Leg, PixelSamples, SampleNumber, Tile};
-use crate::shade::check_shapes_are_met;
+use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
+use crate::shade::check_shapes_are_intersected;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleConfigs, ScheduleLabel, SingleThreadedExecutor};
 use bevy_ecs::system::ScheduleSystem;
@@ -27,8 +27,8 @@ struct HookTurn(usize, usize);
 pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
-    check_shapes_are_met(scene, offer, &plan)?;
-    check_matter_is_followed(scene, offer)?;
+    check_shapes_are_intersected(scene, offer, &plan)?;
+    check_materials_are_followed(scene, offer)?;
     let tables = plan.tables.iter().map(|table| (table.extract)(scene)).collect::<std::result::Result<Vec<_>, _>>()?;
     Ok((plan, tables))
 }
@@ -74,11 +74,11 @@ impl RenderWorld {
             }
             schedule
         };
-        let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::Follow);
+        let follows = plan.stages.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
         if follows {
             world.insert_resource(Stop::default());
             world.add_schedule(arranged(schedule_of(Bounce, plan, &hooks, |stage| {
-                stage.runs_in(row) && stage.on_every_leg
+                stage.runs_in(row) && stage.on_every_bounce
             })));
         }
         let mut schedule = schedule_of(Sample, plan, &hooks, |stage| stage.runs_in(row));
@@ -146,7 +146,7 @@ impl RenderWorld {
 }
 
 fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
-    let mut tile = world.spawn((Tile::default(), Leg::default()));
+    let mut tile = world.spawn((Tile::default(), Depth::default()));
     let written =
         |column: &&ColumnKind| plan.stages.iter().any(|stage| stage.runs_in(row) && stage.writes.contains(column));
     let columns: Vec<&ColumnKind> = plan.columns.iter().filter(written).collect();

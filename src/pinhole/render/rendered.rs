@@ -1,5 +1,5 @@
 use super::clock::Lap;
-use super::{Execution, Limits, RenderUnderWay, Watch, render_in_passes};
+use super::{Execution, Limits, RenderInProgress, Watch, render_in_passes};
 use crate::extract::adaptive_of;
 use crate::film::{Curve, Film};
 use crate::plan::{Plan, Stage};
@@ -34,15 +34,15 @@ impl Rendered {
 ///
 /// Errors: a refused scene, no plan, or a stop by the one who watches.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
-    let mut under_way = RenderUnderWay::begin(scene, offer, execution)?;
+    let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;
     match adaptive_of(scene)? {
-        None => under_way.advance(under_way.steps(), watch)?,
+        None => in_progress.advance(in_progress.steps(), watch)?,
         adaptive => {
             let limits = Limits { adaptive, ..Limits::default() };
-            if render_in_passes(&mut under_way, &limits, watch, &mut |_| Ok(()))?.stopped {
+            if render_in_passes(&mut in_progress, &limits, watch, &mut |_| Ok(()))?.stopped {
                 return Err(Error::Interrupted);
             }
         }
     }
-    Ok(under_way.finish())
+    Ok(in_progress.finish())
 }

@@ -11,8 +11,8 @@ pub struct Independent {
 impl Independent {
     /// A sample's numbers for a purpose on a leg of the light's way.
     #[inline(always)]
-    pub fn new(sample: u32, leg: u32, purpose: Purpose) -> Self {
-        Self { dimension: purpose.dimension(leg), sample }
+    pub fn new(sample: u32, depth: u32, purpose: Purpose) -> Self {
+        Self { dimension: purpose.dimension(depth), sample }
     }
 }
 

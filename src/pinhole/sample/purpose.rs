@@ -19,7 +19,7 @@ pub enum Purpose {
     /// Which light.
     LightChoice,
     /// Which part of a surface's matter.
-    MatterChoice,
+    MaterialChoice,
     /// Whether the way ends here.
     Roulette,
     /// When, while the shutter is open.
@@ -36,7 +36,7 @@ impl Purpose {
         Self::LightPoint,
         Self::Direction,
         Self::LightChoice,
-        Self::MatterChoice,
+        Self::MaterialChoice,
         Self::Roulette,
         Self::Time,
         Self::EnvironmentPoint,
@@ -46,25 +46,25 @@ impl Purpose {
     pub const fn numbers(self) -> u32 {
         match self {
             Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction | Self::EnvironmentPoint => 2,
-            Self::LightChoice | Self::MatterChoice | Self::Roulette | Self::Time => 1,
+            Self::LightChoice | Self::MaterialChoice | Self::Roulette | Self::Time => 1,
         }
     }
 
     /// Its first dimension on a leg of the light's way; leg 0 is the one to the eye.
     #[inline(always)]
-    pub const fn dimension(self, leg: u32) -> u32 {
+    pub const fn dimension(self, depth: u32) -> u32 {
         let within = match self {
             Self::Pixel => 0,
             Self::Lens => 2,
             Self::LightPoint => 4,
             Self::Direction => 6,
             Self::LightChoice => 8,
-            Self::MatterChoice => 9,
+            Self::MaterialChoice => 9,
             Self::Roulette => 10,
             Self::Time => 11,
             Self::EnvironmentPoint => 12,
         };
-        leg * DIMENSIONS + within
+        depth * DIMENSIONS + within
     }
 }
 
@@ -75,12 +75,12 @@ mod tests {
     #[test]
     fn no_two_purposes_share_a_dimension() {
         let mut taken = Vec::new();
-        for leg in 0..3 {
+        for depth in 0..3 {
             for purpose in Purpose::ALL {
                 for number in 0..purpose.numbers() {
-                    let dimension = purpose.dimension(leg) + number;
-                    assert!(dimension / DIMENSIONS == leg, "{purpose:?} leaves its leg");
-                    assert!(!taken.contains(&dimension), "{purpose:?} of leg {leg} shares dimension {dimension}");
+                    let dimension = purpose.dimension(depth) + number;
+                    assert!(dimension / DIMENSIONS == depth, "{purpose:?} leaves its leg");
+                    assert!(!taken.contains(&dimension), "{purpose:?} of leg {depth} shares dimension {dimension}");
                     taken.push(dimension);
                 }
             }

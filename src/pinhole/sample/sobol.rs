@@ -96,9 +96,9 @@ pub struct Sobol {
 impl Sobol {
     /// A sample's numbers for a purpose on a leg of the light's way.
     #[inline(always)]
-    pub fn new(sample: u32, leg: u32, purpose: Purpose) -> Self {
-        let dimension = purpose.dimension(leg);
-        let number = if leg == 0 { sample } else { in_another_order(sample, leg) };
+    pub fn new(sample: u32, depth: u32, purpose: Purpose) -> Self {
+        let dimension = purpose.dimension(depth);
+        let number = if depth == 0 { sample } else { in_another_order(sample, depth) };
         let second = dimension % DIMENSIONS + purpose.numbers() - 1;
         Self { dimension, reversed: [dimension % DIMENSIONS, second].map(|within| sobol_bits(number, within)) }
     }
@@ -106,8 +106,8 @@ impl Sobol {
 
 /// The number of the point that a sample takes on a later leg; samples of a block of 2ᵏ stay within a block.
 #[inline(always)]
-fn in_another_order(sample: u32, leg: u32) -> u32 {
-    let [seed, _] = halves(super::hash::mixed(u64::from(leg)));
+fn in_another_order(sample: u32, depth: u32) -> u32 {
+    let [seed, _] = halves(super::hash::mixed(u64::from(depth)));
     owen_scrambled(sample.reverse_bits(), seed).reverse_bits()
 }
 
@@ -176,10 +176,10 @@ mod tests {
             let allowed = first.saturating_sub(1) + second.saturating_sub(1);
             let mut largest = 0;
             for m in 0..=10_u32 {
-                for (seed, block, leg) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 5, 0), (4, 0, 1), (5, 3, 2)] {
+                for (seed, block, depth) in [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 5, 0), (4, 0, 1), (5, 3, 2)] {
                     let pixel = PixelKey::new(seed, [7, 11]);
                     let numbers = block << m..(block + 1) << m;
-                    let points: Vec<_> = numbers.map(|n| Sobol::new(n, leg, purpose).two(pixel)).collect();
+                    let points: Vec<_> = numbers.map(|n| Sobol::new(n, depth, purpose).two(pixel)).collect();
                     for axis in 0..2 {
                         let own: Vec<[u32; 2]> = points.iter().map(|point| [point[axis], 0]).collect();
                         let mut cells: Vec<u64> = own.iter().map(|p| u64::from(p[0]) >> (32 - m)).collect();
@@ -187,7 +187,7 @@ mod tests {
                         assert!(cells.iter().copied().eq(0..1 << m), "{purpose:?}, axis {axis}, 2^{m} points");
                     }
                     let t = quality(&points);
-                    assert!(t <= allowed, "{purpose:?}, 2^{m} points, leg {leg}: t = {t}, but {allowed} is allowed");
+                    assert!(t <= allowed, "{purpose:?}, 2^{m} points, leg {depth}: t = {t}, but {allowed} is allowed");
                     (largest, tried) = (largest.max(t), tried + 1);
                 }
             }

@@ -16,9 +16,9 @@ pub struct Stratified {
 impl Stratified {
     /// A sample's numbers for a purpose on a leg of the light's way, where `samples` are to come.
     #[inline(always)]
-    pub fn new(sample: u32, samples: u32, leg: u32, purpose: Purpose) -> Self {
+    pub fn new(sample: u32, samples: u32, depth: u32, purpose: Purpose) -> Self {
         let strata = if purpose.numbers() == 2 { strata_of(samples) } else { [samples, 1] };
-        Self { dimension: purpose.dimension(leg), sample, strata }
+        Self { dimension: purpose.dimension(depth), sample, strata }
     }
 
     /// The cell of this sample, and 64 bits at random.

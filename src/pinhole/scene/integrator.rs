@@ -13,7 +13,7 @@ pub enum Integrator {
     /// 1980).
     Whitted {
         /// The most legs of a way from a light to the camera.
-        legs: u32,
+        max_depth: u32,
     },
     /// How much of the sky each point sees, and nothing else.
     AmbientOcclusion {
@@ -24,14 +24,14 @@ pub enum Integrator {
     /// Porter and Carpenter 1984).
     Distribution {
         /// The most legs of a way from a light to the camera.
-        legs: u32,
+        max_depth: u32,
     },
     /// All ways of light that a walk from the camera can find (Kajiya 1986).
     Path {
         /// The most legs of a way from a light to the camera; the light of longer ones is missing.
-        legs: u32,
+        max_depth: u32,
         /// How lights are found.
-        lights: LightSampling,
+        lights: LightStrategy,
         /// The leg from which ways end by chance, in such a way that no light is lost on average; 0 for never.
         roulette: u32,
     },
@@ -39,28 +39,28 @@ pub enum Integrator {
 
 /// How a walk from the camera finds lights that have an area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LightSampling {
+pub enum LightStrategy {
     /// By running into them.
-    ByChance,
+    Bsdf,
     /// By aiming at points on them.
-    Aimed,
+    Light,
     /// Both, each weighed by how likely it was to find the way (Veach and Guibas 1995).
     #[default]
-    Weighed,
+    Mis,
 }
 
-impl LightSampling {
+impl LightStrategy {
     /// All, with the words of the command line.
-    pub const ALL: [(&str, Self); 3] = [("chance", Self::ByChance), ("aimed", Self::Aimed), ("weighed", Self::Weighed)];
+    pub const ALL: [(&str, Self); 3] = [("bsdf", Self::Bsdf), ("light", Self::Light), ("mis", Self::Mis)];
 }
 
 impl Integrator {
     /// Paths that end by chance, and at the latest where light that is caught between perfect surfaces has long been lost.
-    pub const PATH: Self = Self::Path { legs: 1 << 12, lights: LightSampling::Weighed, roulette: 5 };
+    pub const PATH: Self = Self::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 5 };
     /// As many legs as light still shows after.
-    pub const WHITTED: Self = Self::Whitted { legs: 12 };
+    pub const WHITTED: Self = Self::Whitted { max_depth: 12 };
     /// The same.
-    pub const DISTRIBUTION: Self = Self::Distribution { legs: 12 };
+    pub const DISTRIBUTION: Self = Self::Distribution { max_depth: 12 };
 }
 
 impl Default for Integrator {

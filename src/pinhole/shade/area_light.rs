@@ -1,10 +1,10 @@
-use super::emitter::{density_towards, distance_to, point_on};
-use super::light::{Aimed, LightRay, LitRows, RayLists, append_chosen, cosine_of, shadow_reach};
-use super::{LightDensities, LightRays};
-use crate::extract::{AreaLightTable, SamplingTable, aimed_evidence, area_light_evidence, material_evidence};
+use super::emitter::{distance_to, pdf_towards, point_on};
+use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_chosen, cosine_of, shadow_t_max};
+use super::{LightPdfs, LightRays};
+use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::rays::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
 use bevy_ecs::prelude::*;
@@ -16,8 +16,8 @@ use glam::DVec3;
 /// p is how likely that direction was to be chosen, per unit of solid angle: the mean of many such tellings is the
 /// integral of L cos θ over the directions that the light fills.
 #[inline(always)]
-pub fn irradiance_from_area(radiance: [f64; 3], cosine: f64, density: f64) -> [f64; 3] {
-    let share = cosine / density;
+pub fn irradiance_from_area(radiance: [f64; 3], cosine: f64, pdf: f64) -> [f64; 3] {
+    let share = cosine / pdf;
     [radiance[0] * share, radiance[1] * share, radiance[2] * share]
 }
 // ANCHOR_END: irradiance_from_area
@@ -27,19 +27,19 @@ pub fn irradiance_from_area(radiance: [f64; 3], cosine: f64, density: f64) -> [f
 ///
 /// `from` is where a ray starts that has met the light at `at`.
 #[inline(always)]
-pub fn area_light_density(lights: &AreaLightTable, light: usize, from: DVec3, at: DVec3) -> f64 {
+pub fn area_light_pdf(lights: &AreaLightTable, light: usize, from: DVec3, at: DVec3) -> f64 {
     let emitter = &lights.emitter[light];
     let shines = !lights.one_sided[light] || emitter.faces(from);
-    if shines { lights.chance[light] * density_towards(emitter, from, at) } else { 0.0 }
+    if shines { lights.random[light] * pdf_towards(emitter, from, at) } else { 0.0 }
 }
 
-// ANCHOR: aim_at_light
+// ANCHOR: sample_light
 /// Aims at a point of a light, and says how likely that was.
 ///
 /// The ray goes where its rounded direction leads, so its end is sought anew on the light along that: else a light met at a
 /// slant would stand in its own way.
 #[inline(always)]
-fn aim_at_light(
+fn sample_light(
     lights: &AreaLightTable,
     light: usize,
     surface: &Surface,
@@ -49,50 +49,50 @@ fn aim_at_light(
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let (from, emitter) = (origin.as_dvec3(), &lights.emitter[light]);
     let point = point_on(emitter, from, u);
-    let density = lights.chance[light] * point.density;
-    let shines = density > 0.0 && (!lights.one_sided[light] || emitter.faces(from));
+    let pdf = lights.random[light] * point.pdf;
+    let shines = pdf > 0.0 && (!lights.one_sided[light] || emitter.faces(from));
 
     let length = point.to.length();
     let direction = (point.to * (1.0 / length)).as_vec3();
     let met = distance_to(emitter, from, direction.as_dvec3());
     let distance = if met > 0.0 && met < f64::INFINITY { met } else { length };
     let cosine = if shines { cosine_of(surface, normal, direction) } else { 0.0 };
-    let irradiance = irradiance_from_area(lights.radiance[light], cosine, density);
-    let aimed = Aimed { origin, direction, distance, cosine };
-    (LightRay { aimed, reach: shadow_reach(distance), irradiance }, density)
+    let irradiance = irradiance_from_area(lights.radiance[light], cosine, pdf);
+    let aimed = ShadowRay { origin, direction, distance, cosine };
+    (LightRay { aimed, reach: shadow_t_max(distance), irradiance }, pdf)
 }
-// ANCHOR_END: aim_at_light
+// ANCHOR_END: sample_light
 
 /// Appends, for each row, a ray to a point on one of the lights with an area.
-pub fn aim_at_area_lights(
+pub fn sample_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(
-        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>, Option<&Paths>),
+        (&Tile, Option<&SampleNumber>, Option<&Depth>, Option<&PixelSamples>, Option<&Paths>),
         (&Surfaces, Option<&ShadingNormals>, &MaterialRows),
         &mut LightRays,
-        Option<&mut LightDensities>,
+        Option<&mut LightPdfs>,
     )>,
 ) {
     if lights.emitter.is_empty() {
         return;
     }
-    for ((tile, number, leg, samples, paths), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
-        let lit = LitRows { surfaces, shading, rows: &list.row };
+    for ((tile, number, depth, samples, paths), (surfaces, shading, list), mut rays, mut pdfs) in &mut tiles {
+        let lit = LightRows { surfaces, shading, rows: &list.row };
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
-        let (number, leg) = (number.map_or(0, |number| number.0), leg.map_or(0, |leg| leg.0));
-        let to = (&mut *rays, densities.as_deref_mut());
+        let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
+        let to = (&mut *rays, pdfs.as_deref_mut());
         let purposes = [Purpose::LightChoice, Purpose::LightPoint];
         match sampling.sampler {
             Sampler::Independent => {
-                aim_rows(purposes.map(|purpose| Independent::new(number, leg, purpose)), key, &lights, &lit, to);
+                aim_rows(purposes.map(|purpose| Independent::new(number, depth, purpose)), key, &lights, &lit, to);
             }
             Sampler::Stratified => {
                 let all = sampling.samples;
-                aim_rows(purposes.map(|purpose| Stratified::new(number, all, leg, purpose)), key, &lights, &lit, to);
+                aim_rows(purposes.map(|purpose| Stratified::new(number, all, depth, purpose)), key, &lights, &lit, to);
             }
             Sampler::Sobol => {
-                aim_rows(purposes.map(|purpose| Sobol::new(number, leg, purpose)), key, &lights, &lit, to);
+                aim_rows(purposes.map(|purpose| Sobol::new(number, depth, purpose)), key, &lights, &lit, to);
             }
         }
     }
@@ -103,19 +103,19 @@ fn aim_rows<D: Draw>(
     [choice, place]: [D; 2],
     key: impl Fn(usize) -> PixelKey,
     lights: &AreaLightTable,
-    lit: &LitRows<'_>,
+    lit: &LightRows<'_>,
     to: RayLists<'_>,
 ) {
     append_chosen(lit, to, |row, surface, normal| {
         let key = key(row);
         let light = lights.chosen(choice.one(key));
-        aim_at_light(lights, light, surface, normal, place.two(key).map(unit))
+        sample_light(lights, light, surface, normal, place.two(key).map(unit))
     });
 }
 
 /// The stage on offer: the alternative to meeting such light by chance.
 pub fn area_light_stage() -> Stage {
-    Stage::new("Aim at lights with area", TileSystems::Aim, aim_at_area_lights)
+    Stage::new("Sample area lights", TileSystems::SampleLights, sample_area_lights)
         .kind(StageKind::Alternative)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
@@ -123,8 +123,10 @@ pub fn area_light_stage() -> Stage {
         .reads_if::<PixelSamples>()
         .reads_if::<Paths>()
         .appends::<LightRays>()
-        .writes::<LightDensities>()
+        .writes::<LightPdfs>()
         .table::<AreaLightTable>()
         .table::<SamplingTable>()
-        .when(|scene| area_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| material_evidence(scene)))
+        .when(|scene| {
+            area_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
+        })
 }

@@ -1,7 +1,7 @@
-use super::highlight::{Lit, highlight};
+use super::highlight::{HighlightRow, highlight};
 use super::light::light_evidence;
 use super::{LightRays, Radiance, ShadowHits};
-use crate::extract::{BlinnPhongTable, MaterialKind, MaterialTable, matter_evidence};
+use crate::extract::{BlinnPhongTable, MaterialKind, MaterialTable, material_kind_evidence};
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -9,16 +9,16 @@ use crate::scene::BlinnPhong;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-// ANCHOR: half_way_cosine
+// ANCHOR: half_vector_cosine
 /// cos β between the normal and the direction half way between light and eye; no vector need have length 1.
 ///
 /// Where light and eye face each other there is no half way and the answer is not a number, which is no highlight.
 #[inline(always)]
-pub fn half_way_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
-    let half_way = to_light / to_light.length() + to_eye / to_eye.length();
-    normal.dot(half_way) / (normal.length() * half_way.length())
+pub fn half_vector_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
+    let half_vector = to_light / to_light.length() + to_eye / to_eye.length();
+    normal.dot(half_vector) / (normal.length() * half_vector.length())
 }
-// ANCHOR_END: half_way_cosine
+// ANCHOR_END: half_vector_cosine
 
 /// Adds what Blinn–Phong surfaces send towards the eye in their highlights.
 pub fn add_blinn_phong(
@@ -30,9 +30,9 @@ pub fn add_blinn_phong(
     )>,
 ) {
     for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
-        let lit = Lit { eye, surfaces, shading, light, shadow };
+        let lit = HighlightRow { eye, surfaces, shading, light, shadow };
         lit.add_highlights(&materials, MaterialKind::BlinnPhong, &mut radiance, |row, [normal, to_light, to_eye]| {
-            let cosine = half_way_cosine(normal, to_light, to_eye);
+            let cosine = half_vector_cosine(normal, to_light, to_eye);
             let height = highlight(highlights.peak[row], highlights.exponent[row], cosine);
             highlights.specular[row].map(|part| part * height)
         });
@@ -51,5 +51,5 @@ pub fn blinn_phong_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<BlinnPhongTable>()
-        .when(|scene| matter_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(|| light_evidence(scene)))
+        .when(|scene| material_kind_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(|| light_evidence(scene)))
 }

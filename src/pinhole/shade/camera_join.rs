@@ -1,9 +1,9 @@
 use super::LightRays;
-use super::light::{Aimed, LightRay, LitRows, append_chosen, shadow_reach};
+use super::light::{LightRay, LightRows, ShadowRay, append_chosen, shadow_t_max};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine, offset_origin};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
-use crate::rays::{Draws, Leg, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
+use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
 use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -36,10 +36,10 @@ pub fn draw_join_points(
     lens: Res<Shared<LensTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut drawn: Local<Vec<[f64; 2]>>,
-    mut tiles: Query<(&Tile, &Leg, &SampleNumber, &Paths, &MaterialRows, &mut JoinPoints)>,
+    mut tiles: Query<(&Tile, &Depth, &SampleNumber, &Paths, &MaterialRows, &mut JoinPoints)>,
 ) {
-    for (tile, &leg, number, paths, list, mut points) in &mut tiles {
-        let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), leg };
+    for (tile, &depth, number, paths, list, mut points) in &mut tiles {
+        let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), depth };
         draws_of_two(&draws, Purpose::Lens, &list.row, &mut drawn);
         let (xs, ys) = points.slices_mut(paths.rows());
         for (&row, &u) in list.row.iter().zip(&*drawn) {
@@ -50,7 +50,7 @@ pub fn draw_join_points(
 
 /// The stage that draws points.
 pub fn join_point_stage() -> Stage {
-    Stage::new("Draw points on the lens to join", TileSystems::Join, draw_join_points)
+    Stage::new("Sample the lens for connections", TileSystems::Join, draw_join_points)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads::<Paths>()
@@ -71,12 +71,12 @@ pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64
     if to_camera > 0.0 && falling > 0.0 { to_camera * (falling_by_shading / falling).max(0.0) } else { 0.0 }
 }
 
-// ANCHOR: aim_at_the_camera
+// ANCHOR: connect_to_camera
 /// Appends a ray to the camera from every surface that light from a lamp falls on, and what the pixel there makes of it.
 ///
 /// The camera stands in for a light: what falls on the surface is known, and what it sends there is asked for; matter
 /// answers the same either way.
-pub fn aim_at_the_camera(
+pub fn connect_to_camera(
     join: Res<Shared<CameraJoinTable>>,
     mut tiles: Query<(
         (&WorldRays, &Surfaces, Option<&ShadingNormals>, &MaterialRows, Option<&JoinPoints>),
@@ -84,7 +84,7 @@ pub fn aim_at_the_camera(
     )>,
 ) {
     for ((arriving, surfaces, shading, list, points), mut rays) in &mut tiles {
-        let lit = LitRows { surfaces, shading, rows: &list.row };
+        let lit = LightRows { surfaces, shading, rows: &list.row };
         append_chosen(&lit, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
@@ -94,16 +94,16 @@ pub fn aim_at_the_camera(
             let (own, from) = (surface.normal.as_dvec3(), -arriving.direction_of(row));
             let seen = if distance > 0.0 { own.dot(direction.as_dvec3()) } else { 0.0 };
             let cosine = join_cosine(seen, own.dot(from), falling_cosine(own, normal, from));
-            let aimed = Aimed { origin, direction, distance, cosine };
-            (LightRay { aimed, reach: shadow_reach(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
+            let aimed = ShadowRay { origin, direction, distance, cosine };
+            (LightRay { aimed, reach: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
         });
     }
 }
-// ANCHOR_END: aim_at_the_camera
+// ANCHOR_END: connect_to_camera
 
 /// The stage on offer.
 pub fn camera_join_stage() -> Stage {
-    Stage::new("Aim at the camera", TileSystems::Aim, aim_at_the_camera)
+    Stage::new("Connect to the camera", TileSystems::SampleLights, connect_to_camera)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .reads::<WorldRays>()

@@ -108,7 +108,7 @@ fn colour_rows(
 
 /// The stage on offer for checkers.
 pub fn checker_stage() -> Stage {
-    Stage::new("Colour checkers", TileSystems::Texture, colour_checkers)
+    Stage::new("Evaluate textures: checkers", TileSystems::Texture, colour_checkers)
         .reads::<Surfaces>()
         .reads::<MaterialRows>()
         .reads::<TexturePoints>()
@@ -120,7 +120,7 @@ pub fn checker_stage() -> Stage {
 
 /// The stage on offer for stripes.
 pub fn stripes_stage() -> Stage {
-    Stage::new("Colour stripes", TileSystems::Texture, colour_stripes)
+    Stage::new("Evaluate textures: stripes", TileSystems::Texture, colour_stripes)
         .reads::<Surfaces>()
         .reads::<MaterialRows>()
         .reads::<TexturePoints>()
@@ -136,7 +136,7 @@ mod tests {
     use glam::DVec3;
 
     /// Numbers from 0 to 1 that look like chance.
-    fn chance(index: u64, purpose: u64) -> f64 {
+    fn random(index: u64, purpose: u64) -> f64 {
         let mixed = (index * 31 + purpose + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         ((mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 40) as f64 / (1 << 24) as f64
     }
@@ -157,8 +157,8 @@ mod tests {
     fn the_mean_is_that_of_its_cells() {
         let (mut worst, mut tried) = (0.0_f64, 0);
         for index in 0..20_000 {
-            let x = 40.0 * chance(index, 0) - 20.0;
-            let width = libm::exp2(14.0 * chance(index, 1) - 7.0);
+            let x = 40.0 * random(index, 0) - 20.0;
+            let width = libm::exp2(14.0 * random(index, 1) - 7.0);
             worst = worst.max((wave_mean(x, width) - counted_mean(x - 0.5 * width, x + 0.5 * width)).abs());
             tried += 1;
         }
@@ -186,13 +186,13 @@ mod tests {
         const POINTS: u64 = 20_000;
         let mut worst = 0.0_f64;
         for index in 0..20 {
-            let point = DVec3::new(chance(index, 2) * 6.0, chance(index, 3) * 6.0, chance(index, 4) * 6.0);
-            let width = DVec3::new(chance(index, 5), chance(index, 6), chance(index, 7)) * 3.0;
+            let point = DVec3::new(random(index, 2) * 6.0, random(index, 3) * 6.0, random(index, 4) * 6.0);
+            let width = DVec3::new(random(index, 5), random(index, 6), random(index, 7)) * 3.0;
             let steps = [DVec3::new(width.x, 0.0, 0.6 * width.z), DVec3::new(0.0, width.y, 0.8 * width.z)];
             let share = checker_share(&TexturePoint { point, steps });
             let inside = (0..POINTS)
                 .map(|number| {
-                    let within = |axis: u64| chance(number, 10 + axis + 3 * index) - 0.5;
+                    let within = |axis: u64| random(number, 10 + axis + 3 * index) - 0.5;
                     let at = point + width * DVec3::new(within(0), within(1), within(2));
                     checker_share(&TexturePoint { point: at, ..TexturePoint::default() })
                 })

@@ -1,5 +1,5 @@
-use super::light::{Aimed, LightRay, LitRows, append_rays, cosine_of};
-use super::{LightDensities, LightRays};
+use super::light::{LightRay, LightRows, ShadowRay, append_rays, cosine_of};
+use super::{LightPdfs, LightRays};
 use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -17,21 +17,21 @@ pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] 
 
 /// Aims along parallel rays; nothing is beyond such a light.
 #[inline(always)]
-fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Aimed {
+fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> ShadowRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let direction = to_light.as_vec3();
-    Aimed { origin, direction, distance: f64::INFINITY, cosine: cosine_of(surface, normal, direction) }
+    ShadowRay { origin, direction, distance: f64::INFINITY, cosine: cosine_of(surface, normal, direction) }
 }
 
 /// Appends a tile's rays to directional lights, light after light; each looks without end.
-pub fn aim_at_directional_lights(
+pub fn sample_directional_lights(
     lights: Res<Shared<DirectionalLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightDensities>)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
 ) {
-    for (surfaces, shading, list, mut rays, mut densities) in &mut tiles {
-        let lit = LitRows { surfaces, shading, rows: &list.row };
+    for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
+        let lit = LightRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
-            append_rays(&lit, (&mut rays, densities.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
+            append_rays(&lit, (&mut rays, pdfs.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
                 let aimed = aim_along(surface, normal, lights.to_light[light]);
                 let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
                 LightRay { aimed, reach: f32::INFINITY, irradiance }
@@ -42,12 +42,12 @@ pub fn aim_at_directional_lights(
 
 /// The stage on offer.
 pub fn directional_light_stage() -> Stage {
-    Stage::new("Aim at directional lights", TileSystems::Aim, aim_at_directional_lights)
+    Stage::new("Sample directional lights", TileSystems::SampleLights, sample_directional_lights)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
-        .writes::<LightDensities>()
+        .writes::<LightPdfs>()
         .table::<DirectionalLightTable>()
         .when(|scene| {
             unless_occlusion(

@@ -1,6 +1,6 @@
 use super::Radiance;
 use crate::extract::{
-    EmissiveTable, aimed_evidence, emissive_evidence, followed_evidence, one_sided_evidence, traced_evidence,
+    EmissiveTable, emissive_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, traced_evidence,
     unless_occlusion,
 };
 use crate::intersect::{EmissiveRows, SurfaceSides};
@@ -29,7 +29,7 @@ pub fn add_emission(
 
 /// The stage on offer.
 pub fn emissive_stage() -> Stage {
-    Stage::new("Add what surfaces emit", TileSystems::Shade, add_emission)
+    Stage::new("Add emission", TileSystems::Shade, add_emission)
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .reads::<EmissiveRows>()
@@ -41,7 +41,7 @@ pub fn emissive_stage() -> Stage {
             let found = emissive_evidence(scene);
             let follows = followed_evidence(scene).needed;
             let traced = || traced_evidence(scene).needed;
-            if found.needed && follows && (aimed_evidence(scene).needed || traced()) {
+            if found.needed && follows && (light_sampling_evidence(scene).needed || traced()) {
                 let reason = "added as far as it is not aimed at".into();
                 return Evidence { needed: false, reason, count: 0 };
             }

@@ -1,7 +1,7 @@
 use super::Radiance;
 use super::lookup::between;
 use crate::extract::{
-    EnvironmentTable, Texels, aimed_evidence, environment_light_evidence, followed_evidence, unless_occlusion,
+    EnvironmentTable, Texels, environment_light_evidence, followed_evidence, light_sampling_evidence, unless_occlusion,
 };
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
@@ -96,8 +96,9 @@ pub fn environment_stage() -> Stage {
             let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
             });
-            let aimed =
-                environment_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| followed_evidence(scene));
+            let aimed = environment_light_evidence(scene)
+                .and(|| light_sampling_evidence(scene))
+                .and(|| followed_evidence(scene));
             if found.needed && aimed.needed {
                 let reason = "added as far as it is not aimed at".into();
                 return Evidence { needed: false, reason, count: 0 };

@@ -1,12 +1,12 @@
-use super::light::{Aimed, LightRay, LitRows, append_chosen, cosine_of};
-use super::{LightDensities, LightRays, environment_radiance, equirectangular, irradiance_from_area};
+use super::light::{LightRay, LightRows, ShadowRay, append_chosen, cosine_of};
+use super::{LightPdfs, LightRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{
-    EnvironmentLightTable, EnvironmentTable, SamplingTable, aimed_evidence, environment_light_evidence,
+    EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
     material_evidence,
 };
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Leg, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::rays::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
 use crate::scene::Sampler;
 use bevy_ecs::prelude::*;
@@ -27,20 +27,20 @@ pub fn environment_direction(light: &EnvironmentLightTable, turn: [f64; 2], u: [
     let there = DVec3::new(level * libm::sin(longitude), 1.0 - versine, -level * libm::cos(longitude));
     let [sine, cosine] = turn;
     let direction = DVec3::new(there.x * cosine + there.z * sine, there.y, there.z * cosine - there.x * sine);
-    (direction, light.density([row, column]))
+    (direction, light.pdf([row, column]))
 }
 // ANCHOR_END: environment_direction
 
 /// How likely [`environment_direction`] was to choose a direction, in 1/sr.
 #[inline(always)]
-pub fn environment_density(light: &EnvironmentLightTable, turn: [f64; 2], direction: DVec3) -> f64 {
+pub fn environment_pdf(light: &EnvironmentLightTable, turn: [f64; 2], direction: DVec3) -> f64 {
     let [sine, cosine] = turn;
     let DVec3 { x, y, z } = direction;
     let at = equirectangular(DVec3::new(x * cosine - z * sine, y, x * sine + z * cosine));
     let (width, height) = (light.columns as f64, (light.rows - 1) as f64);
     let column = (at.x * width - 0.5).rem_euclid(width) as usize % light.columns;
     let row = ((at.y * height + 0.5) as usize).min(light.rows - 1);
-    light.density([row, column])
+    light.pdf([row, column])
 }
 
 /// A fraction of 32 bits as a number: all of its bits, for a bright cell may be narrow.
@@ -51,56 +51,56 @@ fn whole_unit(bits: u32) -> f64 {
 
 /// Aims along a direction of the environment; nothing is beyond.
 #[inline(always)]
-fn aim_at_environment(
+fn sample_environment_at(
     environment: &EnvironmentTable,
     light: &EnvironmentLightTable,
     surface: &Surface,
     normal: DVec3,
     u: [f64; 2],
 ) -> (LightRay, f64) {
-    let (direction, density) = environment_direction(light, environment.turn, u);
+    let (direction, pdf) = environment_direction(light, environment.turn, u);
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let radiance = environment_radiance(environment, direction);
     let direction = direction.as_vec3();
-    let cosine = if density > 0.0 { cosine_of(surface, normal, direction) } else { 0.0 };
-    let irradiance = irradiance_from_area(radiance, cosine, density);
-    let aimed = Aimed { origin, direction, distance: f64::INFINITY, cosine };
-    (LightRay { aimed, reach: f32::INFINITY, irradiance }, density)
+    let cosine = if pdf > 0.0 { cosine_of(surface, normal, direction) } else { 0.0 };
+    let irradiance = irradiance_from_area(radiance, cosine, pdf);
+    let aimed = ShadowRay { origin, direction, distance: f64::INFINITY, cosine };
+    (LightRay { aimed, reach: f32::INFINITY, irradiance }, pdf)
 }
 
 /// Appends, for each row, a ray to a bright place of the environment.
-pub fn aim_at_the_environment(
+pub fn sample_environment(
     environment: Res<Shared<EnvironmentTable>>,
     light: Res<Shared<EnvironmentLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(
-        (&Tile, Option<&SampleNumber>, Option<&Leg>, Option<&PixelSamples>, Option<&Paths>),
+        (&Tile, Option<&SampleNumber>, Option<&Depth>, Option<&PixelSamples>, Option<&Paths>),
         (&Surfaces, Option<&ShadingNormals>, &MaterialRows),
         &mut LightRays,
-        Option<&mut LightDensities>,
+        Option<&mut LightPdfs>,
     )>,
 ) {
-    for ((tile, number, leg, samples, paths), (surfaces, shading, list), mut rays, mut densities) in &mut tiles {
-        let lit = LitRows { surfaces, shading, rows: &list.row };
+    for ((tile, number, depth, samples, paths), (surfaces, shading, list), mut rays, mut pdfs) in &mut tiles {
+        let lit = LightRows { surfaces, shading, rows: &list.row };
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
-        let (number, leg) = (number.map_or(0, |number| number.0), leg.map_or(0, |leg| leg.0));
-        let (to, purpose) = ((&mut *rays, densities.as_deref_mut()), Purpose::EnvironmentPoint);
-        let aim = |surface: &Surface, normal, u| aim_at_environment(&environment, &light, surface, normal, u);
+        let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
+        let (to, purpose) = ((&mut *rays, pdfs.as_deref_mut()), Purpose::EnvironmentPoint);
+        let aim = |surface: &Surface, normal, u| sample_environment_at(&environment, &light, surface, normal, u);
         match sampling.sampler {
             Sampler::Independent => {
-                let draw = Independent::new(number, leg, purpose);
+                let draw = Independent::new(number, depth, purpose);
                 append_chosen(&lit, to, |row, surface, normal| {
                     aim(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
             }
             Sampler::Stratified => {
-                let draw = Stratified::new(number, sampling.samples, leg, purpose);
+                let draw = Stratified::new(number, sampling.samples, depth, purpose);
                 append_chosen(&lit, to, |row, surface, normal| {
                     aim(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
             }
             Sampler::Sobol => {
-                let draw = Sobol::new(number, leg, purpose);
+                let draw = Sobol::new(number, depth, purpose);
                 append_chosen(&lit, to, |row, surface, normal| {
                     aim(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
@@ -111,7 +111,7 @@ pub fn aim_at_the_environment(
 
 /// The stage on offer: the alternative to meeting such light by chance.
 pub fn environment_light_stage() -> Stage {
-    Stage::new("Aim at the environment", TileSystems::Aim, aim_at_the_environment)
+    Stage::new("Sample the environment", TileSystems::SampleLights, sample_environment)
         .kind(StageKind::Alternative)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
@@ -119,9 +119,11 @@ pub fn environment_light_stage() -> Stage {
         .reads_if::<PixelSamples>()
         .reads_if::<Paths>()
         .appends::<LightRays>()
-        .writes::<LightDensities>()
+        .writes::<LightPdfs>()
         .table::<EnvironmentTable>()
         .table::<EnvironmentLightTable>()
         .table::<SamplingTable>()
-        .when(|scene| environment_light_evidence(scene).and(|| aimed_evidence(scene)).and(|| material_evidence(scene)))
+        .when(|scene| {
+            environment_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
+        })
 }

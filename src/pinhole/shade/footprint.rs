@@ -63,7 +63,7 @@ pub fn measure_footprints(
 ) {
     for (rays, hits, surfaces, list, mut footprints) in &mut tiles {
         let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(surfaces.rows());
-        [&mut *rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
+        [&mut *rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
         for &row in &list.row {
             let row = row as usize;
             let direction = rays.direction_of(row);
@@ -85,7 +85,7 @@ pub fn measure_footprints(
 
 /// The stage on offer.
 pub fn footprint_stage() -> Stage {
-    Stage::new("Measure footprints", TileSystems::Footprint, measure_footprints)
+    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<Surfaces>()

@@ -18,7 +18,7 @@ pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
 // ANCHOR_END: highlight
 
 /// The columns of a tile that a highlight is made of.
-pub(super) struct Lit<'a> {
+pub(super) struct HighlightRow<'a> {
     pub eye: &'a WorldRays,
     pub surfaces: &'a Surfaces,
     pub shading: Option<&'a ShadingNormals>,
@@ -26,7 +26,7 @@ pub(super) struct Lit<'a> {
     pub shadow: Option<&'a ShadowHits>,
 }
 
-impl Lit<'_> {
+impl HighlightRow<'_> {
     /// Adds the highlights of one kind of material, light ray after light ray, where nothing is in the way.
     ///
     /// `share` gets the row of the kind's table, the normal, the way to the light and the way to the eye, and gives what
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::extract::{blinn_phong_peak, phong_peak};
     use crate::measure::ray_aim::Draws;
-    use crate::shade::{half_way_cosine, mirror_cosine};
+    use crate::shade::{half_vector_cosine, mirror_cosine};
 
     /// Light and eye change places, and the answer stays.
     #[test]
@@ -76,7 +76,7 @@ mod tests {
             let (light, eye) = (way(), way());
             for (peak, cosine) in [
                 (phong_peak(exponent), mirror_cosine as fn(_, _, _) -> f64),
-                (blinn_phong_peak(exponent), half_way_cosine),
+                (blinn_phong_peak(exponent), half_vector_cosine),
             ] {
                 let there = highlight(peak, exponent, cosine(normal, light, eye));
                 let back = highlight(peak, exponent, cosine(normal, eye, light));
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(highlight(2.0, 1e9, 0.999), 0.0);
         assert_eq!([highlight(2.0, 0.0, 1e-300), highlight(2.0, 0.0, 0.0), highlight(2.0, 2.0, -1.0)], [2.0, 0.0, 0.0]);
         assert_eq!(highlight(2.0, 5.0, f64::NAN), 0.0);
-        let opposite = half_way_cosine(DVec3::Y, DVec3::X, -DVec3::X);
+        let opposite = half_vector_cosine(DVec3::Y, DVec3::X, -DVec3::X);
         assert_eq!(highlight(2.0, 5.0, opposite), 0.0, "light and eye face each other");
         assert!(phong_peak(1e9).is_finite() && blinn_phong_peak(1e9).is_finite());
         assert!((blinn_phong_peak(0.0) - std::f64::consts::FRAC_1_PI).abs() < 1e-16, "an exponent of 0 is matte");

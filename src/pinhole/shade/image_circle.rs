@@ -26,7 +26,7 @@ pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&Scre
 
 /// The stage on offer.
 pub fn image_circle_stage() -> Stage {
-    Stage::new("Blacken outside the circle", TileSystems::Mask, blacken_outside)
+    Stage::new("Mask the image circle", TileSystems::Mask, blacken_outside)
         .kind(StageKind::Alternative)
         .reads::<ScreenPoints>()
         .reads::<Radiance>()

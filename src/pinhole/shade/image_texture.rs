@@ -45,7 +45,7 @@ fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
 
 /// The stage on offer.
 pub fn image_stage() -> Stage {
-    Stage::new("Colour images", TileSystems::Texture, colour_images)
+    Stage::new("Evaluate textures: images", TileSystems::Texture, colour_images)
         .reads::<Surfaces>()
         .reads::<MaterialRows>()
         .reads::<TexturePoints>()

@@ -1,12 +1,12 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
-    MaterialTable, aimed_evidence, area_light_evidence, environment_light_evidence, material_evidence,
+    MaterialTable, area_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
-    NO_SHAPE, RayColumn, RayLanes, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+    NO_SHAPE, RayBlockMut, RayColumn, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
-use crate::plan::{Carried, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -42,19 +42,19 @@ column! {
 
 column! {
     /// How likely each light ray was to be sent where it goes; beside the light rays, where something reads it.
-    pub struct LightDensities("light density", "directions", "1/sr", Ray) {
+    pub struct LightPdfs("light pdf", "directions", "1/sr", Ray) {
         /// The row of the tile whose surface the light ray starts on.
         path: u32,
         /// Per unit of solid angle, the chance of having chosen that light included; 0 for a light without an area, which
         /// no other ray can find by chance.
-        density: f64,
+        pdf: f64,
     }
 }
 
-impl LightDensities {
+impl LightPdfs {
     /// Grey, the brighter the likelier.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [(self.density[row] / (1.0 + self.density[row])) as f32; 3]
+        [(self.pdf[row] / (1.0 + self.pdf[row])) as f32; 3]
     }
 }
 
@@ -72,7 +72,7 @@ impl LightRays {
 
     /// Lets a ray bring only this share of what it would.
     #[inline(always)]
-    pub fn weigh(&mut self, ray: usize, share: f64) {
+    pub fn mis(&mut self, ray: usize, share: f64) {
         let weighed = |part: f32| (f64::from(part) * share) as f32;
         (self.r[ray], self.g[ray], self.b[ray]) = (weighed(self.r[ray]), weighed(self.g[ray]), weighed(self.b[ray]));
     }
@@ -85,11 +85,11 @@ impl LightRays {
 }
 
 impl RayColumn for LightRays {
-    fn ray_lanes(&self) -> RayLanes<'_> {
-        RayLanes { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    fn ray_components(&self) -> RayBlockMut<'_> {
+        RayBlockMut { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
     }
 
-    fn path_lane(&self) -> Option<&[u32]> {
+    fn path_component(&self) -> Option<&[u32]> {
         Some(&self.path)
     }
 }
@@ -108,7 +108,7 @@ pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
 // ANCHOR: aim
 /// A ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Aimed {
+pub(super) struct ShadowRay {
     pub origin: Vec3,
     pub direction: Vec3,
     pub distance: f64,
@@ -118,12 +118,12 @@ pub(super) struct Aimed {
 
 /// Aims at a point; `normal` is the one to shade by, which is the surface's own where it has no other.
 #[inline(always)]
-pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> Aimed {
+pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> ShadowRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
-    Aimed { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
+    ShadowRay { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
 }
 // ANCHOR_END: aim
 
@@ -133,38 +133,38 @@ pub(super) fn cosine_of(surface: &Surface, normal: DVec3, direction: Vec3) -> f6
     falling_cosine(surface.normal.as_dvec3(), normal, direction.as_dvec3())
 }
 
-// ANCHOR: shadow_reach
+// ANCHOR: shadow_t_max
 /// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
 #[inline(always)]
-pub fn shadow_reach(distance: f64) -> f32 {
+pub fn shadow_t_max(distance: f64) -> f32 {
     (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
 }
-// ANCHOR_END: shadow_reach
+// ANCHOR_END: shadow_t_max
 
 /// A ray to a light as a kind of light makes it, and the irradiance that it brings.
 pub(super) struct LightRay {
-    pub aimed: Aimed,
+    pub aimed: ShadowRay,
     pub reach: f32,
     pub irradiance: [f64; 3],
 }
 
 /// The surfaces that light may fall on.
-pub(super) struct LitRows<'a> {
+pub(super) struct LightRows<'a> {
     pub surfaces: &'a Surfaces,
     pub shading: Option<&'a ShadingNormals>,
     pub rows: &'a [u32],
 }
 
 /// The lists that rays to lights are appended to.
-pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightDensities>);
+pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightPdfs>);
 
 /// Aims from all surfaces of a list at one light and appends the rays that bring something.
 ///
 /// A scene without shading normals has a loop of its own, that knows nothing of them.
 #[inline(always)]
 pub(super) fn append_rays(
-    lit: &LitRows<'_>,
-    (rays, densities): RayLists<'_>,
+    lit: &LightRows<'_>,
+    (rays, pdfs): RayLists<'_>,
     casts_shadows: bool,
     ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
@@ -178,8 +178,8 @@ pub(super) fn append_rays(
             append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
     }
-    if let Some(densities) = densities {
-        let (path, _) = densities.slices_mut(rays.rows());
+    if let Some(pdfs) = pdfs {
+        let (path, _) = pdfs.slices_mut(rays.rows());
         path.copy_from_slice(&rays.path);
     }
 }
@@ -212,32 +212,32 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
 /// `ray_of` gets the row, the surface and the normal to shade by.
 #[inline(always)]
 pub(super) fn append_chosen(
-    lit: &LitRows<'_>,
-    (rays, mut densities): RayLists<'_>,
+    lit: &LightRows<'_>,
+    (rays, mut pdfs): RayLists<'_>,
     ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
 ) {
     let length = rays.rows();
     let most = length + lit.rows.len();
     let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
-    let mut likely = densities.as_deref_mut().map(|densities| densities.slices_mut(most));
+    let mut likely = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
     let mut at = length;
     for &row in lit.rows {
         let surface = lit.surfaces.get(row as usize);
         let normal = lit.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (ray, density) = ray_of(row as usize, &surface, normal);
+        let (ray, pdf) = ray_of(row as usize, &surface, normal);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
         (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
         reach[at] = ray.reach;
         [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
         if let Some(likely) = &mut likely {
-            (likely.0[at], likely.1[at]) = (row, density);
+            (likely.0[at], likely.1[at]) = (row, pdf);
         }
         at += usize::from(ray.aimed.cosine > 0.0);
     }
     rays.slices_mut(at);
-    if let Some(densities) = densities {
-        densities.slices_mut(at);
+    if let Some(pdfs) = pdfs {
+        pdfs.slices_mut(at);
     }
 }
 
@@ -245,11 +245,11 @@ pub(super) fn append_chosen(
 const MOST: f64 = f32::MAX as f64;
 
 /// Empties every tile's list of light rays.
-pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightDensities>)>) {
-    for (mut rays, densities) in &mut tiles {
+pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
+    for (mut rays, pdfs) in &mut tiles {
         rays.clear();
-        if let Some(mut densities) = densities {
-            densities.clear();
+        if let Some(mut pdfs) = pdfs {
+            pdfs.clear();
         }
     }
 }
@@ -279,15 +279,15 @@ pub fn add_light(
 
 /// The stage that starts.
 pub fn start_light_stage() -> Stage {
-    Stage::new("Start with no light on its way", TileSystems::Start, start_light)
+    Stage::new("Clear light rays", TileSystems::Start, start_light)
         .writes::<LightRays>()
-        .writes::<LightDensities>()
+        .writes::<LightPdfs>()
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
 pub fn light_stage() -> Stage {
-    Stage::new("Add the light that arrives", TileSystems::Shade, add_light)
+    Stage::new("Evaluate direct light", TileSystems::Shade, add_light)
         .kind(StageKind::Alternative)
         .reads::<Surfaces>()
         .reads_if::<SurfaceColours>()
@@ -313,7 +313,7 @@ pub fn lit_evidence(scene: &World) -> Evidence {
 
 /// Evidence that there is a light of any kind that rays are sent to.
 pub(super) fn light_evidence(scene: &World) -> Evidence {
-    let aimed_at = unless_occlusion(scene, or_aimed(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
+    let aimed_at = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
     either(aimed_at, traced_evidence(scene))
 }
 
@@ -323,11 +323,12 @@ pub fn point_evidence(scene: &World) -> Evidence {
 }
 
 /// The evidence of lights without an area, or else that there are others and that they are aimed at.
-pub(super) fn or_aimed(scene: &World, points: Evidence) -> Evidence {
-    let others = area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| aimed_evidence(scene));
+pub(super) fn or_light(scene: &World, points: Evidence) -> Evidence {
+    let others =
+        area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| light_sampling_evidence(scene));
     if others.needed { points.or(others) } else { points }
 }
 
 /// Every component that is a light without an area; a new one joins here.
-pub(super) const LIGHTS: [Carried; 3] =
-    [Carried::of::<PointLight>(), Carried::of::<DirectionalLight>(), Carried::of::<SpotLight>()];
+pub(super) const LIGHTS: [ComponentKind; 3] =
+    [ComponentKind::of::<PointLight>(), ComponentKind::of::<DirectionalLight>(), ComponentKind::of::<SpotLight>()];

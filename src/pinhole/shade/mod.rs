@@ -15,7 +15,6 @@ mod emissive;
 pub mod emitter;
 mod environment;
 mod environment_light;
-mod flat;
 mod footprint;
 mod gradient;
 mod highlight;
@@ -30,50 +29,49 @@ mod shadow;
 mod spot_light;
 mod surface_colour;
 mod texture_point;
+mod unlit;
 mod unmet;
 
-pub use area_light::{aim_at_area_lights, area_light_density, area_light_stage, irradiance_from_area};
+pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 pub use background::{add_background, background_stage};
-pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_way_cosine};
+pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_vector_cosine};
 pub use camera_join::{
-    JoinPoints, aim_at_the_camera, camera_join_stage, draw_join_points, join_cosine, join_point_stage,
+    JoinPoints, camera_join_stage, connect_to_camera, draw_join_points, join_cosine, join_point_stage,
 };
 pub use checker::{
     box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
     wave_mean,
 };
 pub use colour::SurfaceColours;
-pub use directional_light::{aim_at_directional_lights, directional_light_stage, irradiance_from_direction};
+pub use directional_light::{directional_light_stage, irradiance_from_direction, sample_directional_lights};
 pub use emissive::{add_emission, emissive_stage};
 pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
 };
-pub use environment_light::{
-    aim_at_the_environment, environment_density, environment_direction, environment_light_stage,
-};
-pub use flat::{flat_stage, shade_flat};
+pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
 pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
 pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
 pub use image_texture::{colour_images, image_stage};
 pub use light::{
-    LightDensities, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_reach,
+    LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_t_max,
     start_light, start_light_stage,
 };
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 pub use phong::{add_phong, mirror_cosine, phong_stage};
-pub use point_light::{aim_at_point_lights, irradiance_from_point, point_light_stage};
+pub use point_light::{irradiance_from_point, point_light_stage, sample_point_lights};
 pub use radiance::{Radiance, start_radiance, start_stage};
 pub use shadow::{
     ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
     plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
     triangle_shadow_stage,
 };
-pub use spot_light::{aim_at_spot_lights, spot_light_stage, spot_share, versine};
+pub use spot_light::{sample_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
-pub use unmet::check_shapes_are_met;
+pub use unlit::{shade_unlit, unlit_stage};
+pub use unmet::check_shapes_are_intersected;
 
 use crate::plan::Stage;
 
@@ -82,7 +80,7 @@ pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), start_light_stage()];
     stages.extend(colour_stages());
     stages.extend(background_stages());
-    stages.push(flat_stage());
+    stages.push(unlit_stage());
     stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
     stages.extend([environment_light_stage(), start_shadow_stage()]);
     stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
@@ -101,7 +99,7 @@ pub fn stages() -> Vec<Stage> {
 
 /// A surface's own colour, whether the scene has lights or not, and what is behind everything.
 pub fn unlit_stages() -> Vec<Stage> {
-    vec![start_stage(), background_stage(), flat_stage().when(flat::shown_evidence)]
+    vec![start_stage(), background_stage(), unlit_stage().when(unlit::shown_evidence)]
 }
 
 /// Surfaces with colours of their own: textures, and what a pixel covers of them.

@@ -1,7 +1,7 @@
-use super::highlight::{Lit, highlight};
+use super::highlight::{HighlightRow, highlight};
 use super::light::light_evidence;
 use super::{LightRays, Radiance, ShadowHits};
-use crate::extract::{MaterialKind, MaterialTable, PhongTable, matter_evidence};
+use crate::extract::{MaterialKind, MaterialTable, PhongTable, material_kind_evidence};
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -30,7 +30,7 @@ pub fn add_phong(
     )>,
 ) {
     for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
-        let lit = Lit { eye, surfaces, shading, light, shadow };
+        let lit = HighlightRow { eye, surfaces, shading, light, shadow };
         lit.add_highlights(&materials, MaterialKind::Phong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = mirror_cosine(normal, to_light, to_eye);
             let height = highlight(highlights.peak[row], highlights.exponent[row], cosine);
@@ -51,5 +51,5 @@ pub fn phong_stage() -> Stage {
         .writes::<Radiance>()
         .table::<MaterialTable>()
         .table::<PhongTable>()
-        .when(|scene| matter_evidence::<Phong>(scene, "Phong surface").and(|| light_evidence(scene)))
+        .when(|scene| material_kind_evidence::<Phong>(scene, "Phong surface").and(|| light_evidence(scene)))
 }

@@ -33,8 +33,8 @@ pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
 
 /// The stage on offer.
 pub fn start_stage() -> Stage {
-    Stage::new("Start in the dark", TileSystems::Start, start_radiance)
-        .on_first_leg()
+    Stage::new("Clear radiance", TileSystems::Start, start_radiance)
+        .on_first_bounce()
         .on_camera_paths()
         .reads::<RasterPoints>()
         .writes::<Radiance>()

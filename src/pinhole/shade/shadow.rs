@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::{LIGHTS, either, or_aimed};
+use super::light::{LIGHTS, either, or_light};
 use crate::extract::{
     CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
     material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
@@ -34,7 +34,7 @@ impl ShadowHits {
 }
 
 impl HitColumn for ShadowHits {
-    fn hit_lanes(&mut self) -> (&mut [f64], &mut [u32]) {
+    fn hit_components(&mut self) -> (&mut [f64], &mut [u32]) {
         let rows = self.rows();
         let (t, shape, _) = self.slices_mut(rows);
         (t, shape)
@@ -55,7 +55,7 @@ pub fn start_shadows(mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
 
 /// The stage that starts.
 pub fn start_shadow_stage() -> Stage {
-    Stage::new("Start with light seen", TileSystems::Unblock, start_shadows)
+    Stage::new("Clear shadow hits", TileSystems::ClearShadows, start_shadows)
         .reads::<LightRays>()
         .writes::<ShadowHits>()
         .when(shadow_evidence)
@@ -64,7 +64,7 @@ pub fn start_shadow_stage() -> Stage {
 // ANCHOR: sphere_shadow_stage
 /// The stage that intersects shadow rays with spheres.
 pub fn sphere_shadow_stage() -> Stage {
-    Stage::new("Look for spheres in the way", TileSystems::Occlude, intersect_spheres::<LightRays, ShadowHits>)
+    Stage::new("Trace shadow rays: spheres", TileSystems::TraceShadowRays, intersect_spheres::<LightRays, ShadowHits>)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -76,7 +76,7 @@ pub fn sphere_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with ellipsoids.
 pub fn ellipsoid_shadow_stage() -> Stage {
     let intersect = intersect_ellipsoids::<LightRays, ShadowHits>;
-    Stage::new("Look for ellipsoids in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: ellipsoids", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -86,7 +86,7 @@ pub fn ellipsoid_shadow_stage() -> Stage {
 
 /// The stage that intersects shadow rays with planes.
 pub fn plane_shadow_stage() -> Stage {
-    Stage::new("Look for planes in the way", TileSystems::Occlude, intersect_planes::<LightRays, ShadowHits>)
+    Stage::new("Trace shadow rays: planes", TileSystems::TraceShadowRays, intersect_planes::<LightRays, ShadowHits>)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -97,7 +97,7 @@ pub fn plane_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with disks.
 pub fn disk_shadow_stage() -> Stage {
     let intersect = intersect_disks::<LightRays, ShadowHits>;
-    Stage::new("Look for disks in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: disks", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -108,7 +108,7 @@ pub fn disk_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with rectangles.
 pub fn rectangle_shadow_stage() -> Stage {
     let intersect = intersect_rectangles::<LightRays, ShadowHits>;
-    Stage::new("Look for rectangles in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: rectangles", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -119,7 +119,7 @@ pub fn rectangle_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with cuboids.
 pub fn cuboid_shadow_stage() -> Stage {
     let intersect = intersect_cuboids::<LightRays, ShadowHits>;
-    Stage::new("Look for cuboids in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: cuboids", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -130,7 +130,7 @@ pub fn cuboid_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with triangles.
 pub fn triangle_shadow_stage() -> Stage {
     let intersect = intersect_triangles::<LightRays, ShadowHits>;
-    Stage::new("Look for triangles in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: triangles", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<ShadowHits>()
         .writes::<ShadowHits>()
@@ -141,7 +141,7 @@ pub fn triangle_shadow_stage() -> Stage {
 /// The stage that intersects shadow rays with moving shapes, each at the time of the ray that met the surface.
 pub fn moving_shadow_stage() -> Stage {
     let intersect = intersect_moving::<LightRays, ShadowHits>;
-    Stage::new("Look for what moves in the way", TileSystems::Occlude, intersect)
+    Stage::new("Trace shadow rays: moving shapes", TileSystems::TraceShadowRays, intersect)
         .reads::<LightRays>()
         .reads::<RayTimes>()
         .reads::<ShadowHits>()
@@ -157,6 +157,6 @@ pub fn shadow_evidence(scene: &World) -> Evidence {
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     });
-    let lit = or_aimed(scene, points).and(|| material_evidence(scene));
+    let lit = or_light(scene, points).and(|| material_evidence(scene));
     either(either(unless_occlusion(scene, lit), traced_evidence(scene)), occlusion_evidence(scene))
 }

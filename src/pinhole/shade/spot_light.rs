@@ -1,5 +1,5 @@
-use super::light::{LightRay, LitRows, aim, append_rays, shadow_reach};
-use super::{LightDensities, LightRays, irradiance_from_point};
+use super::light::{LightRay, LightRows, aim, append_rays, shadow_t_max};
+use super::{LightPdfs, LightRays, irradiance_from_point};
 use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -36,15 +36,15 @@ pub fn spot_share(versine: f64, inner: f64, outer: f64) -> f64 {
 // ANCHOR_END: spot_share
 
 /// Appends a tile's rays to spot lights, light after light; a surface outside the cone gets none.
-pub fn aim_at_spot_lights(
+pub fn sample_spot_lights(
     lights: Res<Shared<SpotLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightDensities>)>,
+    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
 ) {
-    for (surfaces, shading, list, mut rays, mut densities) in &mut tiles {
-        let lit = LitRows { surfaces, shading, rows: &list.row };
+    for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
+        let lit = LightRows { surfaces, shading, rows: &list.row };
         for (light, &position) in lights.position.iter().enumerate() {
             let (axis, inner, outer) = (lights.axis[light], lights.inner[light], lights.outer[light]);
-            append_rays(&lit, (&mut rays, densities.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
+            append_rays(&lit, (&mut rays, pdfs.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
                 let mut aimed = aim(surface, normal, position);
                 // The direction of f32 is too coarse for narrow cones.
                 let along = (aimed.origin.as_dvec3() - position) * (1.0 / aimed.distance);
@@ -52,7 +52,7 @@ pub fn aim_at_spot_lights(
                 let intensity = lights.intensity[light].map(|part| part * share);
                 let irradiance = irradiance_from_point(intensity, aimed.cosine, aimed.distance * aimed.distance);
                 aimed.cosine = if share > 0.0 { aimed.cosine } else { 0.0 };
-                LightRay { aimed, reach: shadow_reach(aimed.distance), irradiance }
+                LightRay { aimed, reach: shadow_t_max(aimed.distance), irradiance }
             });
         }
     }
@@ -60,12 +60,12 @@ pub fn aim_at_spot_lights(
 
 /// The stage on offer.
 pub fn spot_light_stage() -> Stage {
-    Stage::new("Aim at spot lights", TileSystems::Aim, aim_at_spot_lights)
+    Stage::new("Sample spot lights", TileSystems::SampleLights, sample_spot_lights)
         .reads::<Surfaces>()
         .reads_if::<ShadingNormals>()
         .reads::<MaterialRows>()
         .appends::<LightRays>()
-        .writes::<LightDensities>()
+        .writes::<LightPdfs>()
         .table::<SpotLightTable>()
         .when(|scene| {
             unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(|| material_evidence(scene)))

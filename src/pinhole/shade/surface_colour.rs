@@ -31,7 +31,7 @@ impl SurfaceColours {
 
 /// The stage on offer: what textures then colour again.
 pub fn colour_stage() -> Stage {
-    Stage::new("Colour surfaces", TileSystems::Colour, colour_surfaces)
+    Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces)
         .reads::<Surfaces>()
         .reads::<MaterialRows>()
         .writes::<SurfaceColours>()

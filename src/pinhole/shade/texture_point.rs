@@ -1,7 +1,7 @@
 use super::Footprints;
 use crate::extract::{
-    Laid, ShapeSpaces, TextureMap, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence, most_of,
-    texture_evidence,
+    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence,
+    most_of, texture_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
@@ -113,15 +113,15 @@ pub fn lay_textures(
 ) {
     for (rays, hits, surfaces, list, uvs, footprints, mut points) in &mut tiles {
         let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
-        [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|lane| lane.fill(0.0));
+        [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
         for &row in &list.row {
             let row = row as usize;
             let map = &maps.map[surfaces.material[row] as usize];
             let shape = hits.shape[row] as usize;
             let steps = footprints.map_or([DVec3::ZERO; 2], |footprints| footprints.get(row));
             let at = match map.laid {
-                Laid::Nowhere => continue,
-                Laid::AlongUv => {
+                TextureMapping::Nowhere => continue,
+                TextureMapping::AlongUv => {
                     let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
                     let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
                         let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
@@ -130,8 +130,8 @@ pub fn lay_textures(
                     });
                     TexturePoint { point: uv, steps }
                 }
-                Laid::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps),
-                Laid::OnFaces => {
+                TextureMapping::InSpace => in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps),
+                TextureMapping::OnFaces => {
                     let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
                     let normal = surfaces.get(row).normal.as_dvec3();
                     on_face(face_from_space(spaces.world_from_shape[shape].transpose() * normal), at)
@@ -162,7 +162,7 @@ fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
 
 /// The stage on offer.
 pub fn lay_stage() -> Stage {
-    Stage::new("Lay textures", TileSystems::Colour, lay_textures)
+    Stage::new("Compute texture points", TileSystems::Colour, lay_textures)
         .reads::<WorldRays>()
         .reads::<Hits>()
         .reads::<Surfaces>()

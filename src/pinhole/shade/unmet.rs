@@ -4,7 +4,7 @@ use super::shadow::ShadowHits;
 use crate::extract::ShapeTable;
 use crate::intersect::{Hits, Surfaces};
 use crate::plan::{Column, Plan, Stage, Table};
-use crate::scene::Refusal;
+use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 
 /// Checks that for every shape of a scene there are stages on offer that meet it, describe it, and let it cast a shadow,
@@ -12,7 +12,7 @@ use bevy_ecs::prelude::*;
 /// be missing from its picture without a word.
 ///
 /// Errors: the first shape that no stage on offer looks for.
-pub fn check_shapes_are_met(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), Refusal> {
+pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
     let meets = |column: &str, table: &str| {
         let writes = |stage: &Stage| stage.writes.iter().any(|written| written.name == column);
         offer.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
@@ -30,7 +30,7 @@ pub fn check_shapes_are_met(scene: &World, offer: &[Stage], plan: &Plan) -> Resu
         let unmet = shapes.kind.iter().zip(&shapes.name).find(|(kind, _)| !meets(column, kind.table()));
         if let Some((kind, name)) = unmet {
             let value = format!("in the table of {}", kind.table());
-            return Err(Refusal::new(name.clone(), "shape", value, accepted));
+            return Err(SceneError::new(name.clone(), "shape", value, accepted));
         }
     }
     Ok(())

@@ -16,7 +16,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(ρ / c)², c = R (z / f − 1)",
         truth: || squared(0.3 / 0.5),
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::Radius { radius: 0.5 }, 0);
             coin(world, 0.3, 8.0);
@@ -27,7 +27,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(ρ / c)², c = R (1 − z / f)",
         truth: || squared(0.25 / 0.375),
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::Radius { radius: 0.5 }, 0);
             coin(world, 0.25, 1.0);
@@ -38,7 +38,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(ρ / c)², c = (F / 2N) (z / f − 1)",
         truth: || squared(0.35 / 0.5),
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::FNumber { number: 2.0, focal_length: 1.0 }, 0);
             coin(world, 0.35, 12.0);
@@ -49,7 +49,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "2π ρ² / (3√3 c²)",
         truth: || 2.0 * PI / (3.0 * 3.0_f64.sqrt()) * squared(0.3 / 0.5),
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::Radius { radius: 0.5 }, 6);
             coin(world, 0.3, 8.0);
@@ -60,7 +60,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1/3 − √3 / 4π",
         truth: || 1.0 / 3.0 - 3.0_f64.sqrt() / (4.0 * PI),
         few: 1 << 16,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::Radius { radius: 0.5 }, 0);
             let sheet = Rectangle { width: 10.0, depth: 10.0 };
@@ -72,7 +72,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1",
         truth: || 1.0,
         few: 1 << 11,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             open(world, Aperture::Radius { radius: 0.5 }, 0);
             world.spawn((Sphere { radius: 0.01 }, Placement::at(0.0, 0.0, -FOCUS), shining()));

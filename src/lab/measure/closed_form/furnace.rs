@@ -2,7 +2,7 @@
 
 use super::{ClosedForm, GREEN};
 use bevy_ecs::prelude::*;
-use pinhole::scene::{Emissive, Integrator, LightSampling, Matte, PerspectiveCamera, Placement, Rgb, Sphere};
+use pinhole::scene::{Emissive, Integrator, LightStrategy, Matte, PerspectiveCamera, Placement, Rgb, Sphere};
 
 pub(super) const FORMS: &[ClosedForm] = &[
     ClosedForm {
@@ -10,39 +10,39 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 / (1 − a)",
         truth: || 2.0,
         few: 1 << 14,
-        lane: GREEN,
-        scene: |world| room(world, 0.5, WAYS),
+        component: GREEN,
+        scene: |world| room(world, 0.5, PATHS),
     },
     ClosedForm {
         name: "furnace, albedo 0.8",
         formula: "1 / (1 − a)",
         truth: || 5.0,
         few: 1 << 15,
-        lane: GREEN,
-        scene: |world| room(world, 0.8, WAYS),
+        component: GREEN,
+        scene: |world| room(world, 0.8, PATHS),
     },
     ClosedForm {
         name: "furnace, albedo 0.99",
         formula: "1 / (1 − a)",
         truth: || 1.0 / (1.0 - 0.99),
         few: 1 << 15,
-        lane: GREEN,
-        scene: |world| room(world, 0.99, WAYS),
+        component: GREEN,
+        scene: |world| room(world, 0.99, PATHS),
     },
     ClosedForm {
         name: "furnace, albedo 0.99, 64 legs at most",
         formula: "(1 − a⁶⁴) / (1 − a)",
         truth: || (1.0 - libm::pow(0.99, 64.0)) / (1.0 - 0.99),
         few: 1 << 11,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
-            room(world, 0.99, Integrator::Path { legs: 64, lights: LightSampling::ByChance, roulette: 0 });
+            room(world, 0.99, Integrator::Path { max_depth: 64, lights: LightStrategy::Bsdf, roulette: 0 });
         },
     },
 ];
 
 /// Ways that end by chance alone.
-const WAYS: Integrator = Integrator::Path { legs: 1 << 20, lights: LightSampling::ByChance, roulette: 2 };
+const PATHS: Integrator = Integrator::Path { max_depth: 1 << 20, lights: LightStrategy::Bsdf, roulette: 2 };
 
 /// The camera stands off the middle of a hollow ball.
 fn room(world: &mut World, albedo: f64, integrator: Integrator) {

@@ -18,7 +18,7 @@ pub struct ClosedForm {
     /// How many samples tell it to 1 %.
     pub few: u32,
     /// Which of red, green and blue is measured: 0, 1, 2.
-    pub lane: usize,
+    pub component: usize,
     /// The scene, whose square image has this mean.
     pub scene: fn(&mut World),
 }
@@ -95,8 +95,8 @@ impl ClosedForm {
         let film = render(&world, stages, &Execution::default(), &())?.film;
         let of_tile = |tile: &FilmTile| {
             let FilmTile { r, g, b, count, .. } = tile;
-            let lane = [r, g, b][self.lane.min(2)];
-            lane.iter().zip(count).map(|(sum, &n)| sum / f64::from(n)).collect::<Vec<_>>()
+            let component = [r, g, b][self.component.min(2)];
+            component.iter().zip(count).map(|(sum, &n)| sum / f64::from(n)).collect::<Vec<_>>()
         };
         Ok(film.tiles.iter().flat_map(of_tile).collect())
     }

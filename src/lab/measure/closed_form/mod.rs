@@ -6,7 +6,7 @@
 mod aperture;
 mod form_factor;
 mod furnace;
-mod matter;
+mod material;
 mod measured;
 mod motion;
 mod pane;
@@ -23,7 +23,7 @@ pub const CLOSED_FORMS: &[&[ClosedForm]] = &[
     receiver::LAMPS,
     receiver::FAR_LAMPS,
     form_factor::FORMS,
-    matter::FORMS,
+    material::FORMS,
     pane::FORMS,
     aperture::FORMS,
     motion::FORMS,

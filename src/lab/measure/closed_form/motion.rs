@@ -12,7 +12,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "width / (v T)",
         truth: || 0.25,
         few: 1 << 16,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             point(world);
             world.spawn((mat(0.5), facing([-1.0, 0.0]), shining(), going(2.0)));
@@ -23,7 +23,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 − way / (v T)",
         truth: || 0.65,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             point(world);
             world.spawn((mat(4.0), facing([-2.35, 0.0]), shining(), going(1.0)));
@@ -34,7 +34,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(covered at first + at last) / 2",
         truth: || 0.6,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             // The whole image is the pixel, from −0.5 to 0.5; the edge goes from −0.3 to 0.5.
             camera(world, 1.0);
@@ -46,7 +46,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "2 √(r² − h²) / (v T)",
         truth: || 0.4,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             point(world);
             world.spawn((Sphere { radius: 0.5 }, Placement::at(-1.0, 0.3, 0.0), shining(), going(2.0)));
@@ -57,7 +57,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "2 r / (v T)",
         truth: || 0.3,
         few: 1 << 16,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             let eye = (OrthographicCamera { view_height: 1e-6 }, Placement::at(-1.0, 0.0, 9.0));
             world.spawn((eye, Shutter::default(), going(2.0)));

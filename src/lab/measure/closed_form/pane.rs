@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::follow::fresnel;
 use pinhole::scene::{
-    Cuboid, Emissive, Glass, Integrator, LightSampling, LookAt, OrthographicCamera, Placement, Rgb, Sphere,
+    Cuboid, Emissive, Glass, Integrator, LightStrategy, LookAt, OrthographicCamera, Placement, Rgb, Sphere,
 };
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, LN_2, PI};
 
@@ -18,7 +18,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(1 − R) / (1 + R)",
         truth: || through(0.04),
         few: 1 << 12,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| through_a_pane(world, 0.0),
     },
     ClosedForm {
@@ -26,7 +26,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "(1 − R) / (1 + R)",
         truth: || through(fresnel(0.5, 1.5)),
         few: 1 << 13,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| through_a_pane(world, FRAC_PI_3),
     },
     ClosedForm {
@@ -40,7 +40,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             once * once * (0.5 + shift / 4.0)
         },
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             look(world, FRAC_PI_3, 4.0, 3);
             pane(world, Glass::default());
@@ -57,7 +57,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             once * once * libm::exp(-0.5 * 2.0 / (1.0 - sin * sin / 2.25).sqrt())
         },
         few: 1 << 14,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             look(world, FRAC_PI_3, 0.1, 3);
             pane(world, Glass { absorption: Rgb::grey(0.5), ..Glass::default() });
@@ -72,7 +72,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             once * once
         },
         few: 1 << 12,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             // In at 45° through the top, 2 wide, off the side at x = −1, out below; what the side let through would go past
             // the panel.
@@ -87,7 +87,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "e^(−σ length)",
         truth: || 0.25,
         few: 1 << 11,
-        lane: 0,
+        component: 0,
         scene: coloured,
     },
     ClosedForm {
@@ -95,7 +95,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "e^(−σ length)",
         truth: || 0.5,
         few: 1 << 11,
-        lane: GREEN,
+        component: GREEN,
         scene: coloured,
     },
     ClosedForm {
@@ -103,7 +103,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "e^(−σ length)",
         truth: || 1.0,
         few: 1 << 11,
-        lane: 2,
+        component: 2,
         scene: coloured,
     },
     ClosedForm {
@@ -114,7 +114,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
             1.0 - 0.25 * PI * (1.0 - left)
         },
         few: 1 << 13,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             look(world, 0.0, 2.0, 3);
             let ink = Glass { ior: 1.0, absorption: Rgb::grey(INK), ..Glass::default() };
@@ -145,10 +145,10 @@ fn coloured(world: &mut World) {
 }
 
 /// A camera with parallel rays through the origin, at this angle to −z and towards −x.
-fn look(world: &mut World, angle: f64, view_height: f64, legs: u32) {
+fn look(world: &mut World, angle: f64, view_height: f64, max_depth: u32) {
     let (sin, cos) = libm::sincos(angle);
     let look = LookAt { eye: 10.0 * DVec3::new(sin, 0.0, cos), target: DVec3::ZERO, ..LookAt::default() };
-    let ways = Integrator::Path { legs, lights: LightSampling::ByChance, roulette: 0 };
+    let ways = Integrator::Path { max_depth, lights: LightStrategy::Bsdf, roulette: 0 };
     world.spawn((OrthographicCamera { view_height }, look, ways));
 }
 

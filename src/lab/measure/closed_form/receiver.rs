@@ -4,7 +4,7 @@ use super::{ClosedForm, GREEN};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::scene::{
-    Disk, Emissive, Integrator, LightSampling, LookAt, Matte, OrthographicCamera, Placement, Plane, Rectangle, Rgb,
+    Disk, Emissive, Integrator, LightStrategy, LookAt, Matte, OrthographicCamera, Placement, Plane, Rectangle, Rgb,
     Sphere, Triangle,
 };
 
@@ -17,24 +17,24 @@ macro_rules! found_in_three_ways {
                 formula: $formula,
                 truth: $truth,
                 few: $few,
-                lane: GREEN,
-                scene: |world| lit(world, LightSampling::ByChance, $light),
+                component: GREEN,
+                scene: |world| lit(world, LightStrategy::Bsdf, $light),
             },
             ClosedForm {
                 name: concat!($name, ", aimed at"),
                 formula: $formula,
                 truth: $truth,
                 few: $few,
-                lane: GREEN,
-                scene: |world| lit(world, LightSampling::Aimed, $light),
+                component: GREEN,
+                scene: |world| lit(world, LightStrategy::Light, $light),
             },
             ClosedForm {
                 name: concat!($name, ", weighed"),
                 formula: $formula,
                 truth: $truth,
                 few: $few,
-                lane: GREEN,
-                scene: |world| lit(world, LightSampling::Weighed, $light),
+                component: GREEN,
+                scene: |world| lit(world, LightStrategy::Mis, $light),
             },
         )+]
     };
@@ -65,9 +65,9 @@ pub(super) const FAR_LAMPS: &[ClosedForm] = &[
         formula: "(4/π) (a/√(1+a²)) atan(a/√(1+a²)) L",
         truth: || square(0.1),
         few: 1 << 11,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
-            lit(world, LightSampling::Aimed, |world| {
+            lit(world, LightStrategy::Light, |world| {
                 world.spawn((Rectangle { width: 0.2, depth: 0.2 }, Placement::at(0.0, 1.0, 0.0), shining()));
             });
         },
@@ -77,9 +77,9 @@ pub(super) const FAR_LAMPS: &[ClosedForm] = &[
         formula: "L r² / (r² + h²)",
         truth: || 0.01 / 1.01,
         few: 1 << 11,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
-            lit(world, LightSampling::Aimed, |world| {
+            lit(world, LightStrategy::Light, |world| {
                 world.spawn((Disk { radius: 0.1 }, Placement::at(0.0, 1.0, 0.0), shining()));
             });
         },
@@ -112,8 +112,8 @@ fn shining() -> Emissive {
     Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() }
 }
 
-fn lit(world: &mut World, lights: LightSampling, light: fn(&mut World)) {
-    look_at_point(world, 0.1, Integrator::Path { legs: 2, lights, roulette: 0 });
+fn lit(world: &mut World, lights: LightStrategy, light: fn(&mut World)) {
+    look_at_point(world, 0.1, Integrator::Path { max_depth: 2, lights, roulette: 0 });
     world.spawn((Plane::default(), Matte { colour: Rgb::grey(1.0) }));
     light(world);
 }

@@ -7,13 +7,20 @@ use glam::DVec3;
 use pinhole::scene::{DQuat, Integrator, Matte, Placement, Plane, Rectangle, Sphere};
 
 pub(super) const FORMS: &[ClosedForm] = &[
-    ClosedForm { name: "sky over open ground", formula: "1", truth: || 1.0, few: 1 << 12, lane: GREEN, scene: ground },
+    ClosedForm {
+        name: "sky over open ground",
+        formula: "1",
+        truth: || 1.0,
+        few: 1 << 12,
+        component: GREEN,
+        scene: ground,
+    },
     ClosedForm {
         name: "sky beside an endless wall",
         formula: "1/2",
         truth: || 0.5,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             ground(world);
             let wall = Plane { normal: DVec3::NEG_X };
@@ -25,7 +32,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 − (1 − cos 45°) / 2",
         truth: || 0.5 + 0.5 * std::f64::consts::FRAC_1_SQRT_2,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             ground(world);
             let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -39,7 +46,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         formula: "1 − (r / h)²",
         truth: || 1.0 - 0.64,
         few: 1 << 15,
-        lane: GREEN,
+        component: GREEN,
         scene: |world| {
             ground(world);
             world.spawn((Sphere { radius: 0.8 }, Placement::at(0.0, 1.0, 0.0), Matte::default()));

@@ -7,8 +7,8 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Result;
 use pinhole::extract::{
-    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Facet, Flat, PlaneTable, RectangleTable, ShapeKind,
-    ShapeTable, Slabs, SphereTable, TriangleTable, camera_entity,
+    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Planar, PlaneTable, RectangleTable, ShapeKind,
+    ShapeTable, Slabs, SphereTable, TriangleRow, TriangleTable, camera_entity,
 };
 use pinhole::plan::Table;
 use pinhole::render::Inspection;
@@ -27,10 +27,10 @@ pub(super) enum ExactShape {
     Sphere(Sphere),
     Plane(Plane),
     Ellipsoid(Ellipsoid),
-    Disk(Flat),
-    Rectangle(Flat),
+    Disk(Planar),
+    Rectangle(Planar),
     Cuboid(Slabs),
-    Triangle(Facet, DVec3),
+    Triangle(TriangleRow, DVec3),
 }
 
 impl Exact {
@@ -53,8 +53,8 @@ impl Exact {
                     ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
                 }
                 (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
-                (ShapeKind::Disk, row) => ExactShape::Disk(disks.flat[row]),
-                (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.flat[row]),
+                (ShapeKind::Disk, row) => ExactShape::Disk(disks.planar[row]),
+                (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.planar[row]),
                 (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
                 (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
                 (ShapeKind::Moving, _) => return None,

@@ -18,7 +18,7 @@ use pinhole::film::film_stage;
 use pinhole::intersect::{self, Hits, NO_SHAPE, Surfaces};
 use pinhole::plan::Stage;
 use pinhole::rays::{self, CameraRays, NdcPoints, PixelSamples, RasterPoints, ScreenPoints, Tile, WorldRays};
-use pinhole::render::{Inspection, first_leg_only, inspect};
+use pinhole::render::{Inspection, first_bounce_only, inspect};
 use pinhole::shade;
 
 /// Pixels that are probed: across and down.
@@ -30,7 +30,7 @@ const SIDE: u32 = 32;
 ///
 /// Errors: what a render would be refused for.
 pub fn stage_errors(scene: &World, offer: &[Stage]) -> Result<Vec<(&'static str, String)>> {
-    let frame = inspect(scene, &first_leg_only(offer), SIDE)?;
+    let frame = inspect(scene, &first_bounce_only(offer), SIDE)?;
     let exact = Exact::of(scene, &frame)?;
     let mut worst = Worst::default();
     for (tile, row, pixel) in probes(&frame) {
@@ -175,8 +175,8 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Sphere(sphere) => sphere_hit(origin, direction, *sphere),
             ExactShape::Plane(plane) => plane_hit(origin, direction, *plane),
             ExactShape::Ellipsoid(ellipsoid) => ellipsoid_hit(origin, direction, ellipsoid),
-            ExactShape::Disk(flat) => disk_hit(origin, direction, flat),
-            ExactShape::Rectangle(flat) => rectangle_hit(origin, direction, flat),
+            ExactShape::Disk(planar) => disk_hit(origin, direction, planar),
+            ExactShape::Rectangle(planar) => rectangle_hit(origin, direction, planar),
             ExactShape::Cuboid(slabs) => cuboid_hit(origin, direction, slabs).map(|(t, _)| t),
             ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
         };
@@ -236,8 +236,8 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let gradient = 2.0 * (map.transpose() * (map * (place - ellipsoid.centre))).length();
             excess(place, ellipsoid).to_f64().abs() / gradient / (U * place.length())
         }
-        ExactShape::Disk(flat) | ExactShape::Rectangle(flat) => {
-            let above = ExactVector::of(flat.normal).dot(&point.minus(&ExactVector::of(flat.centre)));
+        ExactShape::Disk(planar) | ExactShape::Rectangle(planar) => {
+            let above = ExactVector::of(planar.normal).dot(&point.minus(&ExactVector::of(planar.centre)));
             above.to_f64().abs() / (U * position.as_dvec3().length())
         }
         ExactShape::Cuboid(slabs) => {

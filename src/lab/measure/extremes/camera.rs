@@ -1,10 +1,10 @@
 //! Cameras at random: any angle, any size of image, turned any way, anywhere; one pixel of each.
 
 use super::camera_chain::{
-    AskedCamera, CameraChain, Pose, axes_error, judge_stages, judge_world, seen_width, viewport_error,
+    CameraCase, CameraChain, Pose, axes_error, check_stages, check_world, seen_width, viewport_error,
 };
 use super::{Group, Method, Tally, Trial};
-use crate::measure::judge_camera::CameraJudge;
+use crate::measure::camera_check::CameraOracle;
 use crate::measure::ray_aim::Draws;
 use glam::{DMat3, DQuat, DVec3};
 use pinhole::extract::SMALLEST_PIXEL;
@@ -38,40 +38,40 @@ pub fn trials() -> Vec<Trial> {
 }
 
 /// A case of cameras made by `ask`.
-pub(super) fn trial(name: impl Into<String>, ask: impl Fn(u64) -> AskedCamera + Send + Sync + 'static) -> Trial {
-    Trial::new(Group::Camera, name, &METHODS, move |range| judge(&ask, range))
+pub(super) fn trial(name: impl Into<String>, ask: impl Fn(u64) -> CameraCase + Send + Sync + 'static) -> Trial {
+    Trial::new(Group::Camera, name, &METHODS, move |range| check(&ask, range))
 }
 
-fn judge(ask: &impl Fn(u64) -> AskedCamera, range: Range<u64>) -> Tally {
+fn check(ask: &impl Fn(u64) -> CameraCase, range: Range<u64>) -> Tally {
     let (mut tally, mut chain) = (Tally::new(METHODS.len()), CameraChain::new());
     for index in range {
         let asked = ask(index);
         let rotation = chain.set(asked);
         tally.count(rotation.is_ok());
-        let judge = chain.judge(asked, *rotation.as_ref().unwrap_or(&DMat3::IDENTITY));
-        let fine = judge.pixel_pitch() < SMALLEST_PIXEL;
-        tally.scores[0].judge(rotation.as_ref().err().map(|refusal| refusal.field) == fine.then_some("fov"));
+        let check = chain.check(asked, *rotation.as_ref().unwrap_or(&DMat3::IDENTITY));
+        let fine = check.pixel_pitch() < SMALLEST_PIXEL;
+        tally.scores[0].check(rotation.as_ref().err().map(|scene_error| scene_error.field) == fine.then_some("fov"));
         if rotation.is_ok() {
             let pixel = any_pixel(asked.size, &mut Draws::new(71, index));
-            judge_pixel(&mut chain, asked, &judge, pixel, &mut tally);
+            check_pixel(&mut chain, asked, &check, pixel, &mut tally);
         }
     }
     tally
 }
 
-fn judge_pixel(chain: &mut CameraChain, asked: AskedCamera, judge: &CameraJudge, pixel: [u32; 2], tally: &mut Tally) {
+fn check_pixel(chain: &mut CameraChain, asked: CameraCase, check: &CameraOracle, pixel: [u32; 2], tally: &mut Tally) {
     let wrote = chain.pixels(pixel, 1)[0];
     let eye = match asked.pose {
         Pose::Turned(eye, _) => eye,
         Pose::Looking(look) => {
-            tally.scores[1].measure(axes_error(judge.rotation(), &look));
+            tally.scores[1].measure(axes_error(check.rotation(), &look));
             look.eye
         }
     };
-    judge_stages(judge, pixel, &wrote, &mut tally.scores[2..6]);
-    judge_world(judge, pixel, &wrote, &mut tally.scores[6..9]);
-    if seen_width(judge, &wrote) >= SMALLEST_PIXEL {
-        tally.scores[9].measure(viewport_error(judge, eye, pixel));
+    check_stages(check, pixel, &wrote, &mut tally.scores[2..6]);
+    check_world(check, pixel, &wrote, &mut tally.scores[6..9]);
+    if seen_width(check, &wrote) >= SMALLEST_PIXEL {
+        tally.scores[9].measure(viewport_error(check, eye, pixel));
     }
 }
 
@@ -86,14 +86,14 @@ pub(super) fn any_pixel(size: [u32; 2], draws: &mut Draws) -> [u32; 2] {
 
 /// Any angle from 1e-4 to 179.99 degrees, half of them uniform in their logarithm and half in that of what is missing to
 /// 180; any axis; sides from 1 to 65536 pixels at aspects of 1e-4 to 1e4; any pose.
-fn any_camera(index: u64) -> AskedCamera {
+fn any_camera(index: u64) -> CameraCase {
     let mut draws = Draws::new(72, index);
-    let narrow = draws.power_of_ten(-4.0, 2.255);
-    let wide = 180.0 - draws.power_of_ten(-2.0, 2.25);
-    let fov = if draws.unit() < 0.5 { narrow } else { wide };
+    let keep_closest = draws.power_of_ten(-4.0, 2.255);
+    let double_double = 180.0 - draws.power_of_ten(-2.0, 2.25);
+    let fov = if draws.unit() < 0.5 { keep_closest } else { double_double };
     let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
     let axis = axes[(draws.unit() * 5.0) as usize];
-    AskedCamera { size: any_size(&mut draws), fov: fov.min(179.99), axis, pose: any_pose(&mut draws) }
+    CameraCase { size: any_size(&mut draws), fov: fov.min(179.99), axis, pose: any_pose(&mut draws) }
 }
 
 /// A longer side, and a shorter one by the aspect; together no more pixels than a film may have.

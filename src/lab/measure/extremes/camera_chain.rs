@@ -2,19 +2,19 @@
 
 use super::Score;
 use super::bench::Bench;
+use crate::measure::camera_check::CameraOracle;
 use crate::measure::enclosure::Enclosure;
 use crate::measure::exact::Dyadic;
 use crate::measure::exact_vector::Vector;
-use crate::measure::judge_camera::CameraJudge;
 use crate::measure::number::Number;
 use crate::measure::oracle_camera::length_error_in_u;
 use crate::naive::camera::viewport_f32;
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
-use pinhole::extract::{CameraAxes, ImageShape, PinholeLens, SMALLEST_PIXEL};
+use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection, SMALLEST_PIXEL};
 use pinhole::plan::Table;
 use pinhole::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
-use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement, Refusal, Resolution};
+use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement, Resolution, SceneError};
 
 /// How a camera stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub enum Pose {
 
 /// A camera as an author asks for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedCamera {
+pub struct CameraCase {
     /// Pixels from left to right, from top to bottom.
     pub size: [u32; 2],
     /// The full angle.
@@ -58,8 +58,8 @@ pub struct CameraChain {
     scene: World,
     camera: Entity,
     bench: Bench,
-    set: Option<(AskedCamera, DMat3)>,
-    judge: Option<(AskedCamera, CameraJudge)>,
+    set: Option<(CameraCase, DMat3)>,
+    check: Option<(CameraCase, CameraOracle)>,
 }
 
 impl CameraChain {
@@ -74,13 +74,13 @@ impl CameraChain {
             rays::perspective_stage(),
             rays::world_stage(),
         ];
-        Self { scene, camera, bench: Bench::new(&stages), set: None, judge: None }
+        Self { scene, camera, bench: Bench::new(&stages), set: None, check: None }
     }
 
     /// Extracts this camera's tables, unless it is the one that is there, and answers its axes.
     ///
     /// Errors: what the scene is refused for.
-    pub fn set(&mut self, asked: AskedCamera) -> Result<DMat3, Refusal> {
+    pub fn set(&mut self, asked: CameraCase) -> Result<DMat3, SceneError> {
         if let Some((_, axes)) = self.set.filter(|(there, _)| *there == asked) {
             return Ok(axes);
         }
@@ -95,22 +95,22 @@ impl CameraChain {
             Pose::Looking(look) => camera.insert((look, Placement::default())),
         };
         let axes = CameraAxes::extract(&self.scene)?;
-        self.bench.share(ImageShape::extract(&self.scene)?);
-        self.bench.share(PinholeLens::extract(&self.scene)?);
+        self.bench.share(ImageFrame::extract(&self.scene)?);
+        self.bench.share(PerspectiveProjection::extract(&self.scene)?);
         self.bench.share(axes);
         self.set = Some((asked, axes.world_from_camera));
         Ok(axes.world_from_camera)
     }
 
     /// The judge of what was asked, with these axes; its tangent is kept for the next that asks the same.
-    pub fn judge(&mut self, asked: AskedCamera, rotation: DMat3) -> CameraJudge {
-        let same = |kept: &AskedCamera| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
-        if let Some((_, judge)) = self.judge.as_ref().filter(|(kept, _)| same(kept)) {
-            return judge.turned(rotation);
+    pub fn check(&mut self, asked: CameraCase, rotation: DMat3) -> CameraOracle {
+        let same = |kept: &CameraCase| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
+        if let Some((_, check)) = self.check.as_ref().filter(|(kept, _)| same(kept)) {
+            return check.turned(rotation);
         }
-        let judge = CameraJudge::new(asked.size[0], asked.size[1], asked.fov, asked.axis, rotation);
-        self.judge = Some((asked, judge.clone()));
-        judge
+        let check = CameraOracle::new(asked.size[0], asked.size[1], asked.fov, asked.axis, rotation);
+        self.check = Some((asked, check.clone()));
+        check
     }
 
     /// Runs the stages for `count` pixels of a row, from this one on.
@@ -133,37 +133,37 @@ impl CameraChain {
 }
 
 /// How far the raster, NDC, screen and camera points of a pixel are off, in pixels, into four scores.
-pub fn judge_stages(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
-    let size = DVec2::new(f64::from(judge.width), f64::from(judge.height));
-    scores[0].measure((wrote.raster - judge.raster(pixel)).length());
-    scores[1].measure(((wrote.ndc - judge.ndc(pixel)) * size).length());
-    scores[2].measure((wrote.screen - judge.screen(pixel)).length() * size.y / 2.0);
-    scores[3].measure(judge.camera_error_in_pixels(wrote.camera / -wrote.camera.z, pixel));
+pub fn check_stages(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    let size = DVec2::new(f64::from(check.width), f64::from(check.height));
+    scores[0].measure((wrote.raster - check.raster(pixel)).length());
+    scores[1].measure(((wrote.ndc - check.ndc(pixel)) * size).length());
+    scores[2].measure((wrote.screen - check.screen(pixel)).length() * size.y / 2.0);
+    scores[3].measure(check.camera_error_in_pixels(wrote.camera / -wrote.camera.z, pixel));
 }
 
 /// How wide a pixel is where it is narrowest, seen from the eye, in radians: towards the edge of a wide image its plane
 /// is both farther and slanted.
-pub fn seen_width(judge: &CameraJudge, wrote: &PixelChain) -> f64 {
-    judge.pixel_pitch() * wrote.camera.z * wrote.camera.z
+pub fn seen_width(check: &CameraOracle, wrote: &PixelChain) -> f64 {
+    check.pixel_pitch() * wrote.camera.z * wrote.camera.z
 }
 
 /// How far a world ray is off into three scores: in pixels where these are wide enough for f32, in radians everywhere,
 /// its length in u.
-pub fn judge_world(judge: &CameraJudge, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
-    if seen_width(judge, wrote) >= SMALLEST_PIXEL {
-        scores[0].measure(judge.world_error_in_pixels(wrote.world, pixel));
+pub fn check_world(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, scores: &mut [Score]) {
+    if seen_width(check, wrote) >= SMALLEST_PIXEL {
+        scores[0].measure(check.world_error_in_pixels(wrote.world, pixel));
     }
-    scores[1].measure(judge.world_error_in_radians(wrote.world, pixel));
+    scores[1].measure(check.world_error_in_radians(wrote.world, pixel));
     scores[2].measure(length_error_in_u(wrote.world).abs());
 }
 
 /// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and the kit's axes, rounded to
 /// f32.
-pub fn viewport_error(judge: &CameraJudge, eye: DVec3, pixel: [u32; 2]) -> f64 {
-    let vertical = 2.0 * libm::atan(judge.tan_half_vertical()).to_degrees();
-    let size = [judge.width, judge.height];
-    let direction = viewport_f32(eye.as_vec3(), judge.rotation().as_mat3(), vertical as f32, size, pixel);
-    judge.world_error_in_pixels(direction, pixel)
+pub fn viewport_error(check: &CameraOracle, eye: DVec3, pixel: [u32; 2]) -> f64 {
+    let vertical = 2.0 * libm::atan(check.tan_half_vertical()).to_degrees();
+    let size = [check.width, check.height];
+    let direction = viewport_f32(eye.as_vec3(), check.rotation().as_mat3(), vertical as f32, size, pixel);
+    check.world_error_in_pixels(direction, pixel)
 }
 
 /// How far the axes of a camera that looks at something are from where it looks and from upright, in radians.

@@ -1,9 +1,9 @@
 //! Cameras where the textbooks divide by 0, overflow or step out of their pixel.
 
-use super::camera_chain::{AskedCamera, CameraChain, Pose, axes_error};
+use super::camera_chain::{CameraCase, CameraChain, Pose, axes_error};
 use super::camera_table::{one_by_one, turned};
 use super::{Method, Trial};
-use crate::measure::judge_camera::CameraJudge;
+use crate::measure::camera_check::CameraOracle;
 use crate::measure::ray_aim::Draws;
 use crate::naive::camera::{look_at_f32, raster_f32, stepped_f32, tan_half_f32};
 use glam::{DMat3, DQuat, DVec3};
@@ -31,19 +31,19 @@ fn every_pixel(width: u32) -> Trial {
     // Without a factor in common with either width, so that every pixel has its turn, and the first few are spread out.
     const STRIDE: u64 = 40_507;
     let stepped = stepped_f32(width);
-    let judge = move |chain: &mut CameraChain, index: u64, tally: &mut super::Tally| {
+    let check = move |chain: &mut CameraChain, index: u64, tally: &mut super::Tally| {
         let x = (index * STRIDE % u64::from(width)) as u32;
         let axes = chain.set(turned([width, 1], 0.5, DQuat::IDENTITY));
         tally.count(axes.is_ok());
         let wrote = chain.pixels([x, 0], 1)[0];
         let (pixel, size) = (f64::from(x), f64::from(width));
-        tally.scores[0].judge(wrote.raster.x.floor() == pixel && (wrote.ndc.x * size).floor() == pixel);
+        tally.scores[0].check(wrote.raster.x.floor() == pixel && (wrote.ndc.x * size).floor() == pixel);
         tally.scores[1].measure((wrote.ndc.x * size - (pixel + 0.5)).abs());
         let jitter = (Draws::new(121, index).unit() * f64::from(1 << 24)).floor() as f32 / (1 << 24) as f32;
-        tally.scores[2].judge(raster_f32(x, jitter).floor() == x as f32);
+        tally.scores[2].check(raster_f32(x, jitter).floor() == x as f32);
         tally.scores[3].measure((f64::from(stepped[x as usize]) * size - (pixel + 0.5)).abs());
     };
-    one_by_one(&format!("{width} x 1, every pixel"), &ROWS, judge).at_most(u64::from(width))
+    one_by_one(&format!("{width} x 1, every pixel"), &ROWS, check).at_most(u64::from(width))
 }
 
 /// tan(α / 2) of angles that leave 0.01° to 90° to 180°. In f64 four roundings, one of them through a slope of 2 at
@@ -54,10 +54,10 @@ fn wide_tangents() -> Trial {
         [Method::kit("kit, tan of half the angle", "u", BOUND), Method::naive("naive, tan in f32", "u", 4.0)];
     one_by_one("90 to 179.99 degrees, the tangent", &ROWS, |_, index, tally| {
         let fov = f64::from((180.0 - Draws::new(122, index).power_of_ten(-2.0, 1.954)) as f32);
-        let exact = CameraJudge::new(1, 1, fov, FovAxis::Vertical, DMat3::IDENTITY).tan_half_vertical();
+        let exact = CameraOracle::new(1, 1, fov, FovAxis::Vertical, DMat3::IDENTITY).tan_half_vertical();
         tally.count(true);
-        tally.scores[0].judge_value(tan_half(Degrees(fov)), exact);
-        tally.scores[1].judge_value(f64::from(tan_half_f32(fov as f32)), exact);
+        tally.scores[0].check_value(tan_half(Degrees(fov)), exact);
+        tally.scores[1].check_value(f64::from(tan_half_f32(fov as f32)), exact);
     })
 }
 
@@ -68,10 +68,10 @@ fn no_angle() -> Trial {
     one_by_one("180 degrees and more, 0 and less, no number", &ROWS, |chain, index, tally| {
         let size = Draws::new(123, index).power_of_ten(-12.0, 3.0);
         let fov = [180.0, 180.0 + size, -size, 0.0, f64::NAN, f64::INFINITY][index as usize % 6];
-        let refusal = chain.set(turned([64, 64], fov, DQuat::IDENTITY)).err();
-        tally.count(refusal.is_none());
-        tally.scores[0].judge(refusal.is_some_and(|refusal| refusal.field == "fov"));
-        tally.scores[1].judge(tan_half_f32(fov as f32) >= 0.0);
+        let scene_error = chain.set(turned([64, 64], fov, DQuat::IDENTITY)).err();
+        tally.count(scene_error.is_none());
+        tally.scores[0].check(scene_error.is_some_and(|scene_error| scene_error.field == "fov"));
+        tally.scores[1].check(tan_half_f32(fov as f32) >= 0.0);
     })
     .at_most(FEW)
 }
@@ -89,10 +89,10 @@ fn no_axes() -> Trial {
             _ => (DVec3::ZERO, DVec3::ZERO, "up"),
         };
         let looking = Pose::Looking(LookAt { eye, target, up });
-        let refusal = chain.set(AskedCamera { pose: looking, ..turned([64, 64], 45.0, DQuat::IDENTITY) }).err();
-        tally.count(refusal.is_none());
-        tally.scores[0].judge(refusal.is_some_and(|refusal| refusal.field == field));
-        tally.scores[1].judge(look_at_f32(eye.as_vec3(), target.as_vec3(), up.as_vec3()).is_finite());
+        let scene_error = chain.set(CameraCase { pose: looking, ..turned([64, 64], 45.0, DQuat::IDENTITY) }).err();
+        tally.count(scene_error.is_none());
+        tally.scores[0].check(scene_error.is_some_and(|scene_error| scene_error.field == field));
+        tally.scores[1].check(look_at_f32(eye.as_vec3(), target.as_vec3(), up.as_vec3()).is_finite());
     })
     .at_most(FEW)
 }
@@ -107,7 +107,7 @@ fn any_distance() -> Trial {
         let mut draws = Draws::new(125, index);
         let target = (draws.unit_vector() * draws.power_of_ten(-30.0, 30.0)).as_vec3().as_dvec3();
         let look = LookAt { eye: DVec3::ZERO, target, up: draws.unit_vector().as_vec3().as_dvec3() };
-        let axes = chain.set(AskedCamera { pose: Pose::Looking(look), ..turned([64, 64], 45.0, DQuat::IDENTITY) });
+        let axes = chain.set(CameraCase { pose: Pose::Looking(look), ..turned([64, 64], 45.0, DQuat::IDENTITY) });
         tally.count(axes.is_ok());
         // An up within 1e-6 of the view may be refused.
         let Ok(axes) = axes else { return };

@@ -1,7 +1,7 @@
 //! Raster → NDC at the widest and the smallest image, beside three ways that first programs take.
 
 use super::camera::STAGE_BOUND;
-use super::camera_chain::{AskedCamera, CameraChain, Pose};
+use super::camera_chain::{CameraCase, CameraChain, Pose};
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
 use crate::naive::ndc::{by_steps, raster_of_sample, to_last_pixel};
@@ -28,9 +28,9 @@ fn of_all_pixels(name: &'static str, width: u32) -> Trial {
     // One pixel is one step of 0, which a sum cannot miss.
     let methods = methods[..if width == 1 { 2 } else { 3 }].to_vec();
     let rows = methods.len();
-    let judge = move |range: Range<u64>| {
+    let check = move |range: Range<u64>| {
         let (mut tally, mut chain) = (Tally::new(rows), CameraChain::new());
-        let asked = AskedCamera {
+        let asked = CameraCase {
             size: [width, 1],
             fov: 40.0,
             axis: FovAxis::Vertical,
@@ -51,7 +51,7 @@ fn of_all_pixels(name: &'static str, width: u32) -> Trial {
         }
         tally
     };
-    Trial::new(Group::Camera, name, &methods, judge).at_most(u64::from(width))
+    Trial::new(Group::Camera, name, &methods, check).at_most(u64::from(width))
 }
 
 /// A random point within a pixel must stay within it.
@@ -69,8 +69,8 @@ fn of_samples() -> Trial {
             let size = DVec2::new(f64::from(WIDEST), 1.0);
             let ndc = ndc_from_raster(DVec2::new(f64::from(pixel) + f64::from(jitter), 0.5), size);
             tally.count(true);
-            tally.scores[0].judge(within(ndc.x * size.x));
-            tally.scores[1].judge(within(f64::from(raster_of_sample(pixel, jitter))));
+            tally.scores[0].check(within(ndc.x * size.x));
+            tally.scores[1].check(within(f64::from(raster_of_sample(pixel, jitter))));
         }
         tally
     })

@@ -1,7 +1,7 @@
 //! Cameras at their limits: the narrowest and the widest angle, the largest and the smallest image, the farthest eye.
 
 use super::camera::{METHODS, WORLD_BOUND, any_pixel, any_pose, any_pose_at, any_turn, trial};
-use super::camera_chain::{AskedCamera, CameraChain, Pose, viewport_error};
+use super::camera_chain::{CameraCase, CameraChain, Pose, viewport_error};
 use super::camera_limits::FEW;
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
@@ -34,32 +34,32 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-fn posed(index: u64, size: [u32; 2], fov: f64) -> AskedCamera {
-    AskedCamera { size, fov, axis: FovAxis::Vertical, pose: any_pose(&mut Draws::new(73, index / PIXELS)) }
+fn posed(index: u64, size: [u32; 2], fov: f64) -> CameraCase {
+    CameraCase { size, fov, axis: FovAxis::Vertical, pose: any_pose(&mut Draws::new(73, index / PIXELS)) }
 }
 
-fn far_eye(index: u64, distance: f64) -> AskedCamera {
+fn far_eye(index: u64, distance: f64) -> CameraCase {
     let mut draws = Draws::new(74, index / PIXELS);
     let eye = draws.unit_vector() * distance;
-    AskedCamera { size: [1024, 768], fov: 40.0, axis: FovAxis::Vertical, pose: any_pose_at(eye, &mut draws) }
+    CameraCase { size: [1024, 768], fov: 40.0, axis: FovAxis::Vertical, pose: any_pose_at(eye, &mut draws) }
 }
 
 /// A case whose inputs are judged one by one, right or wrong.
 pub(super) fn one_by_one(
     name: &str,
     methods: &[Method],
-    judge: impl Fn(&mut CameraChain, u64, &mut Tally) + Send + Sync + 'static,
+    check: impl Fn(&mut CameraChain, u64, &mut Tally) + Send + Sync + 'static,
 ) -> Trial {
     let rows = methods.len();
     Trial::new(Group::Camera, name, methods, move |range| {
         let (mut tally, mut chain) = (Tally::new(rows), CameraChain::new());
-        range.for_each(|index| judge(&mut chain, index, &mut tally));
+        range.for_each(|index| check(&mut chain, index, &mut tally));
         tally
     })
 }
 
-pub(super) fn turned(size: [u32; 2], fov: f64, turn: DQuat) -> AskedCamera {
-    AskedCamera { size, fov, axis: FovAxis::Vertical, pose: Pose::Turned(DVec3::ZERO, turn) }
+pub(super) fn turned(size: [u32; 2], fov: f64, turn: DQuat) -> CameraCase {
+    CameraCase { size, fov, axis: FovAxis::Vertical, pose: Pose::Turned(DVec3::ZERO, turn) }
 }
 
 /// A lens that f32 world rays cannot serve is refused by name; the naive viewport draws it all the same.
@@ -72,11 +72,11 @@ fn too_narrow() -> Trial {
         let mut draws = Draws::new(75, index);
         let turn = any_turn(&mut draws);
         let asked = turned([1024, 1024], 1e-4, turn);
-        let refusal = chain.set(asked).err().map(|refusal| refusal.to_string()).unwrap_or_default();
-        tally.count(refusal.is_empty());
-        tally.scores[0].judge(refusal.contains("fov is 0.0001°") && refusal.contains("4e-6 rad"));
-        let judge = chain.judge(asked, DMat3::from_quat(turn));
-        tally.scores[1].measure(viewport_error(&judge, DVec3::ZERO, any_pixel(asked.size, &mut draws)));
+        let scene_error = chain.set(asked).err().map(|scene_error| scene_error.to_string()).unwrap_or_default();
+        tally.count(scene_error.is_empty());
+        tally.scores[0].check(scene_error.contains("fov is 0.0001°") && scene_error.contains("4e-6 rad"));
+        let check = chain.check(asked, DMat3::from_quat(turn));
+        tally.scores[1].measure(viewport_error(&check, DVec3::ZERO, any_pixel(asked.size, &mut draws)));
     })
     .at_most(FEW)
 }
@@ -94,8 +94,8 @@ fn one_pixel() -> Trial {
         tally.count(axes.is_ok());
         let wrote = chain.pixels([0, 0], 1)[0];
         let ahead = axes.is_ok_and(|axes| wrote.world == (-axes.z_axis).as_vec3());
-        tally.scores[0].judge(ahead && wrote.camera == DVec3::NEG_Z);
-        tally.scores[1].judge(ndc_over_last(0, 1) == 0.5);
+        tally.scores[0].check(ahead && wrote.camera == DVec3::NEG_Z);
+        tally.scores[1].check(ndc_over_last(0, 1) == 0.5);
     })
 }
 
@@ -110,7 +110,7 @@ fn monotone() -> Trial {
         let [x, y] = any_pixel(asked.size, &mut draws);
         let wrote = chain.pixels([x.min(65_534), y], 2);
         let [left, right] = [wrote[0], wrote[1]];
-        tally.scores[0].judge(left.camera.x < right.camera.x && left.world.x <= right.world.x);
+        tally.scores[0].check(left.camera.x < right.camera.x && left.world.x <= right.world.x);
     })
 }
 
@@ -123,7 +123,7 @@ fn nearly_upright() -> Trial {
         let up = back + draws.unit_vector_across(back) * draws.power_of_ten(-10.0, 0.0);
         let look = LookAt { eye: back * draws.power_of_ten(-2.0, 7.0), target: DVec3::ZERO, up };
         let asked = turned([64, 64], 45.0, DQuat::IDENTITY);
-        let axes = chain.set(AskedCamera { pose: Pose::Looking(look), ..asked });
+        let axes = chain.set(CameraCase { pose: Pose::Looking(look), ..asked });
         tally.count(axes.is_ok());
         match axes {
             Ok(axes) => {
@@ -131,7 +131,7 @@ fn nearly_upright() -> Trial {
                 let worst = off.to_cols_array().iter().fold(0.0_f64, |worst, part| worst.max(part.abs()));
                 tally.scores[0].measure(worst * f64::from(1 << 24));
             }
-            Err(refusal) => tally.scores[0].judge(refusal.field == "up"),
+            Err(scene_error) => tally.scores[0].check(scene_error.field == "up"),
         }
     })
 }

@@ -15,7 +15,7 @@ pub struct Method {
     /// What the table calls it.
     pub name: &'static str,
     /// Whether it is the kit's own; otherwise it is one of the [naive](crate::naive) ones.
-    pub of_kit: bool,
+    pub of_pinhole: bool,
     /// The unit of its worst error; empty where right and wrong is all there is.
     pub unit: &'static str,
     /// The worst error that is good enough.
@@ -25,12 +25,12 @@ pub struct Method {
 impl Method {
     /// The kit's method, which has to keep the bound.
     pub const fn kit(name: &'static str, unit: &'static str, bound: f64) -> Self {
-        Self { name, of_kit: true, unit, bound }
+        Self { name, of_pinhole: true, unit, bound }
     }
 
     /// A naive method, which is expected to break the bound.
     pub const fn naive(name: &'static str, unit: &'static str, bound: f64) -> Self {
-        Self { name, of_kit: false, unit, bound }
+        Self { name, of_pinhole: false, unit, bound }
     }
 }
 
@@ -52,7 +52,7 @@ pub struct Score {
 
 impl Score {
     /// Counts an answer that is right or wrong.
-    pub fn judge(&mut self, right: bool) {
+    pub fn check(&mut self, right: bool) {
         self.wrong += u64::from(!right);
         if !right && self.first_wrong.is_none() {
             self.first_wrong = Some(self.input);
@@ -68,17 +68,17 @@ impl Score {
     }
 
     /// Judges a distance by the exact one, rounded to f64; its error is relative, in u = 2⁻²⁴.
-    pub fn judge_t(&mut self, t: Option<f64>, exact: Option<f64>) {
+    pub fn check_t(&mut self, t: Option<f64>, exact: Option<f64>) {
         self.said = Some([t, exact]);
         match (t, exact) {
             (Some(t), Some(exact)) => self.measure((t - exact).abs() / exact / U),
-            (t, exact) => self.judge(t.is_some() == exact.is_some()),
+            (t, exact) => self.check(t.is_some() == exact.is_some()),
         }
     }
 
     /// Judges a number above 0 by the exact one, rounded to f64; its error is relative, in u.
-    pub fn judge_value(&mut self, value: f64, exact: f64) {
-        self.judge_t(Some(value), Some(exact));
+    pub fn check_value(&mut self, value: f64, exact: f64) {
+        self.check_t(Some(value), Some(exact));
     }
 
     /// The input that shows it at its worst: where it is wrong first, or else where its error is largest.
@@ -154,7 +154,7 @@ pub struct Trial {
     pub name: String,
     methods: Vec<Method>,
     most: u64,
-    judge: Box<dyn Fn(Range<u64>) -> Tally + Send + Sync>,
+    check: Box<dyn Fn(Range<u64>) -> Tally + Send + Sync>,
 }
 
 impl Trial {
@@ -163,9 +163,9 @@ impl Trial {
         group: Group,
         name: impl Into<String>,
         methods: &[Method],
-        judge: impl Fn(Range<u64>) -> Tally + Send + Sync + 'static,
+        check: impl Fn(Range<u64>) -> Tally + Send + Sync + 'static,
     ) -> Self {
-        Self { group, name: name.into(), methods: methods.to_vec(), most: u64::MAX, judge: Box::new(judge) }
+        Self { group, name: name.into(), methods: methods.to_vec(), most: u64::MAX, check: Box::new(check) }
     }
 
     /// Has no more than so many inputs.
@@ -181,7 +181,7 @@ impl Trial {
         let tally = chunks
             .filter(|_| !watch.stopped())
             .map(|chunk| chunk * CHUNK)
-            .map(|first| (self.judge)(first..rays.min(first + CHUNK)).counted_from(first))
+            .map(|first| (self.check)(first..rays.min(first + CHUNK)).counted_from(first))
             .reduce(|| Tally::new(self.methods.len()), Tally::add);
         let outcome = |(&method, score)| Outcome { method, score };
         let outcomes: Vec<Outcome> = self.methods.iter().zip(tally.scores).map(outcome).collect();
@@ -191,11 +191,11 @@ impl Trial {
 
     /// The first of the naive methods that break, and what all say of the input that shows it at its worst.
     fn worst(&self, outcomes: &[Outcome]) -> Option<Worst> {
-        let naive = |outcome: &Outcome| !outcome.method.of_kit && !outcome.passes();
+        let naive = |outcome: &Outcome| !outcome.method.of_pinhole && !outcome.passes();
         let method = outcomes.iter().position(naive)?;
         let input = outcomes[method].score.worst_input();
         // The only input has just been judged.
-        let alone = || (self.judge)(input..input + 1).scores;
+        let alone = || (self.check)(input..input + 1).scores;
         let scores = if self.most == 1 { outcomes.iter().map(|outcome| outcome.score).collect() } else { alone() };
         // A judge that takes several inputs together may say something else of one alone.
         (scores[method].wrong > 0 || scores[method].worst > 0.0).then_some(Worst { method, input, scores })
@@ -249,6 +249,6 @@ pub struct Case {
 impl Case {
     /// Whether the kit passes in every row.
     pub fn held(&self) -> bool {
-        self.outcomes.iter().filter(|outcome| outcome.method.of_kit).all(Outcome::passes)
+        self.outcomes.iter().filter(|outcome| outcome.method.of_pinhole).all(Outcome::passes)
     }
 }

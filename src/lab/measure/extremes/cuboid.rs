@@ -76,10 +76,10 @@ pub fn trials() -> Vec<Trial> {
         (name, View { seed, spot, eye, sizes, ratio })
     };
     let of_hits = (301..).zip(hits).map(view);
-    let of_hits = of_hits.map(|(name, view)| Trial::new(Group::Cuboid, name, &HITS, move |range| judge(view, range)));
+    let of_hits = of_hits.map(|(name, view)| Trial::new(Group::Cuboid, name, &HITS, move |range| check(view, range)));
     let of_starts = (321..).zip(starts).map(view);
     let of_starts =
-        of_starts.map(|(name, view)| Trial::new(Group::Cuboid, name, &STARTS, move |range| judge_starts(view, range)));
+        of_starts.map(|(name, view)| Trial::new(Group::Cuboid, name, &STARTS, move |range| check_starts(view, range)));
     of_hits.chain(of_starts).collect()
 }
 
@@ -98,7 +98,7 @@ fn by_function(ray: AimedRay, slabs: &Slabs) -> f64 {
     cuboid_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), slabs)
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(HITS.len());
     let mut bench = Bench::new(&[start_stage(), cuboid_stage()]);
     let shots: Vec<(AimedRay, Slabs)> = range.map(|index| view.shot(index)).collect();
@@ -107,30 +107,30 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         for ((ray, slabs), &exact) in shots.iter().zip(&exact) {
             tally.count(exact.is_some());
             let t = exact.map(|(t, _)| t);
-            judge_alone(&mut bench, *ray, slabs, t, &mut tally.scores[0]);
+            check_alone(&mut bench, *ray, slabs, t, &mut tally.scores[0]);
             if let Some((_, axis)) = exact {
                 let face = cuboid_face(ray.origin.as_dvec3(), ray.direction.as_dvec3(), slabs);
-                tally.scores[2].judge(face == axis);
+                tally.scores[2].check(face == axis);
             }
-            judge_naive(*ray, slabs, &mut tally.scores[3..]);
+            check_naive(*ray, slabs, &mut tally.scores[3..]);
         }
-        judge_among(&mut bench, shots, &exact, &mut tally.scores[1]);
+        check_among(&mut bench, shots, &exact, &mut tally.scores[1]);
     }
     tally
 }
 
 /// One ray and one cuboid through the stage: no neighbour can save a ray from being culled.
-fn judge_alone(bench: &mut Bench, ray: AimedRay, slabs: &Slabs, exact: Option<f64>, score: &mut Score) {
+fn check_alone(bench: &mut Bench, ray: AimedRay, slabs: &Slabs, exact: Option<f64>, score: &mut Score) {
     bench.share(table(vec![*slabs]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
-    score.judge(t.to_bits() == by_function(ray, slabs).to_bits());
-    score.judge_t(Some(t).filter(|t| t.is_finite()), exact);
+    score.check(t.to_bits() == by_function(ray, slabs).to_bits());
+    score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
 /// All at once through the stage, against every ray with every cuboid by the kit's function, to the last bit.
-fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(f64, usize)>], score: &mut Score) {
+fn check_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(f64, usize)>], score: &mut Score) {
     bench.share(table(shots.iter().map(|(_, slabs)| *slabs).collect()));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
@@ -138,15 +138,15 @@ fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
         let nearest = shots.iter().map(|(_, slabs)| by_function(ray, slabs)).fold(f64::INFINITY, f64::min);
-        score.judge(hits.t[row].to_bits() == nearest.to_bits());
+        score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
-            score.judge_t(Some(hits.t[row]), exact[row].map(|(t, _)| t));
+            score.check_t(Some(hits.t[row]), exact[row].map(|(t, _)| t));
         }
     }
 }
 
 /// The naive methods, judged on the cuboid that f32 can hold.
-fn judge_naive(ray: AimedRay, slabs: &Slabs, scores: &mut [Score]) {
+fn check_naive(ray: AimedRay, slabs: &Slabs, scores: &mut [Score]) {
     let (centre, half) = (slabs.centre.as_vec3(), slabs.half.map(|half| half as f32));
     let rounded = Slabs { centre: centre.as_dvec3(), half: half.map(f64::from), ..*slabs };
     let exact = exact(ray, &rounded);
@@ -154,15 +154,15 @@ fn judge_naive(ray: AimedRay, slabs: &Slabs, scores: &mut [Score]) {
     let (origin, direction) = (to_cube(ray.origin - centre), to_cube(ray.direction));
     let t = exact.map(|(t, _)| t);
     let naive = hit_f32(origin, direction);
-    scores[0].judge_t(naive.map(f64::from), t);
-    scores[1].judge_t(hit_widened_f32(origin, direction).map(f64::from), t);
+    scores[0].check_t(naive.map(f64::from), t);
+    scores[1].check_t(hit_widened_f32(origin, direction).map(f64::from), t);
     if let (Some((_, axis)), Some(naive)) = (exact, naive) {
-        scores[2].judge(face_by_epsilon(origin + naive * direction) == Some(axis));
+        scores[2].check(face_by_epsilon(origin + naive * direction) == Some(axis));
     }
 }
 
 /// A start is right when it lies strictly on the side of the ray; from outside its shadow ray never meets the cuboid again.
-fn judge_starts(view: View, range: Range<u64>) -> Tally {
+fn check_starts(view: View, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(STARTS.len()), ShadowStages::of_cuboids());
     for index in range {
         let (ray, slabs) = view.shot(index);
@@ -183,18 +183,18 @@ fn judge_starts(view: View, range: Range<u64>) -> Tally {
         let again = AimedRay { origin: shadow.origin, direction: shadow.direction };
         let meets = by_function(again, &slabs).is_finite();
         let never_again = side < 0 || (!meets && shadow.blocked.is_none());
-        tally.scores[0].judge(side_of_cuboid(shadow.origin.as_dvec3(), &slabs) == side && never_again);
+        tally.scores[0].check(side_of_cuboid(shadow.origin.as_dvec3(), &slabs) == side && never_again);
         let smaller = Slabs { half: slabs.half.map(|half| half * (1.0 - 4e-5)), ..slabs };
         let gap = 4e-5 * thinnest;
         if side > 0 && matches!(view.spot, Spot::Face) && gap > 4.0 * f64::from(surface.bound) {
             let beyond = offset_origin(surface.position, -surface.normal, surface.bound).as_dvec3();
-            tally.scores[1].judge(side_of_cuboid(beyond, &smaller) > 0);
+            tally.scores[1].check(side_of_cuboid(beyond, &smaller) > 0);
         }
         if side > 0 {
             let starts = [start_at_hit(surface.position), start_off_surface(surface.position, surface.normal)];
             for (score, start) in tally.scores[2..].iter_mut().zip(starts) {
                 let ray = AimedRay { origin: start.origin, direction: shadow.direction };
-                score.judge(exact(ray, &slabs).is_none_or(|(t, _)| t <= f64::from(start.t_min)));
+                score.check(exact(ray, &slabs).is_none_or(|(t, _)| t <= f64::from(start.t_min)));
             }
         }
     }

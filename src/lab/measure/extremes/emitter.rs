@@ -6,14 +6,14 @@
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
 use crate::naive::emitter::{
-    density_without_cosine, density_without_jacobian, irradiance_by_whole_sphere, versine_by_difference,
+    irradiance_by_whole_sphere, pdf_without_cosine, pdf_without_jacobian, versine_by_difference,
     versine_by_difference_f32,
 };
 use glam::DVec3;
-use pinhole::extract::{Emitter, Flat, Parallelogram};
+use pinhole::extract::{Emitter, Parallelogram, Planar};
 use pinhole::intersect::rectangle_t;
 use pinhole::shade::emitter::{LightPoint, cone_versine, distance_to, parallelogram_area_point, point_on};
-use pinhole::shade::shadow_reach;
+use pinhole::shade::shadow_t_max;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -47,17 +47,17 @@ const SIDE: u32 = 24;
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     vec![
-        Trial::new(Group::Emitter, "spheres of 1e-9 to 1 of their distance", &TINY, judge_tiny),
-        Trial::new(Group::Emitter, "small squares at any slant", &SLANT, judge_slants),
-        Trial::new(Group::Emitter, "spread of rectangles 1e-4 to 1 above a surface", &NEAR, judge_near),
-        Trial::new(Group::Emitter, "spheres that touch a surface, or nearly", &TOUCHING, judge_touching),
-        Trial::new(Group::Emitter, "numbers 0, 2^-24, 1/2 and 1 - 2^-24", &ENDS, judge_ends),
-        Trial::new(Group::Emitter, "rectangles in their own way, seen flatly", &OWN, judge_own),
+        Trial::new(Group::Emitter, "spheres of 1e-9 to 1 of their distance", &TINY, check_tiny),
+        Trial::new(Group::Emitter, "small squares at any slant", &SLANT, check_slants),
+        Trial::new(Group::Emitter, "spread of rectangles 1e-4 to 1 above a surface", &NEAR, check_near),
+        Trial::new(Group::Emitter, "spheres that touch a surface, or nearly", &TOUCHING, check_touching),
+        Trial::new(Group::Emitter, "numbers 0, 2^-24, 1/2 and 1 - 2^-24", &ENDS, check_ends),
+        Trial::new(Group::Emitter, "rectangles in their own way, seen flatly", &OWN, check_own),
     ]
 }
 
 /// The half angle's own formula is the judge: 1 − cos θ = 2 sin²(θ/2).
-fn judge_tiny(range: Range<u64>) -> Tally {
+fn check_tiny(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(TINY.len());
     for index in range {
         let sine = Draws::new(2101, index).power_of_ten(-9.0, -1e-9);
@@ -77,7 +77,7 @@ fn judge_tiny(range: Range<u64>) -> Tally {
 }
 
 /// Squares so small that one direction tells all: cos θ cos θₗ A / d².
-fn judge_slants(range: Range<u64>) -> Tally {
+fn check_slants(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SLANT.len());
     for index in range {
         let mut draws = Draws::new(2102, index);
@@ -96,11 +96,11 @@ fn judge_slants(range: Range<u64>) -> Tally {
         }
         let truth = cosine * facing.dot(-way) * square.area() / (distance * distance);
         let naive = parallelogram_area_point(&square, DVec3::ZERO, [draws.unit(), draws.unit()]);
-        let told = |point: LightPoint, density: f64| normal.dot(point.to / point.to.length()) / density;
+        let told = |point: LightPoint, pdf: f64| normal.dot(point.to / point.to.length()) / pdf;
         let answers = [
-            told(point, point.density),
-            told(naive, density_without_cosine(naive.to, square.area())),
-            told(naive, density_without_jacobian(square.area())),
+            told(point, point.pdf),
+            told(naive, pdf_without_cosine(naive.to, square.area())),
+            told(naive, pdf_without_jacobian(square.area())),
         ];
         for (score, told) in tally.scores.iter_mut().zip(answers) {
             score.measure((told / truth - 1.0).abs());
@@ -116,7 +116,7 @@ fn grid() -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// The standard deviation of what one direction tells over its mean.
-fn judge_near(range: Range<u64>) -> Tally {
+fn check_near(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(NEAR.len());
     for index in range {
         let mut draws = Draws::new(2103, index);
@@ -125,7 +125,7 @@ fn judge_near(range: Range<u64>) -> Tally {
         let rectangle = Parallelogram::new(centre, [DVec3::X, DVec3::Z], DVec3::NEG_Y);
         tally.count(true);
         let spread = |point: &dyn Fn([f64; 2]) -> LightPoint, mean: f64| {
-            let told = |point: LightPoint| (point.to.y / point.to.length()).max(0.0) / point.density;
+            let told = |point: LightPoint| (point.to.y / point.to.length()).max(0.0) / point.pdf;
             let squares: f64 = grid().map(|u| told(point(u)) - mean).map(|off| off * off).sum();
             (squares / f64::from(SIDE * SIDE)).sqrt() / mean
         };
@@ -149,7 +149,7 @@ fn square_above(centre: DVec3, height: f64) -> f64 {
     0.5 * (edge(0) + edge(1) + edge(2) + edge(3)).abs()
 }
 
-fn judge_touching(range: Range<u64>) -> Tally {
+fn check_touching(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(TOUCHING.len());
     for index in range {
         let mut draws = Draws::new(2104, index);
@@ -160,7 +160,7 @@ fn judge_touching(range: Range<u64>) -> Tally {
         let sphere = Emitter::Sphere { centre: axis, radius };
         let kit = grid().map(|u| {
             let point = point_on(&sphere, DVec3::ZERO, u);
-            normal.dot(point.to / point.to.length()).max(0.0) / point.density
+            normal.dot(point.to / point.to.length()).max(0.0) / point.pdf
         });
         let naive = grid().map(|u| irradiance_by_whole_sphere(axis, radius, normal, u));
         let off = |sum: f64| (sum / f64::from(SIDE * SIDE) / truth - 1.0).abs();
@@ -170,7 +170,7 @@ fn judge_touching(range: Range<u64>) -> Tally {
     tally
 }
 
-fn judge_ends(range: Range<u64>) -> Tally {
+fn check_ends(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ENDS.len());
     let ends = [0.0, 1.0 / 16_777_216.0, 0.5, 1.0 - 1.0 / 16_777_216.0];
     for index in range {
@@ -190,32 +190,32 @@ fn judge_ends(range: Range<u64>) -> Tally {
         tally.count(true);
         for u in ends.into_iter().flat_map(|u| ends.map(|v| [u, v])) {
             let point = point_on(&light, from, u);
-            tally.scores[0].judge(point.to.is_finite() && point.density > 0.0);
+            tally.scores[0].check(point.to.is_finite() && point.pdf > 0.0);
         }
     }
     tally
 }
 
 /// Rays to rectangles from beside their planes: is the rectangle met before the reach?
-fn judge_own(range: Range<u64>) -> Tally {
+fn check_own(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(OWN.len());
     for index in range {
         let mut draws = Draws::new(2106, index);
         let facing = draws.unit_vector();
         let x = draws.unit_vector_across(facing);
         let half_edges = [x, facing.cross(x) * draws.power_of_ten(-1.0, 1.0)];
-        let Some(flat) = Flat::new(draws.unit_vector() * 3.0, facing, half_edges) else { continue };
-        let light = Emitter::Rectangle(Parallelogram::new(flat.centre, flat.half_edges(), flat.normal));
+        let Some(planar) = Planar::new(draws.unit_vector() * 3.0, facing, half_edges) else { continue };
+        let light = Emitter::Rectangle(Parallelogram::new(planar.centre, planar.half_edges(), planar.normal));
         let [along, aside] = [x, facing.cross(x)].map(|way| way * draws.between(-9.0, 9.0));
-        let from = (flat.centre + along + aside + facing * draws.power_of_ten(-4.0, 0.5)).as_vec3();
+        let from = (planar.centre + along + aside + facing * draws.power_of_ten(-4.0, 0.5)).as_vec3();
         let point = point_on(&light, from.as_dvec3(), [draws.unit(), draws.unit()]);
         let length = point.to.length();
         let direction = (point.to / length).as_vec3();
-        let met = rectangle_t(from.as_dvec3(), direction.as_dvec3(), &flat);
+        let met = rectangle_t(from.as_dvec3(), direction.as_dvec3(), &planar);
         let end = distance_to(&light, from.as_dvec3(), direction.as_dvec3());
         tally.count(met.is_finite());
-        tally.scores[0].judge(met >= f64::from(shadow_reach(end)));
-        tally.scores[1].judge(met >= f64::from(shadow_reach(length)));
+        tally.scores[0].check(met >= f64::from(shadow_t_max(end)));
+        tally.scores[1].check(met >= f64::from(shadow_t_max(length)));
     }
     tally
 }

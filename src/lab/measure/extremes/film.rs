@@ -45,21 +45,21 @@ const fn means(samples: u64) -> [Method; 3] {
 pub fn trials() -> Vec<Trial> {
     let many = means(MANY as u64);
     let mut trials = vec![
-        Trial::new(Group::Film, "the mean of 2^26 ones", &many, |range| judge_many(range, |_| 1.0)).at_most(1),
+        Trial::new(Group::Film, "the mean of 2^26 ones", &many, |range| check_many(range, |_| 1.0)).at_most(1),
         Trial::new(Group::Film, "the mean of 2^26 numbers from 0 to 1", &many, |range| {
-            judge_many(range, |draws| (draws.unit() * f64::from(1 << 24)).floor() as f32 / (1 << 24) as f32)
+            check_many(range, |draws| (draws.unit() * f64::from(1 << 24)).floor() as f32 / (1 << 24) as f32)
         })
         .at_most(1),
-        Trial::new(Group::Film, "the mean of 64 samples from 1e-8 to 1e8", &means(FEW as u64), judge_few),
-        Trial::new(Group::Film, "samples of which some are no light", &NO_LIGHT, judge_no_light).at_most(100_000),
-        Trial::new(Group::Film, "1 to 8 threads, as on one", &THREADS, judge_threads).at_most(64),
+        Trial::new(Group::Film, "the mean of 64 samples from 1e-8 to 1e8", &means(FEW as u64), check_few),
+        Trial::new(Group::Film, "samples of which some are no light", &NO_LIGHT, check_no_light).at_most(100_000),
+        Trial::new(Group::Film, "1 to 8 threads, as on one", &THREADS, check_threads).at_most(64),
     ];
     trials.extend(film_bytes::trials());
     trials
 }
 
 /// One pixel and as many samples as a long render adds; whole multiples of 2⁻²⁴, whose sum is exact in whole numbers.
-fn judge_many(range: Range<u64>, sample: impl Fn(&mut Draws) -> f32) -> Tally {
+fn check_many(range: Range<u64>, sample: impl Fn(&mut Draws) -> f32) -> Tally {
     let mut tally = Tally::new(means(0).len());
     for index in range {
         let samples = || {
@@ -74,10 +74,10 @@ fn judge_many(range: Range<u64>, sample: impl Fn(&mut Draws) -> f32) -> Tally {
         let mut film = FilmTile::new(Tile { x: 0, y: 0, width: 1, height: 1 });
         samples().for_each(|sample| film.add(0, [sample; 3]));
         tally.count(true);
-        tally.scores[0].judge(film.count[0] == MANY && film.rejected == 0);
-        tally.scores[0].judge_value(f64::from(film.mean(0)[0]), exact);
-        tally.scores[1].judge_value(f64::from(mean_by_sum_f32(samples())), exact);
-        tally.scores[2].judge_value(f64::from(running_mean_f32(samples())), exact);
+        tally.scores[0].check(film.count[0] == MANY && film.rejected == 0);
+        tally.scores[0].check_value(f64::from(film.mean(0)[0]), exact);
+        tally.scores[1].check_value(f64::from(mean_by_sum_f32(samples())), exact);
+        tally.scores[2].check_value(f64::from(running_mean_f32(samples())), exact);
     }
     tally
 }
@@ -87,7 +87,7 @@ fn in_small_units(sample: f32) -> i128 {
     (f64::from(sample) * (1_u64 << 54) as f64) as i128
 }
 
-fn judge_few(range: Range<u64>) -> Tally {
+fn check_few(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(means(0).len());
     let mut samples = [0.0_f32; FEW];
     for index in range {
@@ -98,9 +98,9 @@ fn judge_few(range: Range<u64>) -> Tally {
         let mut film = FilmTile::new(Tile { x: 0, y: 0, width: 1, height: 1 });
         samples.iter().for_each(|&sample| film.add(0, [0.0, sample, 0.0]));
         tally.count(true);
-        tally.scores[0].judge_value(f64::from(film.mean(0)[1]), exact);
-        tally.scores[1].judge_value(f64::from(mean_by_sum_f32(samples)), exact);
-        tally.scores[2].judge_value(f64::from(running_mean_f32(samples)), exact);
+        tally.scores[0].check_value(f64::from(film.mean(0)[1]), exact);
+        tally.scores[1].check_value(f64::from(mean_by_sum_f32(samples)), exact);
+        tally.scores[2].check_value(f64::from(running_mean_f32(samples)), exact);
     }
     tally
 }
@@ -122,7 +122,7 @@ fn sample(draws: &mut Draws) -> f32 {
 }
 
 /// A tile whose samples come a pass at a time, through the stage.
-fn judge_no_light(range: Range<u64>) -> Tally {
+fn check_no_light(range: Range<u64>) -> Tally {
     let (mut tally, mut bench) = (Tally::new(NO_LIGHT.len()), Bench::new(&[film_stage()]));
     let rows = TILE.rows();
     for index in range {
@@ -141,14 +141,14 @@ fn judge_no_light(range: Range<u64>) -> Tally {
         let of_row = |row: usize| -> Vec<f32> { passes.iter().map(|pass| pass[row]).collect() };
         let samples: Vec<Vec<f32>> = (0..rows).map(of_row).collect();
         tally.count(true);
-        tally.scores[0].judge(is_only_light(bench.column::<FilmTile>(), &samples));
+        tally.scores[0].check(is_only_light(bench.column::<FilmTile>(), &samples));
         for samples in &samples {
             let (_, mean) = light_of(samples);
             let naive = [mean_of_all(samples), mean_with_black_for_bad(samples)];
-            tally.scores[1].judge(naive[0] == mean);
+            tally.scores[1].check(naive[0] == mean);
             let byte = byte_by_curve_f32(naive[0] as f32);
-            tally.scores[2].judge(!naive[0].is_nan() || mean == 0.0 || byte > 0);
-            tally.scores[3].judge(naive[1] == mean);
+            tally.scores[2].check(!naive[0].is_nan() || mean == 0.0 || byte > 0);
+            tally.scores[3].check(naive[1] == mean);
         }
     }
     tally
@@ -222,16 +222,16 @@ fn film_bits(scene: &World, threads: usize, tile_side: u32) -> Option<Vec<([u32;
     Some(pixels)
 }
 
-fn judge_threads(range: Range<u64>) -> Tally {
+fn check_threads(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(THREADS.len());
     for index in range {
         let (scene, threads) = (scene(index / 8), 1 + index as usize % 8);
         let (alone, shared) = (film_bits(&scene, 1, 64), film_bits(&scene, threads, 8));
         tally.count(alone.is_some());
-        tally.scores[0].judge(alone.is_some() && alone == shared);
+        tally.scores[0].check(alone.is_some() && alone == shared);
         let mut draws = Draws::new(105, index);
         let samples = [(); FEW].map(|()| draws.power_of_ten(-3.0, 3.0) as f32);
-        tally.scores[1].judge(sum_by_threads(&samples, threads) == sum_by_threads(&samples, 1));
+        tally.scores[1].check(sum_by_threads(&samples, threads) == sum_by_threads(&samples, 1));
     }
     tally
 }

@@ -22,26 +22,26 @@ const ABOUT_BOUNDARIES: u64 = 255 * (2 * STEPS + 1);
 
 /// The cases of bytes.
 pub fn trials() -> Vec<Trial> {
-    let bytes = |name: &str, judge: fn(Range<u64>) -> Tally| Trial::new(Group::Film, name, &METHODS, judge);
+    let bytes = |name: &str, check: fn(Range<u64>) -> Tally| Trial::new(Group::Film, name, &METHODS, check);
     vec![
-        bytes("sRGB, 0 to 255 to light and back", |range| judge(range, every_byte)).at_most(256),
-        bytes("the byte of light within 8 steps of where it changes", |range| judge(range, about_a_boundary))
+        bytes("sRGB, 0 to 255 to light and back", |range| check(range, every_byte)).at_most(256),
+        bytes("the byte of light within 8 steps of where it changes", |range| check(range, about_a_boundary))
             .at_most(ABOUT_BOUNDARIES),
-        bytes("the byte of light from 1e-6 to 2", |range| judge(range, any_light)),
-        Trial::new(Group::Film, "more light, no smaller byte", &METHODS[..1], judge_order),
+        bytes("the byte of light from 1e-6 to 2", |range| check(range, any_light)),
+        Trial::new(Group::Film, "more light, no smaller byte", &METHODS[..1], check_order),
     ]
 }
 
-fn judge(range: Range<u64>, light: fn(u64) -> f32) -> Tally {
+fn check(range: Range<u64>, light: fn(u64) -> f32) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     for index in range {
         let light = light(index);
         tally.count(true);
         let bytes = bytes(light);
         // One byte only is right, so that most often the exact judge is asked once.
-        let kit_is_right = is_byte_of(bytes[0], light);
+        let pinhole_is_right = is_byte_of(bytes[0], light);
         for (score, byte) in tally.scores.iter_mut().zip(bytes) {
-            score.judge(if kit_is_right { byte == bytes[0] } else { byte != bytes[0] && is_byte_of(byte, light) });
+            score.check(if pinhole_is_right { byte == bytes[0] } else { byte != bytes[0] && is_byte_of(byte, light) });
         }
     }
     tally
@@ -69,7 +69,7 @@ fn any_light(index: u64) -> f32 {
 }
 
 /// A light and one that is a little or much brighter: the brighter one's byte is not smaller.
-fn judge_order(range: Range<u64>) -> Tally {
+fn check_order(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(1);
     for index in range {
         let mut draws = Draws::new(112, index);
@@ -77,7 +77,7 @@ fn judge_order(range: Range<u64>) -> Tally {
         let brighter = f32::from_bits(light.to_bits() + draws.power_of_ten(0.0, 7.0) as u32);
         tally.count(true);
         let [byte, brighter] = [light, brighter].map(|light| byte_from_linear(light, Curve::Srgb));
-        tally.scores[0].judge(byte <= brighter);
+        tally.scores[0].check(byte <= brighter);
     }
     tally
 }

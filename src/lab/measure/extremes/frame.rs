@@ -25,14 +25,14 @@ const METHODS: [Method; 1] = [Method::kit("kit, frames of 16 x 16 through inspec
 
 /// The one case.
 pub fn trial() -> Trial {
-    Trial::new(Group::Sphere, "limbs at 1.001 to 1e4 radii, as a camera sees them", &METHODS, judge)
+    Trial::new(Group::Sphere, "limbs at 1.001 to 1e4 radii, as a camera sees them", &METHODS, check)
 }
 
-fn judge(range: Range<u64>) -> Tally {
+fn check(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     for first in range.clone().step_by(RAYS as usize) {
         let rays = (range.end - first).min(RAYS) as usize;
-        judge_frame(&scene(first / RAYS), rays, &mut tally);
+        check_frame(&scene(first / RAYS), rays, &mut tally);
     }
     tally
 }
@@ -73,10 +73,10 @@ fn scene(frame: u64) -> World {
 }
 
 /// Judges the first rays of a frame; a scene that is refused is a failure.
-fn judge_frame(scene: &World, rays: usize, tally: &mut Tally) {
+fn check_frame(scene: &World, rays: usize, tally: &mut Tally) {
     let (frame, table) = (inspect(scene, &offer(), SIDE), SphereTable::extract(scene));
     let (Ok(frame), Ok(table)) = (frame, table) else {
-        tally.scores[0].judge(false);
+        tally.scores[0].check(false);
         return;
     };
     let sphere = ExactSphere { centre: table.centre(0), radius: table.radius[0] };
@@ -87,7 +87,7 @@ fn judge_frame(scene: &World, rays: usize, tally: &mut Tally) {
         let ray = AimedRay { origin, direction: Vec3::new(world.dx[row], world.dy[row], world.dz[row]) };
         let exact = exact(ray, sphere);
         tally.count(exact.is_some());
-        tally.scores[0].judge(hits.t[row].to_bits() == by_function(ray, sphere).to_bits());
-        tally.scores[0].judge_t(Some(hits.t[row]).filter(|t| t.is_finite()), exact);
+        tally.scores[0].check(hits.t[row].to_bits() == by_function(ray, sphere).to_bits());
+        tally.scores[0].check_t(Some(hits.t[row]).filter(|t| t.is_finite()), exact);
     }
 }

@@ -10,7 +10,7 @@ use super::{Group, Method, Score, Tally, Trial};
 use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
 use crate::measure::oracle_sphere::{Sphere, line_ts};
 use crate::measure::ray_aim::{Draws, rounded_ray, seen_sphere_of_any_size};
-use crate::naive::shadow::{ShadowStart, reach_to_light, reach_without_end, start_after_constant, start_off_surface};
+use crate::naive::shadow::{ShadowStart, reach_without_end, start_after_constant, start_off_surface, t_max_to_light};
 use glam::{DVec3, Vec3};
 use pinhole::intersect::Surface;
 use std::cmp::Ordering;
@@ -33,11 +33,11 @@ const U: f64 = crate::measure::exact::UNIT_ROUNDOFF_F32;
 pub fn trials() -> Vec<Trial> {
     let facing = Standing { seed: 61, flattest: 0.7, least: 0.0, closest: -12.0 };
     let along = Standing { seed: 62, flattest: 8.0, least: 4.0 * U, closest: -9.0 };
-    let wall = |name, standing| Trial::new(Group::Shadow, name, &WALL, move |range| judge_walls(standing, range));
+    let wall = |name, standing| Trial::new(Group::Shadow, name, &WALL, move |range| check_walls(standing, range));
     vec![
         wall("a light before a wall that faces it, as close as f64 has it", facing),
         wall("a light before a wall of any slant, 4u of its distance off", along),
-        Trial::new(Group::Shadow, "a small ball between surface and light, any size", &BALL, judge_balls),
+        Trial::new(Group::Shadow, "a small ball between surface and light, any size", &BALL, check_balls),
     ]
 }
 
@@ -53,17 +53,17 @@ struct Standing {
     closest: f64,
 }
 
-fn judge_walls(standing: Standing, range: Range<u64>) -> Tally {
+fn check_walls(standing: Standing, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(WALL.len()), ShadowStages::of_planes());
     for index in range {
         let shadow = shadow_before_wall(standing, index, &mut stages);
         tally.count(shadow.is_some());
         let Some((shadow, wall, distance)) = shadow else { continue };
-        tally.scores[0].judge(shadow.blocked.is_none());
+        tally.scores[0].check(shadow.blocked.is_none());
         let to_wall = plane_t(shadow.origin, shadow.direction, wall);
-        for (score, reach) in tally.scores[1..].iter_mut().zip([reach_without_end(distance), reach_to_light(distance)])
+        for (score, reach) in tally.scores[1..].iter_mut().zip([reach_without_end(distance), t_max_to_light(distance)])
         {
-            score.judge(to_wall.is_none_or(|t| t >= f64::from(reach)));
+            score.check(to_wall.is_none_or(|t| t >= f64::from(reach)));
         }
     }
     tally
@@ -103,7 +103,7 @@ fn depth(point: DVec3, plane: Plane) -> f64 {
     plane.normal.dot(point) - plane.offset
 }
 
-fn judge_balls(range: Range<u64>) -> Tally {
+fn check_balls(range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(BALL.len()), ShadowStages::of_spheres());
     for index in range {
         let mut draws = Draws::new(63, index);
@@ -122,17 +122,17 @@ fn judge_balls(range: Range<u64>) -> Tally {
         let shadow = stages.shadow(surface, light).filter(|_| radius >= 64.0 * f64::from(surface.bound));
         tally.count(shadow.is_some());
         let Some(shadow) = shadow else { continue };
-        tally.scores[0].judge(shadow.blocked == Some(1));
-        judge_naive_balls(surface, shadow.direction, ball, &mut tally.scores[1..]);
+        tally.scores[0].check(shadow.blocked == Some(1));
+        check_naive_balls(surface, shadow.direction, ball, &mut tally.scores[1..]);
     }
     tally
 }
 
 /// Whether the ball still shadows the naive starts; their kernel is exact, so that only the start is judged.
-fn judge_naive_balls(surface: Surface, direction: Vec3, ball: Sphere, scores: &mut [Score]) {
+fn check_naive_balls(surface: Surface, direction: Vec3, ball: Sphere, scores: &mut [Score]) {
     let shadowed = |start: ShadowStart| {
         line_ts(start.origin, direction, ball).is_some_and(|[_, far]| far > f64::from(start.t_min))
     };
-    scores[0].judge(shadowed(start_after_constant(surface.position)));
-    scores[1].judge(shadowed(start_off_surface(surface.position, surface.normal)));
+    scores[0].check(shadowed(start_after_constant(surface.position)));
+    scores[1].check(shadowed(start_off_surface(surface.position, surface.normal)));
 }

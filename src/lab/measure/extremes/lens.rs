@@ -38,22 +38,22 @@ const CIRCLE: [Method; 2] = [
 pub fn trials() -> Vec<Trial> {
     vec![
         Trial::new(Group::Lens, "in focus, 45°", &IN_FOCUS, |range| {
-            judge_in_focus(range, 2311, [45.0, 45.0], [-1.0, 1.0])
+            check_in_focus(range, 2311, [45.0, 45.0], [-1.0, 1.0])
         }),
         Trial::new(Group::Lens, "in focus, 0.001° to 179°", &IN_FOCUS, |range| {
-            judge_in_focus(range, 2312, [1e-3, 179.0], [-1.0, 1.0])
+            check_in_focus(range, 2312, [1e-3, 179.0], [-1.0, 1.0])
         }),
         Trial::new(Group::Lens, "in focus, lens and focus 10^−6 to 10^6", &IN_FOCUS, |range| {
-            judge_in_focus(range, 2313, [20.0, 120.0], [-6.0, 6.0])
+            check_in_focus(range, 2313, [20.0, 120.0], [-6.0, 6.0])
         }),
-        Trial::new(Group::Lens, "the share of a round opening", &EVENLY, judge_disk).at_most(1024),
-        Trial::new(Group::Lens, "the share of an opening with edges", &POLYGONS, judge_polygon).at_most(1024),
-        Trial::new(Group::Lens, "the edge of what is out of focus", &CIRCLE, judge_circle),
+        Trial::new(Group::Lens, "the share of a round opening", &EVENLY, check_disk).at_most(1024),
+        Trial::new(Group::Lens, "the share of an opening with edges", &POLYGONS, check_polygon).at_most(1024),
+        Trial::new(Group::Lens, "the edge of what is out of focus", &CIRCLE, check_circle),
     ]
 }
 
 /// How far a ray from the lens passes from where the pinhole's is in focus.
-fn judge_in_focus(range: Range<u64>, seed: u64, fov: [f64; 2], powers: [f64; 2]) -> Tally {
+fn check_in_focus(range: Range<u64>, seed: u64, fov: [f64; 2], powers: [f64; 2]) -> Tally {
     let mut tally = Tally::new(IN_FOCUS.len());
     for index in range {
         let mut draws = Draws::new(seed, index);
@@ -91,7 +91,7 @@ fn points(seed: u64, index: u64) -> impl Iterator<Item = DVec2> {
 }
 
 /// How far the share of points within a circle, and to one side of a line through the centre, is from that of the area.
-fn judge_disk(range: Range<u64>) -> Tally {
+fn check_disk(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(EVENLY.len());
     for index in range {
         let mut draws = Draws::new(2314, index);
@@ -112,7 +112,7 @@ fn judge_disk(range: Range<u64>) -> Tally {
 }
 
 /// The same of a polygon, within a smaller one.
-fn judge_polygon(range: Range<u64>) -> Tally {
+fn check_polygon(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(POLYGONS.len());
     for index in range {
         let mut draws = Draws::new(2316, index);
@@ -141,7 +141,7 @@ fn judge_polygon(range: Range<u64>) -> Tally {
 }
 
 /// A point off the axis at depth z, seen through the lens's edge: where its ray has met the plane in focus.
-fn judge_circle(range: Range<u64>) -> Tally {
+fn check_circle(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(CIRCLE.len());
     for index in range {
         let mut draws = Draws::new(2318, index);

@@ -30,10 +30,10 @@ const LIGHT: [Method; 2] = [Method::kit("kit, all its stages", "", 0.0), Method:
 pub fn trials() -> Vec<Trial> {
     let mut trials = light_albedo::trials();
     trials.extend([
-        Trial::new(Group::Light, "highlights, exponents 1 to 1e9", &HIGHLIGHT, judge_highlights),
-        Trial::new(Group::Light, "edges of spots, 1e-4 to 179.99 degrees", &SPOT, judge_spots),
-        Trial::new(Group::Light, "the sun at places of 1e-8 to 1e8", &SUN, judge_suns),
-        Trial::new(Group::Light, "light is a number and not below 0, any accepted scene", &LIGHT, judge_numbers),
+        Trial::new(Group::Light, "highlights, exponents 1 to 1e9", &HIGHLIGHT, check_highlights),
+        Trial::new(Group::Light, "edges of spots, 1e-4 to 179.99 degrees", &SPOT, check_spots),
+        Trial::new(Group::Light, "the sun at places of 1e-8 to 1e8", &SUN, check_suns),
+        Trial::new(Group::Light, "light is a number and not below 0, any accepted scene", &LIGHT, check_numbers),
     ]);
     trials
 }
@@ -42,7 +42,7 @@ pub fn trials() -> Vec<Trial> {
 ///
 /// cos α by its sine, √(1 − sin²α), whose logarithm is ½ log1p(−sin²α): no digit of a small angle is lost.
 /// A cosine near 1 is rounded by 2⁻⁵² or so, which n multiplies: that is the doubt that an answer may have.
-fn judge_highlights(range: Range<u64>) -> Tally {
+fn check_highlights(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(HIGHLIGHT.len());
     for index in range {
         let mut draws = Draws::new(401, index);
@@ -70,7 +70,7 @@ fn judge_highlights(range: Range<u64>) -> Tally {
 }
 
 /// Directions about the edges of cones; the angle by its tangent, |a × b| / a·b, is the judge.
-fn judge_spots(range: Range<u64>) -> Tally {
+fn check_spots(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SPOT.len());
     for index in range {
         let mut draws = Draws::new(402, index);
@@ -105,7 +105,7 @@ fn edge_of(degrees: f64) -> f64 {
 }
 
 /// Irradiance from a sun by the kit's stage, against E cos θ.
-fn judge_suns(range: Range<u64>) -> Tally {
+fn check_suns(range: Range<u64>) -> Tally {
     let (mut tally, mut bench) =
         (Tally::new(SUN.len()), Bench::new(&[shade::start_light_stage(), shade::directional_light_stage()]));
     bench.put(first_row());
@@ -134,7 +134,7 @@ fn judge_suns(range: Range<u64>) -> Tally {
         let rays = bench.column::<LightRays>();
         let (kit, reach) =
             rays.r.first().zip(rays.reach.first()).map_or((0.0, f32::INFINITY), |(&r, &reach)| (r, reach));
-        tally.scores[0].judge(reach == f32::INFINITY);
+        tally.scores[0].check(reach == f32::INFINITY);
         tally.scores[0].measure((f64::from(kit) - exact).abs() / U);
         let naive = sun_as_a_far_lamp(1.0, to_light.as_vec3(), position, normal);
         tally.scores[1].measure((f64::from(naive.max(0.0)) - exact).abs() / U);
@@ -143,7 +143,7 @@ fn judge_suns(range: Range<u64>) -> Tally {
 }
 
 /// Lamps, suns and spots of any strength at any distance on surfaces of every kind, by all stages together.
-fn judge_numbers(range: Range<u64>) -> Tally {
+fn check_numbers(range: Range<u64>) -> Tally {
     let stages = [
         shade::start_light_stage(),
         shade::point_light_stage(),
@@ -187,12 +187,12 @@ fn judge_numbers(range: Range<u64>) -> Tally {
         tally.count(!rays.r.is_empty());
         let sound = |part: f32| part >= 0.0;
         let brought = rays.r.iter().chain(&rays.g).chain(&rays.b);
-        tally.scores[0].judge(brought.copied().all(|part| sound(part) && part.is_finite()));
-        tally.scores[0].judge([radiance.r[0], radiance.g[0], radiance.b[0]].into_iter().all(sound));
+        tally.scores[0].check(brought.copied().all(|part| sound(part) && part.is_finite()));
+        tally.scores[0].check([radiance.r[0], radiance.g[0], radiance.b[0]].into_iter().all(sound));
         let way = (light - position.as_dvec3()).as_vec3();
         let height =
             highlight_f32(phong_peak(exponent) as f32, exponent as f32, normal, away.as_vec3(), -eye.direction);
-        tally.scores[1].judge(intensity.iter().all(|&part| sound(lit_f32(part as f32, way, normal, height))));
+        tally.scores[1].check(intensity.iter().all(|&part| sound(lit_f32(part as f32, way, normal, height))));
     }
     tally
 }

@@ -6,7 +6,7 @@ use crate::measure::ray_aim::Draws;
 use crate::naive::light::{phong_without_factor, short_blinn_phong_peak};
 use glam::DVec3;
 use pinhole::extract::{blinn_phong_peak, phong_peak};
-use pinhole::shade::{half_way_cosine, highlight, mirror_cosine};
+use pinhole::shade::{half_vector_cosine, highlight, mirror_cosine};
 use std::ops::Range;
 
 /// How far a sum by quadrature may be off.
@@ -28,7 +28,7 @@ const SLANT: [Method; 4] = [
 /// The cases, those of one exponent first.
 pub fn trials() -> Vec<Trial> {
     let square = |(name, exponent)| {
-        Trial::new(Group::Light, name, &SQUARE, move |range| judge_square(exponent, range)).at_most(1)
+        Trial::new(Group::Light, name, &SQUARE, move |range| check_square(exponent, range)).at_most(1)
     };
     let exponents = [
         ("albedo of a highlight lit squarely, n = 1", 1.0),
@@ -38,7 +38,7 @@ pub fn trials() -> Vec<Trial> {
     ];
     let slant = "albedo of a highlight lit at any slant, n = 0.1 to 1e6";
     let mut trials: Vec<Trial> = exponents.into_iter().map(square).collect();
-    trials.push(Trial::new(Group::Light, slant, &SLANT, judge_slant).at_most(100));
+    trials.push(Trial::new(Group::Light, slant, &SLANT, check_slant).at_most(100));
     trials
 }
 
@@ -52,10 +52,10 @@ fn phong(exponent: f64) -> impl Fn(DVec3, DVec3) -> f64 {
 }
 
 fn blinn_phong(peak: f64, exponent: f64) -> impl Fn(DVec3, DVec3) -> f64 {
-    move |to_light, to_eye| highlight(peak, exponent, half_way_cosine(DVec3::Z, to_light, to_eye))
+    move |to_light, to_eye| highlight(peak, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye))
 }
 
-fn judge_square(exponent: f64, range: Range<u64>) -> Tally {
+fn check_square(exponent: f64, range: Range<u64>) -> Tally {
     let (mut tally, quadrature) = (Tally::new(SQUARE.len()), Quadrature::default());
     for _ in range {
         tally.count(true);
@@ -73,7 +73,7 @@ fn judge_square(exponent: f64, range: Range<u64>) -> Tally {
     tally
 }
 
-fn judge_slant(range: Range<u64>) -> Tally {
+fn check_slant(range: Range<u64>) -> Tally {
     let (mut tally, quadrature) = (Tally::new(SLANT.len()), Quadrature::default());
     for index in range {
         let mut draws = Draws::new(405, index);

@@ -15,13 +15,13 @@ mod cuboid;
 mod emitter;
 mod film;
 mod film_bytes;
-mod flat;
 mod frame;
 mod lamp;
 mod lens;
 mod light;
 mod light_albedo;
-mod matter;
+mod material;
+mod planar;
 mod plane;
 mod print;
 mod sampling;
@@ -125,11 +125,11 @@ impl Group {
             Self::Triangle => triangle::trials(),
             Self::Sampling => sampling::trials(),
             Self::Film => film::trials(),
-            Self::Disk => flat::trials(flat::Kind::Disk),
-            Self::Rectangle => flat::trials(flat::Kind::Rectangle),
+            Self::Disk => planar::trials(planar::Kind::Disk),
+            Self::Rectangle => planar::trials(planar::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
-            Self::Matter => matter::trials(),
+            Self::Matter => material::trials(),
             Self::Emitter => emitter::trials(),
             Self::Lens => lens::trials(),
             Self::Transport => transport::trials(),
@@ -181,7 +181,7 @@ pub fn try_group(group: Group, named: &str, rays: u64, watch: &dyn Watch) -> Vec
 pub fn unbroken(cases: &[Case]) -> Vec<&'static str> {
     let naive = |passes: bool| {
         let outcomes = cases.iter().flat_map(|case| &case.outcomes);
-        outcomes.filter(move |outcome| !outcome.method.of_kit && outcome.passes() == passes)
+        outcomes.filter(move |outcome| !outcome.method.of_pinhole && outcome.passes() == passes)
     };
     let breaks = |name: &str| naive(false).any(|outcome| outcome.method.name == name);
     let mut unbroken: Vec<_> = naive(true).map(|outcome| outcome.method.name).filter(|name| !breaks(name)).collect();

@@ -47,7 +47,7 @@ pub fn trials() -> Vec<Trial> {
     ];
     let trial = |(seed, (name, flattest, from_eye, bound)): (u64, (&str, f64, bool, f64))| {
         let view = View { seed, flattest, from_eye };
-        Trial::new(Group::Plane, name, &methods(bound), move |range| judge(view, range))
+        Trial::new(Group::Plane, name, &methods(bound), move |range| check(view, range))
     };
     (51..).zip(views).map(trial).collect()
 }
@@ -69,7 +69,7 @@ fn aim_at(view: View, index: u64) -> (AimedRay, Plane) {
     (seen, if plane.normal.dot(ray.direction.as_dvec3()) > 0.0 { above } else { below })
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(methods(0.0).len());
     let mut bench = Bench::new(&[start_stage(), plane_stage()]);
     let shots: Vec<(AimedRay, Plane)> = range.map(|index| aim_at(view, index)).collect();
@@ -77,13 +77,13 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         for &(ray, plane) in shots {
             let exact = exact(ray, plane);
             tally.count(exact.is_some());
-            judge_alone(&mut bench, ray, plane, exact, &mut tally.scores[0]);
+            check_alone(&mut bench, ray, plane, exact, &mut tally.scores[0]);
             let rounded = plane.rounded_to_f32();
             let exact = if rounded == plane { exact } else { self::exact(ray, rounded) };
             let naive = hit_f32(ray.origin, ray.direction, rounded.normal.as_vec3(), rounded.offset as f32);
-            tally.scores[2].judge_t(naive.map(f64::from), exact);
+            tally.scores[2].check_t(naive.map(f64::from), exact);
         }
-        judge_among(&mut bench, shots, &mut tally.scores[1]);
+        check_among(&mut bench, shots, &mut tally.scores[1]);
     }
     tally
 }
@@ -98,17 +98,17 @@ pub(super) fn by_function(ray: AimedRay, plane: Plane) -> f64 {
     plane_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), plane.normal, plane.offset)
 }
 
-fn judge_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64>, score: &mut Score) {
+fn check_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64>, score: &mut Score) {
     bench.share(plane_table(&[plane]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
-    score.judge(t.to_bits() == by_function(ray, plane).to_bits());
-    score.judge_t(Some(t).filter(|t| t.is_finite()), exact);
+    score.check(t.to_bits() == by_function(ray, plane).to_bits());
+    score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
 /// All at once through the stage, against every ray with every plane by the kit's function, to the last bit.
-fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Plane)], score: &mut Score) {
+fn check_among(bench: &mut Bench, shots: &[(AimedRay, Plane)], score: &mut Score) {
     let (rays, planes): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
     bench.share(plane_table(&planes));
     bench.aim(&rays);
@@ -116,9 +116,9 @@ fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Plane)], score: &mut Score
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
         let nearest = planes.iter().map(|&plane| by_function(ray, plane)).fold(f64::INFINITY, f64::min);
-        score.judge(hits.t[row].to_bits() == nearest.to_bits());
+        score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
-            score.judge_t(Some(hits.t[row]), exact(ray, planes[row]));
+            score.check_t(Some(hits.t[row]), exact(ray, planes[row]));
         }
     }
 }

@@ -29,9 +29,9 @@ impl Group {
 
     /// The heading of its table.
     pub fn heading(self) -> String {
-        let [judged, _, wrong] = self.words();
+        let [checked, _, wrong] = self.words();
         format!(
-            "{self}: {judged}, judged by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
+            "{self}: {checked}, judged by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
             "", "worst error", "", "asked"
         )
     }
@@ -77,7 +77,7 @@ pub struct Words {
     /// What is asked.
     pub asked: String,
     /// held, NOT HELD, breaks or passes.
-    pub verdict: &'static str,
+    pub intersection: &'static str,
     /// Whether a naive method passes.
     pub proves_nothing: bool,
 }
@@ -91,20 +91,20 @@ impl Outcome {
             unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "none wrong".into()),
             unit => (format!("{} {unit}", short(score.worst)), format!("<= {}", short(method.bound))),
         };
-        let verdict = match (method.of_kit, self.passes()) {
+        let intersection = match (method.of_pinhole, self.passes()) {
             (true, true) => "held",
             (true, false) => "NOT HELD",
             (false, true) => "passes",
             (false, false) => "breaks",
         };
-        Words { worst, asked, verdict, proves_nothing: verdict == "passes" }
+        Words { worst, asked, intersection, proves_nothing: intersection == "passes" }
     }
 }
 
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Words { worst, asked, verdict, .. } = self.words();
-        write!(f, "  {:<40}{:>12} {worst:>20}   {verdict:<8}{asked:>12}", self.method.name, self.score.wrong)
+        let Words { worst, asked, intersection, .. } = self.words();
+        write!(f, "  {:<40}{:>12} {worst:>20}   {intersection:<8}{asked:>12}", self.method.name, self.score.wrong)
     }
 }
 

@@ -38,16 +38,16 @@ const CONSTANT: [Method; 2] = [
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     vec![
-        Trial::new(Group::Sampling, "the last pixels of 65,536", &IN_PIXEL, judge_in_pixel),
-        Trial::new(Group::Sampling, "the largest 32 bits", &BELOW_ONE, judge_below_one).at_most(4096),
-        Trial::new(Group::Sampling, "a pixel and its neighbour", &NEIGHBOURS, judge_neighbours),
-        Trial::new(Group::Sampling, "upright stripes, one or two a pixel", &STRIPES, judge_stripes),
-        Trial::new(Group::Sampling, "one colour through Mitchell, 1 to 32 samples", &CONSTANT, judge_constant),
+        Trial::new(Group::Sampling, "the last pixels of 65,536", &IN_PIXEL, check_in_pixel),
+        Trial::new(Group::Sampling, "the largest 32 bits", &BELOW_ONE, check_below_one).at_most(4096),
+        Trial::new(Group::Sampling, "a pixel and its neighbour", &NEIGHBOURS, check_neighbours),
+        Trial::new(Group::Sampling, "upright stripes, one or two a pixel", &STRIPES, check_stripes),
+        Trial::new(Group::Sampling, "one colour through Mitchell, 1 to 32 samples", &CONSTANT, check_constant),
     ]
 }
 
 /// Whether a sample stays in its pixel, and how far from where its bits say.
-fn judge_in_pixel(range: Range<u64>) -> Tally {
+fn check_in_pixel(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(IN_PIXEL.len());
     for index in range {
         let mut draws = Draws::new(1701, index);
@@ -57,26 +57,26 @@ fn judge_in_pixel(range: Range<u64>) -> Tally {
         tally.count(true);
         let answers = [exact, f64::from(raster_plus_jitter_f32(pixel, unit(bits) as f32))];
         for (score, answer) in tally.scores.iter_mut().zip(answers) {
-            score.judge(answer.floor() == f64::from(pixel));
+            score.check(answer.floor() == f64::from(pixel));
             score.measure((answer - f64::from(pixel) - unit(bits)).abs());
         }
     }
     tally
 }
 
-fn judge_below_one(range: Range<u64>) -> Tally {
+fn check_below_one(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(BELOW_ONE.len());
     for index in range {
         let bits = u32::MAX - index as u32;
         tally.count(true);
-        tally.scores[0].judge(unit(bits) < 1.0);
-        tally.scores[1].judge(unit_of_32_bits(bits) < 1.0);
+        tally.scores[0].check(unit(bits) < 1.0);
+        tally.scores[1].check(unit_of_32_bits(bits) < 1.0);
     }
     tally
 }
 
 /// Whether any of a pixel's first eight points is its neighbour's.
-fn judge_neighbours(range: Range<u64>) -> Tally {
+fn check_neighbours(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(NEIGHBOURS.len());
     for index in range {
         let at = |x: u32| PixelKey::new(17, [x, (index / 1024) as u32]);
@@ -86,15 +86,15 @@ fn judge_neighbours(range: Range<u64>) -> Tally {
         let sobol = |n: u32, key| Sobol::new(n, 0, Purpose::Pixel).two(key);
         let independent = |n: u32, key| Independent::new(n, 0, Purpose::Pixel).two(key);
         tally.count(true);
-        tally.scores[0].judge(apart(&sobol, own, next));
-        tally.scores[1].judge(apart(&independent, own, next));
-        tally.scores[2].judge(apart(&sobol, one, one));
+        tally.scores[0].check(apart(&sobol, own, next));
+        tally.scores[1].check(apart(&independent, own, next));
+        tally.scores[2].check(apart(&sobol, one, one));
     }
     tally
 }
 
 /// How far the share of bright stripes in a pixel is from the exact one.
-fn judge_stripes(range: Range<u64>) -> Tally {
+fn check_stripes(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(STRIPES.len());
     for index in range {
         let mut draws = Draws::new(1702, index);
@@ -119,7 +119,7 @@ fn bright_share(period: f64, phase: f64) -> f64 {
     (upto(1.0 / period + phase) - upto(phase)) * period
 }
 
-fn judge_constant(range: Range<u64>) -> Tally {
+fn check_constant(range: Range<u64>) -> Tally {
     let cells = FilterCells::of(Filter::MITCHELL);
     let whole = {
         // The filter's area over that of its absolute value, along both axes.

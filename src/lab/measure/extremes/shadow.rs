@@ -60,9 +60,9 @@ pub fn trials() -> Vec<Trial> {
         ("the same, slopes from 1e-8, 2^-130 as large: subnormal", smallest, 8.0),
     ];
     let sphere =
-        |(name, scale, aim)| Trial::new(Group::Shadow, name, &METHODS, move |range| judge_spheres(scale, aim, range));
+        |(name, scale, aim)| Trial::new(Group::Shadow, name, &METHODS, move |range| check_spheres(scale, aim, range));
     let plane = |(name, scale, flattest)| {
-        Trial::new(Group::Shadow, name, &METHODS, move |range| judge_planes(scale, flattest, range))
+        Trial::new(Group::Shadow, name, &METHODS, move |range| check_planes(scale, flattest, range))
     };
     spheres.map(sphere).into_iter().chain(planes.map(plane)).collect()
 }
@@ -78,7 +78,7 @@ fn leave(stages: &mut ShadowStages, surface: Surface, size: f64, draws: &mut Dra
     stages.shadow(surface, surface.position.as_dvec3() + away)
 }
 
-fn judge_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
+fn check_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_spheres());
     for index in range {
         let (ray, sphere) = aim(index);
@@ -88,9 +88,9 @@ fn judge_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
         let started = start_on_sphere(&mut stages, ray, sphere, &mut Draws::new(45, index));
         tally.count(started.is_some());
         if let Some((side, surface, shadow)) = started {
-            tally.scores[0].judge(sphere_is_left(side, shadow, sphere));
+            tally.scores[0].check(sphere_is_left(side, shadow, sphere));
             if side == Ordering::Greater {
-                judge_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
+                check_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
                     let ts = line_ts(start.origin, direction, sphere);
                     ts.is_some_and(|ts| ts.iter().any(|&t| t > f64::from(start.t_min)))
                 });
@@ -128,7 +128,7 @@ fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
     side_of_sphere(origin.as_dvec3(), sphere) == side && meets == exactly && !(outside && (meets || blocked.is_some()))
 }
 
-fn judge_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
+fn check_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_planes());
     for index in range {
         let (ray, plane) = aim_at_plane(46, index, flattest);
@@ -143,8 +143,8 @@ fn judge_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
         });
         tally.count(shadow.is_some());
         if let Some((surface, shadow)) = shadow {
-            tally.scores[0].judge(plane_is_left(side, shadow, plane));
-            judge_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
+            tally.scores[0].check(plane_is_left(side, shadow, plane));
+            check_naive(surface, shadow.direction, &mut tally.scores[1..], |start, direction| {
                 plane_t(start.origin, direction, plane).is_some_and(|t| t > f64::from(start.t_min))
             });
         }
@@ -160,7 +160,7 @@ fn plane_is_left(side: Ordering, shadow: Shadow, plane: Plane) -> bool {
 }
 
 /// Whether the naive starts shadow their own surface; their kernel is exact, so that only the start is judged.
-fn judge_naive(
+fn check_naive(
     surface: Surface,
     direction: Vec3,
     scores: &mut [Score],
@@ -169,6 +169,6 @@ fn judge_naive(
     let Surface { position, normal, .. } = surface;
     let starts = [start_at_hit(position), start_after_constant(position), start_off_surface(position, normal)];
     for (score, start) in scores.iter_mut().zip(starts) {
-        score.judge(!meets_itself(start, direction));
+        score.check(!meets_itself(start, direction));
     }
 }

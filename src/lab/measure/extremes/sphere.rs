@@ -43,10 +43,10 @@ pub fn trials() -> Vec<Trial> {
 }
 
 fn trial(name: &str, aim: fn(u64) -> (AimedRay, Sphere)) -> Trial {
-    Trial::new(Group::Sphere, name, &METHODS, move |range| judge(aim, range))
+    Trial::new(Group::Sphere, name, &METHODS, move |range| check(aim, range))
 }
 
-fn judge(aim: fn(u64) -> (AimedRay, Sphere), range: Range<u64>) -> Tally {
+fn check(aim: fn(u64) -> (AimedRay, Sphere), range: Range<u64>) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     let mut bench = Bench::new(&[start_stage(), sphere_stage()]);
     let shots: Vec<(AimedRay, Sphere)> = range.map(aim).collect();
@@ -55,10 +55,10 @@ fn judge(aim: fn(u64) -> (AimedRay, Sphere), range: Range<u64>) -> Tally {
         for (&(ray, sphere), &exact) in shots.iter().zip(&exact) {
             tally.count(exact.is_some());
             let [alone, _, naive @ ..] = &mut tally.scores[..] else { continue };
-            judge_alone(&mut bench, ray, sphere, exact, alone);
-            judge_naive(ray, sphere, exact, naive);
+            check_alone(&mut bench, ray, sphere, exact, alone);
+            check_naive(ray, sphere, exact, naive);
         }
-        judge_among(&mut bench, shots, &exact, &mut tally.scores[1]);
+        check_among(&mut bench, shots, &exact, &mut tally.scores[1]);
     }
     tally
 }
@@ -74,18 +74,18 @@ pub(super) fn by_function(ray: AimedRay, sphere: Sphere) -> f64 {
 }
 
 /// One ray and one sphere through the stage: no neighbour in the same block can save a ray from being culled.
-fn judge_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f64>, score: &mut Score) {
+fn check_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f64>, score: &mut Score) {
     bench.share(sphere_table(&[sphere]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
-    score.judge(t.to_bits() == by_function(ray, sphere).to_bits());
-    score.judge_t(Some(t).filter(|t| t.is_finite()), exact);
+    score.check(t.to_bits() == by_function(ray, sphere).to_bits());
+    score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
 /// All at once through the stage, against every ray with every sphere by the kit's function, to the last bit; whoever
 /// meets its own sphere is also judged by the exact distance.
-fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<f64>], score: &mut Score) {
+fn check_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<f64>], score: &mut Score) {
     let (rays, spheres): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
     bench.share(sphere_table(&spheres));
     bench.aim(&rays);
@@ -93,19 +93,19 @@ fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
         let nearest = spheres.iter().map(|&sphere| by_function(ray, sphere)).fold(f64::INFINITY, f64::min);
-        score.judge(hits.t[row].to_bits() == nearest.to_bits());
+        score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
-            score.judge_t(Some(hits.t[row]), exact[row]);
+            score.check_t(Some(hits.t[row]), exact[row]);
         }
     }
 }
 
 /// The naive methods, each judged on the sphere that it can hold: in f32 that is the sphere rounded to f32.
-fn judge_naive(ray: AimedRay, sphere: Sphere, exact_f64: Option<f64>, scores: &mut [Score]) {
+fn check_naive(ray: AimedRay, sphere: Sphere, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = sphere.rounded_to_f32();
     let exact_f32 = if rounded == sphere { exact_f64 } else { exact(ray, rounded) };
     let (centre, radius) = (rounded.centre.as_vec3(), rounded.radius as f32);
-    scores[0].judge_t(hit_f32(ray.origin, ray.direction, centre, radius).map(f64::from), exact_f32);
-    scores[1].judge_t(hit_haines_f32(ray.origin, ray.direction, centre, radius).map(f64::from), exact_f32);
-    scores[2].judge_t(hit_f64_plain(ray.origin, ray.direction, sphere.centre, sphere.radius), exact_f64);
+    scores[0].check_t(hit_f32(ray.origin, ray.direction, centre, radius).map(f64::from), exact_f32);
+    scores[1].check_t(hit_haines_f32(ray.origin, ray.direction, centre, radius).map(f64::from), exact_f32);
+    scores[2].check_t(hit_f64_plain(ray.origin, ray.direction, sphere.centre, sphere.radius), exact_f64);
 }

@@ -27,12 +27,12 @@ fn one_by_one<Tool: 'static>(
     name: &str,
     methods: &[Method],
     make: fn() -> Tool,
-    judge: impl Fn(&mut Tool, u64, &mut Tally) + Send + Sync + 'static,
+    check: impl Fn(&mut Tool, u64, &mut Tally) + Send + Sync + 'static,
 ) -> Trial {
     let rows = methods.len();
     Trial::new(Group::Sphere, name, methods, move |range| {
         let (mut tally, mut tool) = (Tally::new(rows), make());
-        range.for_each(|index| judge(&mut tool, index, &mut tally));
+        range.for_each(|index| check(&mut tool, index, &mut tally));
         tally
     })
 }
@@ -85,12 +85,12 @@ fn shells() -> Trial {
         });
         tally.count(shadow.is_some());
         let Some((surface, shadow)) = shadow else { return };
-        tally.scores[0].judge(shadow.blocked == Some(1));
+        tally.scores[0].check(shadow.blocked == Some(1));
         let starts = [start_after_constant(surface.position), start_off_surface(surface.position, surface.normal)];
         for (score, start) in tally.scores[1..].iter_mut().zip(starts) {
             let t = sphere_t(start.origin, shadow.direction, outer);
             let inside = outer.radius > (start.origin.as_dvec3() - outer.centre).length();
-            score.judge(inside && t.is_some_and(|t| t > f64::from(start.t_min)));
+            score.check(inside && t.is_some_and(|t| t > f64::from(start.t_min)));
         }
     })
 }
@@ -114,16 +114,16 @@ fn lengths_of_directions() -> Trial {
             let same = |t: f64, of_longer: f64| t.to_bits() == (of_longer * scale).to_bits();
             let (ray, sphere) = silhouette(136, index, 1e3);
             tally.count(by_function(ray, sphere).is_finite());
-            tally.scores[0].judge(same(by_function(ray, sphere), by_function(longer(ray), sphere)));
+            tally.scores[0].check(same(by_function(ray, sphere), by_function(longer(ray), sphere)));
             let rounded = (sphere.centre.as_vec3(), sphere.radius as f32);
             let naive = |ray: AimedRay| hit_f32(ray.origin, ray.direction, rounded.0, rounded.1).map(f64::from);
-            tally.scores[2].judge(same(naive(ray).unwrap_or(-1.0), naive(longer(ray)).unwrap_or(-1.0 / scale)));
+            tally.scores[2].check(same(naive(ray).unwrap_or(-1.0), naive(longer(ray)).unwrap_or(-1.0 / scale)));
 
             let (ray, plane) = aim_at_plane(137, index, 3.0);
-            tally.scores[1].judge(same(plane_by_function(ray, plane), plane_by_function(longer(ray), plane)));
+            tally.scores[1].check(same(plane_by_function(ray, plane), plane_by_function(longer(ray), plane)));
             let (normal, offset) = (plane.normal.as_vec3(), plane.offset as f32);
             let naive = |ray: AimedRay| naive_plane(ray.origin, ray.direction, normal, offset).map(f64::from);
-            tally.scores[3].judge(same(naive(ray).unwrap_or(-1.0), naive(longer(ray)).unwrap_or(-1.0 / scale)));
+            tally.scores[3].check(same(naive(ray).unwrap_or(-1.0), naive(longer(ray)).unwrap_or(-1.0 / scale)));
         },
     )
 }
@@ -141,7 +141,7 @@ fn no_rays() -> Trial {
         Method::naive("naive, kept unless farther, f32", "", 0.0),
     ];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, sphere_bench, |bench, index, tally| {
-        let shot = |lane: usize| silhouette(138, index * BLOCK as u64 + lane as u64, 1.5);
+        let shot = |component: usize| silhouette(138, index * BLOCK as u64 + component as u64, 1.5);
         let (mut rays, spheres): (Vec<AimedRay>, Vec<Sphere>) = (0..BLOCK).map(shot).unzip();
         let (bad, part) = (index as usize % BLOCK, index as usize / BLOCK % 3);
         match index / 3 % 4 {
@@ -155,14 +155,18 @@ fn no_rays() -> Trial {
         bench.run();
         let hits = bench.column::<Hits>();
         tally.count(true);
-        for (lane, &ray) in rays.iter().enumerate() {
+        for (component, &ray) in rays.iter().enumerate() {
             let nearest = spheres.iter().map(|&sphere| by_function(ray, sphere)).fold(f64::INFINITY, f64::min);
-            let nothing = hits.t[lane] == f64::INFINITY && hits.shape[lane] == NO_SHAPE;
-            tally.scores[0].judge(if lane == bad { nothing } else { hits.t[lane].to_bits() == nearest.to_bits() });
+            let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
+            tally.scores[0].check(if component == bad {
+                nothing
+            } else {
+                hits.t[component].to_bits() == nearest.to_bits()
+            });
         }
         let rounded: Vec<(Vec3, f32)> =
             spheres.iter().map(|sphere| (sphere.centre.as_vec3(), sphere.radius as f32)).collect();
-        tally.scores[1].judge(!nearest_unless_farther(rays[bad].origin, rays[bad].direction, &rounded).is_nan());
+        tally.scores[1].check(!nearest_unless_farther(rays[bad].origin, rays[bad].direction, &rounded).is_nan());
     })
 }
 
@@ -188,7 +192,7 @@ fn ends() -> Trial {
         if !met {
             found[0].0 = f64::INFINITY;
         }
-        tally.scores[0].judge(found[0] == found[1] && found[1].0 == by_function(ray, sphere));
+        tally.scores[0].check(found[0] == found[1] && found[1].0 == by_function(ray, sphere));
     })
 }
 

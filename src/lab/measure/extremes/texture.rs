@@ -37,19 +37,19 @@ const HALVES: [Method; 2] = [
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     let means = |name: &str, far: f64, widths: [f64; 2]| {
-        Trial::new(Group::Texture, name, &MEANS, move |range| judge_means(range, far, widths))
+        Trial::new(Group::Texture, name, &MEANS, move |range| check_means(range, far, widths))
     };
     let steps =
-        |name: &str, flattest: f64| Trial::new(Group::Texture, name, &STEPS, move |range| judge_steps(range, flattest));
+        |name: &str, flattest: f64| Trial::new(Group::Texture, name, &STEPS, move |range| check_steps(range, flattest));
     vec![
         means("cells, a pixel covers 1e-2 to 1", 1e2, [-2.0, 0.0]),
         means("cells, a pixel covers 1 to 1e6", 1e2, [0.0, 6.0]),
         means("cells 1e7 from the origin, a pixel covers 1 to 1e4", 1e7, [0.0, 4.0]),
         steps("a floor, slope from 1e-2", -2.0),
         steps("a floor, slope from 1e-6", -6.0),
-        Trial::new(Group::Texture, "environment, 1e-12 to 1e-2 from a pole", &ANGLES, judge_angles),
-        Trial::new(Group::Texture, "environment, both sides of the seam", &SEAMS, judge_seams),
-        Trial::new(Group::Texture, "images of 1 to 40 texels, halved", &HALVES, judge_halves),
+        Trial::new(Group::Texture, "environment, 1e-12 to 1e-2 from a pole", &ANGLES, check_angles),
+        Trial::new(Group::Texture, "environment, both sides of the seam", &SEAMS, check_seams),
+        Trial::new(Group::Texture, "images of 1 to 40 texels, halved", &HALVES, check_halves),
     ]
 }
 
@@ -60,12 +60,12 @@ fn exact_area(x: &Dyadic) -> Dyadic {
 }
 
 /// Ranges of cells: the mean of stripes over them.
-fn judge_means(range: Range<u64>, far: f64, [narrow, wide]: [f64; 2]) -> Tally {
+fn check_means(range: Range<u64>, far: f64, [keep_closest, double_double]: [f64; 2]) -> Tally {
     let mut tally = Tally::new(MEANS.len());
     for index in range {
         let mut draws = Draws::new(161, index);
         let x = far * (1.0 + draws.unit());
-        let width = draws.power_of_ten(narrow, wide);
+        let width = draws.power_of_ten(keep_closest, double_double);
         tally.count(true);
         let half = Dyadic::of(0.5 * width);
         let (low, high) = (&Dyadic::of(x) - &half, &Dyadic::of(x) + &half);
@@ -81,7 +81,7 @@ fn judge_means(range: Range<u64>, far: f64, [narrow, wide]: [f64; 2]) -> Tally {
 }
 
 /// Rays down to a floor, flatter and flatter: how far the hit moves from one pixel to the next.
-fn judge_steps(range: Range<u64>, flattest: f64) -> Tally {
+fn check_steps(range: Range<u64>, flattest: f64) -> Tally {
     const PIXEL: f64 = 1e-3;
     let mut tally = Tally::new(STEPS.len());
     for index in range {
@@ -99,14 +99,14 @@ fn judge_steps(range: Range<u64>, flattest: f64) -> Tally {
         let neighbour = (direction + DVec3::Y * PIXEL).as_vec3();
         match step_to_neighbour(direction.as_vec3(), neighbour, Vec3::Y, -1.0) {
             Some(step) => tally.scores[1].measure((step.as_dvec3() - exact).length() / exact.length() / U),
-            None => tally.scores[1].judge(false),
+            None => tally.scores[1].check(false),
         }
     }
     tally
 }
 
 /// Directions close to a pole: the angle from it.
-fn judge_angles(range: Range<u64>) -> Tally {
+fn check_angles(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ANGLES.len());
     for index in range {
         let mut draws = Draws::new(163, index);
@@ -115,14 +115,14 @@ fn judge_angles(range: Range<u64>) -> Tally {
         let (east, north) = libm::sincos(draws.between(-PI, PI));
         let direction = DVec3::new(sine * east, cosine, sine * north);
         tally.count(true);
-        tally.scores[0].judge_value(equirectangular(direction).y, angle / PI);
-        tally.scores[1].judge_value(from_top_by_cosine(direction.y), angle / PI);
+        tally.scores[0].check_value(equirectangular(direction).y, angle / PI);
+        tally.scores[1].check_value(from_top_by_cosine(direction.y), angle / PI);
     }
     tally
 }
 
 /// Two directions next to each other, the seam or a pole between them: they see next to the same.
-fn judge_seams(range: Range<u64>) -> Tally {
+fn check_seams(range: Range<u64>) -> Tally {
     let texel = |at: u64| [1, 2, 3].map(|salt| ((at * 7919 + salt * 104_729) % 1009) as f32 / 1009.0);
     let mut tally = Tally::new(SEAMS.len());
     for index in range {
@@ -142,7 +142,7 @@ fn judge_seams(range: Range<u64>) -> Tally {
 }
 
 /// Images of any small size: their light when they are halved.
-fn judge_halves(range: Range<u64>) -> Tally {
+fn check_halves(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(HALVES.len());
     for index in range {
         let mut draws = Draws::new(165, index);
@@ -152,8 +152,8 @@ fn judge_halves(range: Range<u64>) -> Tally {
         let mean =
             |image: &Texels| image.rgb.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / image.rgb.len() as f64;
         tally.count(true);
-        tally.scores[0].judge_value(mean(&halved(&image)), mean(&image));
-        tally.scores[1].judge_value(mean(&halved_by_fours(&image)), mean(&image));
+        tally.scores[0].check_value(mean(&halved(&image)), mean(&image));
+        tally.scores[1].check_value(mean(&halved_by_fours(&image)), mean(&image));
     }
     tally
 }

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::sphere::T_BOUND;
-use super::transform_aim::{Aim, From, Stretched, View, ellipsoid_table, shot};
+use super::transform_aim::{From, SampleLights, Stretched, View, ellipsoid_table, shot};
 use super::{Group, Method, Score, Tally, Trial};
 use super::{transform_placement, transform_surface};
 use crate::measure::oracle_ellipsoid;
@@ -25,19 +25,19 @@ const METHODS: [Method; 4] = [
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     let views = [
-        ("silhouette, 10 times as long, 1e3 radii away", 1.0, 0.0, Aim::Silhouette, From::Far(1e3)),
-        ("silhouette, 1e3 times as long, 1e5 radii away", 3.0, 0.0, Aim::Silhouette, From::Far(1e5)),
-        ("silhouette, 1e4 times as long, 1e7 radii away", 4.0, 0.0, Aim::Silhouette, From::Far(1e7)),
-        ("silhouette, 1e7 times as long, any size 1e-8 to 1e8", 7.0, 8.0, Aim::Silhouette, From::Far(2.0)),
-        ("silhouette, 1e7 times as long, 1e7 radii away", 7.0, 0.0, Aim::Silhouette, From::Far(1e7)),
-        ("tips and poles, 1e4 times as long, 1e3 radii away", 4.0, 0.0, Aim::Pole, From::Far(1e3)),
-        ("tips and poles, 1e7 times as long, from near", 7.0, 8.0, Aim::Pole, From::Near(-6.0)),
-        ("anywhere, 1e4 times as long, any size, 1e3 radii away", 4.0, 8.0, Aim::Anywhere, From::Far(1e3)),
-        ("anywhere, 1e7 times as long, any size, from near", 7.0, 8.0, Aim::Anywhere, From::Near(-6.0)),
+        ("silhouette, 10 times as long, 1e3 radii away", 1.0, 0.0, SampleLights::Silhouette, From::Far(1e3)),
+        ("silhouette, 1e3 times as long, 1e5 radii away", 3.0, 0.0, SampleLights::Silhouette, From::Far(1e5)),
+        ("silhouette, 1e4 times as long, 1e7 radii away", 4.0, 0.0, SampleLights::Silhouette, From::Far(1e7)),
+        ("silhouette, 1e7 times as long, any size 1e-8 to 1e8", 7.0, 8.0, SampleLights::Silhouette, From::Far(2.0)),
+        ("silhouette, 1e7 times as long, 1e7 radii away", 7.0, 0.0, SampleLights::Silhouette, From::Far(1e7)),
+        ("tips and poles, 1e4 times as long, 1e3 radii away", 4.0, 0.0, SampleLights::Pole, From::Far(1e3)),
+        ("tips and poles, 1e7 times as long, from near", 7.0, 8.0, SampleLights::Pole, From::Near(-6.0)),
+        ("anywhere, 1e4 times as long, any size, 1e3 radii away", 4.0, 8.0, SampleLights::Anywhere, From::Far(1e3)),
+        ("anywhere, 1e7 times as long, any size, from near", 7.0, 8.0, SampleLights::Anywhere, From::Near(-6.0)),
     ];
-    let trial = |(seed, (name, ratio, sizes, aim, from)): (u64, (&str, f64, f64, Aim, From))| {
+    let trial = |(seed, (name, ratio, sizes, aim, from)): (u64, (&str, f64, f64, SampleLights, From))| {
         let view = View { seed, ratio, sizes, aim, from };
-        Trial::new(Group::Transform, name, &METHODS, move |range| judge(view, range))
+        Trial::new(Group::Transform, name, &METHODS, move |range| check(view, range))
     };
     let mut trials: Vec<Trial> = (91..).zip(views).map(trial).collect();
     trials.extend(transform_surface::trials());
@@ -45,7 +45,7 @@ pub fn trials() -> Vec<Trial> {
     trials
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     let mut bench = Bench::new(&[start_stage(), ellipsoid_stage()]);
     let shots: Vec<(AimedRay, Stretched)> = range.map(|index| shot(view, index)).collect();
@@ -53,10 +53,10 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let exact: Vec<Option<f64>> = shots.iter().map(|(ray, shape)| exact(*ray, &shape.ellipsoid)).collect();
         for ((ray, shape), &exact) in shots.iter().zip(&exact) {
             tally.count(exact.is_some());
-            judge_alone(&mut bench, *ray, shape.ellipsoid, exact, &mut tally.scores[0]);
-            judge_naive(*ray, shape.ellipsoid, exact, &mut tally.scores[2..]);
+            check_alone(&mut bench, *ray, shape.ellipsoid, exact, &mut tally.scores[0]);
+            check_naive(*ray, shape.ellipsoid, exact, &mut tally.scores[2..]);
         }
-        judge_among(&mut bench, shots, &exact, &mut tally.scores[1]);
+        check_among(&mut bench, shots, &exact, &mut tally.scores[1]);
     }
     tally
 }
@@ -71,17 +71,17 @@ fn by_function(ray: AimedRay, ellipsoid: &Ellipsoid) -> f64 {
 }
 
 /// One ray and one ellipsoid through the stage: no neighbour can save a ray from being culled.
-fn judge_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Option<f64>, score: &mut Score) {
+fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Option<f64>, score: &mut Score) {
     bench.share(ellipsoid_table([ellipsoid]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
-    score.judge(t.to_bits() == by_function(ray, &ellipsoid).to_bits());
-    score.judge_t(Some(t).filter(|t| t.is_finite()), exact);
+    score.check(t.to_bits() == by_function(ray, &ellipsoid).to_bits());
+    score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
 /// All at once through the stage, against every ray with every ellipsoid by the kit's function, to the last bit.
-fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Option<f64>], score: &mut Score) {
+fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Option<f64>], score: &mut Score) {
     bench.share(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
@@ -89,19 +89,19 @@ fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Opti
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
         let nearest = shots.iter().map(|(_, shape)| by_function(ray, &shape.ellipsoid)).fold(f64::INFINITY, f64::min);
-        score.judge(hits.t[row].to_bits() == nearest.to_bits());
+        score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
-            score.judge_t(Some(hits.t[row]), exact[row]);
+            score.check_t(Some(hits.t[row]), exact[row]);
         }
     }
 }
 
 /// The naive methods; the one in f32 is judged on the ellipsoid that f32 can hold.
-fn judge_naive(ray: AimedRay, ellipsoid: Ellipsoid, exact_f64: Option<f64>, scores: &mut [Score]) {
+fn check_naive(ray: AimedRay, ellipsoid: Ellipsoid, exact_f64: Option<f64>, scores: &mut [Score]) {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-    scores[0].judge_t(hit_renormalised(origin, direction, ellipsoid.centre, ellipsoid.unit_from_world), exact_f64);
+    scores[0].check_t(hit_renormalised(origin, direction, ellipsoid.centre, ellipsoid.unit_from_world), exact_f64);
     let (centre, map) = (ellipsoid.centre.as_vec3(), ellipsoid.unit_from_world.as_mat3());
     let rounded = Ellipsoid { centre: centre.as_dvec3(), unit_from_world: map.as_dmat3(), ..ellipsoid };
     let naive = hit_f32(ray.origin, ray.direction, centre, map);
-    scores[1].judge_t(naive.map(f64::from), exact(ray, &rounded));
+    scores[1].check_t(naive.map(f64::from), exact(ray, &rounded));
 }

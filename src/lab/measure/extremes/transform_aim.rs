@@ -22,7 +22,7 @@ pub struct Stretched {
 
 /// Where a ray is aimed.
 #[derive(Clone, Copy, Debug)]
-pub enum Aim {
+pub enum SampleLights {
     /// At the silhouette, up to a few direction quanta.
     Silhouette,
     /// At an end of a half axis, or very near it.
@@ -52,7 +52,7 @@ pub struct View {
     /// Sizes are 10^U(−this, this).
     pub sizes: f64,
     /// Where rays go.
-    pub aim: Aim,
+    pub aim: SampleLights,
     /// Where they come from.
     pub from: From,
 }
@@ -94,7 +94,7 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Stretched) {
 
     let mut seen_from = draws.unit_vector();
     let mut g = match view.aim {
-        Aim::Pole => {
+        SampleLights::Pole => {
             let axis = DVec3::AXES[(draws.unit() * 3.0) as usize] * if draws.unit() < 0.5 { -1.0 } else { 1.0 };
             (axis + draws.unit_vector() * draws.power_of_ten(-9.0, -1.0)).normalize()
         }
@@ -115,7 +115,7 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Stretched) {
         g = -g;
     }
     let mut quanta = 0.0;
-    if let Aim::Silhouette = view.aim {
+    if let SampleLights::Silhouette = view.aim {
         // The points g of the unit sphere with g · e = 1 are those whose tangent planes hold the eye e.
         let towards = from_unit.normalize();
         let nearer = 1.0 / from_unit.length();

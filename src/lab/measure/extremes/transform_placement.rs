@@ -32,12 +32,12 @@ const LOOK_AT: [Method; 2] =
 /// The cases of placements.
 pub fn trials() -> Vec<Trial> {
     let trial =
-        |name, methods: &[Method], judge: fn(Range<u64>) -> Tally| Trial::new(Group::Transform, name, methods, judge);
+        |name, methods: &[Method], check: fn(Range<u64>) -> Tally| Trial::new(Group::Transform, name, methods, check);
     vec![
-        trial("planes mirrored and 1e3 times as long, under 0 to 2 parents", &PLANES, judge_planes).at_most(SCENES),
-        trial("the author's ellipsoid, up to 1e7 times as long, 0 or 1 parent", &PIXELS, judge_pixels).at_most(SCENES),
-        trial("a scale of 0, and near it", &REFUSALS, judge_refusals).at_most(SCENES),
-        trial("look-at: eye = target, up along the view, any length", &LOOK_AT, judge_look_at),
+        trial("planes mirrored and 1e3 times as long, under 0 to 2 parents", &PLANES, check_planes).at_most(SCENES),
+        trial("the author's ellipsoid, up to 1e7 times as long, 0 or 1 parent", &PIXELS, check_pixels).at_most(SCENES),
+        trial("a scale of 0, and near it", &REFUSALS, check_refusals).at_most(SCENES),
+        trial("look-at: eye = target, up along the view, any length", &LOOK_AT, check_look_at),
     ]
 }
 
@@ -101,7 +101,7 @@ fn axes(placement: &Placement) -> DMat3 {
     DMat3::from_quat(placement.orientation.normalize())
 }
 
-fn judge_planes(range: Range<u64>) -> Tally {
+fn check_planes(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(PLANES.len());
     for index in range {
         let mut draws = Draws::new(131, index);
@@ -111,7 +111,7 @@ fn judge_planes(range: Range<u64>) -> Tally {
         let table = PlaneTable::extract(&world);
         tally.count(table.is_ok());
         let (Ok(table), Ok(map)) = (table, world_from_entity(&world, "", entity)) else {
-            tally.scores[0].judge(false);
+            tally.scores[0].check(false);
             continue;
         };
         let normals = [table.normal[0], normal_as_direction(map.matrix3, normal)].map(|normal| normal.as_vec3());
@@ -121,14 +121,14 @@ fn judge_planes(range: Range<u64>) -> Tally {
                 tally.scores[0].measure(kit);
                 tally.scores[1].measure(naive);
             }
-            None => tally.scores[0].judge(false),
+            None => tally.scores[0].check(false),
         }
     }
     tally
 }
 
 /// How far the author's surface lies off the table's, in the narrowest pixels, seen from as far as it is long.
-fn judge_pixels(range: Range<u64>) -> Tally {
+fn check_pixels(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(PIXELS.len());
     for index in range {
         let mut draws = Draws::new(132, index);
@@ -142,7 +142,7 @@ fn judge_pixels(range: Range<u64>) -> Tally {
         tally.count(ellipsoid.is_some());
         let Some(ellipsoid) = ellipsoid else {
             // A draw that happens to be nearly even is a sphere.
-            tally.scores[0].judge(table.is_ok());
+            tally.scores[0].check(table.is_ok());
             continue;
         };
         let point = exact_point(&chain, on_unit * (radius / on_unit.length()));
@@ -155,7 +155,7 @@ fn judge_pixels(range: Range<u64>) -> Tally {
     tally
 }
 
-fn judge_refusals(range: Range<u64>) -> Tally {
+fn check_refusals(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(REFUSALS.len());
     for index in range {
         let mut draws = Draws::new(133, index);
@@ -171,12 +171,12 @@ fn judge_refusals(range: Range<u64>) -> Tally {
         let (world, _) = scene(Sphere::default(), &chain);
         let refused = pinhole::extract::validate(&world).is_err();
         tally.count(!refused);
-        tally.scores[0].judge(refused == beyond);
+        tally.scores[0].check(refused == beyond);
     }
     tally
 }
 
-fn judge_look_at(range: Range<u64>) -> Tally {
+fn check_look_at(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(LOOK_AT.len());
     for index in range {
         let mut draws = Draws::new(134, index);
@@ -192,7 +192,7 @@ fn judge_look_at(range: Range<u64>) -> Tally {
         tally.count(axes.is_ok());
         let nothing = target == eye || along || none;
         let plain = !nothing && aside > 1e-5;
-        tally.scores[0].judge(if nothing { axes.is_err() } else { axes.is_ok() || !plain });
+        tally.scores[0].check(if nothing { axes.is_err() } else { axes.is_ok() || !plain });
         if let Ok(axes) = axes {
             tally.scores[0].measure(off_orthonormal(axes));
         }

@@ -1,7 +1,7 @@
 //! Normals of stretched spheres, and the shadow rays that start on them.
 
 use super::shadow_stages::{ShadowStages, leaving};
-use super::transform_aim::{Aim, From, Stretched, View, ellipsoid_table, shot};
+use super::transform_aim::{From, SampleLights, Stretched, View, ellipsoid_table, shot};
 use super::{Group, Method, Score, Tally, Trial};
 use crate::measure::enclosure::Enclosure;
 use crate::measure::exact::{Dyadic, UNIT_ROUNDOFF_F32 as U};
@@ -26,22 +26,22 @@ const METHODS: [Method; 5] = [
 /// The cases of normals and starts.
 pub fn trials() -> Vec<Trial> {
     let views = [
-        ("surface anywhere, 10 times as long, 1e3 radii away", 1.0, 0.0, Aim::Anywhere, From::Far(1e3)),
-        ("surface anywhere, 1e4 times as long, any size", 4.0, 8.0, Aim::Anywhere, From::Far(1e3)),
-        ("surface at tips, 1e4 times as long, 1e7 radii away", 4.0, 0.0, Aim::Pole, From::Far(1e7)),
-        ("surface anywhere, 1e7 times as long, 1e7 radii away", 7.0, 8.0, Aim::Anywhere, From::Far(1e7)),
-        ("surface at tips, 1e7 times as long, from near", 7.0, 8.0, Aim::Pole, From::Near(-6.0)),
-        ("surface at silhouettes, 1e3 times as long", 3.0, 3.0, Aim::Silhouette, From::Far(1e5)),
-        ("surface from inside, 1e3 times as long, any size", 3.0, 8.0, Aim::Anywhere, From::Inside),
+        ("surface anywhere, 10 times as long, 1e3 radii away", 1.0, 0.0, SampleLights::Anywhere, From::Far(1e3)),
+        ("surface anywhere, 1e4 times as long, any size", 4.0, 8.0, SampleLights::Anywhere, From::Far(1e3)),
+        ("surface at tips, 1e4 times as long, 1e7 radii away", 4.0, 0.0, SampleLights::Pole, From::Far(1e7)),
+        ("surface anywhere, 1e7 times as long, 1e7 radii away", 7.0, 8.0, SampleLights::Anywhere, From::Far(1e7)),
+        ("surface at tips, 1e7 times as long, from near", 7.0, 8.0, SampleLights::Pole, From::Near(-6.0)),
+        ("surface at silhouettes, 1e3 times as long", 3.0, 3.0, SampleLights::Silhouette, From::Far(1e5)),
+        ("surface from inside, 1e3 times as long, any size", 3.0, 8.0, SampleLights::Anywhere, From::Inside),
     ];
-    let trial = |(seed, (name, ratio, sizes, aim, from)): (u64, (&str, f64, f64, Aim, From))| {
+    let trial = |(seed, (name, ratio, sizes, aim, from)): (u64, (&str, f64, f64, SampleLights, From))| {
         let view = View { seed, ratio, sizes, aim, from };
-        Trial::new(Group::Transform, name, &METHODS, move |range| judge(view, range))
+        Trial::new(Group::Transform, name, &METHODS, move |range| check(view, range))
     };
     (111..).zip(views).map(trial).collect()
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_ellipsoids());
     for index in range {
         let (ray, shape) = shot(view, index);
@@ -52,12 +52,12 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let hit = stages.surface(ray).filter(|(_, surface)| !inside || f64::from(surface.bound) <= room);
         tally.count(hit.is_some());
         let Some((_, surface)) = hit else { continue };
-        judge_normal(ray, &shape, inside, surface, &mut tally.scores);
-        judge_start(&shape, inside, surface, &mut tally.scores);
+        check_normal(ray, &shape, inside, surface, &mut tally.scores);
+        check_start(&shape, inside, surface, &mut tally.scores);
         let mut draws = Draws::new(view.seed + 1000, index);
         let light = surface.position.as_dvec3() + leaving(&mut draws, surface.normal, 3.0) * shape.longest;
         if let (false, Some(shadow)) = (inside, stages.shadow(surface, light)) {
-            tally.scores[2].judge(shadow.blocked.is_none());
+            tally.scores[2].check(shadow.blocked.is_none());
         }
     }
     tally
@@ -92,7 +92,7 @@ pub(super) fn angles<const COUNT: usize>(
 }
 
 /// The normal on the side of the ray, outward but from inside, whatever the map mirrors.
-fn judge_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
+fn check_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
     let (side, ellipsoid) = (if inside { -1.0 } else { 1.0 }, &shape.ellipsoid);
     let on_unit = ellipsoid.unit_from_world * (surface.position.as_dvec3() - ellipsoid.centre) * side;
     let naive = normal_as_direction(shape.world_from_unit, on_unit).as_vec3();
@@ -104,16 +104,16 @@ fn judge_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface
             scores[0].measure(kit);
             scores[3].measure(naive);
         }
-        None => scores[0].judge(false),
+        None => scores[0].check(false),
     }
 }
 
 /// A start is right when it lies strictly on the side of the ray.
-fn judge_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
+fn check_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [Score]) {
     let side = if inside { -1 } else { 1 };
     let right = |start: Vec3| side_of_ellipsoid(start.as_dvec3(), &shape.ellipsoid) == side;
-    scores[2].judge(right(offset_origin(surface.position, surface.normal, surface.bound)));
-    scores[4].judge(right(start_off_surface(surface.position, surface.normal).origin));
+    scores[2].check(right(offset_origin(surface.position, surface.normal, surface.bound)));
+    scores[4].check(right(start_off_surface(surface.position, surface.normal).origin));
 }
 
 #[cfg(test)]
@@ -125,9 +125,9 @@ mod tests {
     fn enclosed_angles_are_the_exact_ones() {
         let (mut tried, mut fell_back) = (0, 0);
         for (ratio, aim, from) in [
-            (1.0, Aim::Anywhere, From::Far(1e3)),
-            (7.0, Aim::Anywhere, From::Far(1e7)),
-            (3.0, Aim::Silhouette, From::Far(1e5)),
+            (1.0, SampleLights::Anywhere, From::Far(1e3)),
+            (7.0, SampleLights::Anywhere, From::Far(1e7)),
+            (3.0, SampleLights::Silhouette, From::Far(1e5)),
         ] {
             for index in 0..2000 {
                 let (ray, shape) = shot(View { seed: 7, ratio, sizes: 3.0, aim, from }, index);

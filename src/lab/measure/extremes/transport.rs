@@ -3,14 +3,14 @@
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
 use crate::naive::path::{
-    light_of_capped_way, power_heuristic_f32, uniform_direction, weight_without_cosine, weight_without_pi,
+    light_of_capped_path, power_heuristic_f32, uniform_direction, weight_without_cosine, weight_without_pi,
 };
-use pinhole::follow::{chance_to_go_on, cosine_density, cosine_direction, power_heuristic};
+use pinhole::follow::{cosine_direction, cosine_pdf, power_heuristic, survival_probability};
 use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Ways of each furnace.
-const WAYS: u64 = 4096;
+const PATHS: u64 = 4096;
 /// Directions of each sky.
 const DIRECTIONS: u64 = 1 << 16;
 /// How many standard errors a mean may lie from the truth.
@@ -43,21 +43,21 @@ const LAMP: [Method; 3] = [
 pub fn trials() -> Vec<Trial> {
     let furnace = |(name, albedo): (&str, f64)| {
         // The lengths of ways have a standard deviation of √a of their mean, and so have means of many √a / √n.
-        let bound = ERRORS * (albedo / WAYS as f64).sqrt();
+        let bound = ERRORS * (albedo / PATHS as f64).sqrt();
         let methods = ROULETTE.map(|method| Method { bound, ..method });
-        Trial::new(Group::Transport, name, &methods, move |range| judge_roulette(albedo, range)).at_most(1)
+        Trial::new(Group::Transport, name, &methods, move |range| check_roulette(albedo, range)).at_most(1)
     };
     let furnaces = [("furnace, albedo 0.5", 0.5), ("furnace, albedo 0.99", 0.99), ("furnace, albedo 0.9999", 0.9999)];
-    let mut trials = vec![Trial::new(Group::Transport, "weights of two, 1e-30 to 1e30", &WEIGHTS, judge_weights)];
+    let mut trials = vec![Trial::new(Group::Transport, "weights of two, 1e-30 to 1e30", &WEIGHTS, check_weights)];
     trials.extend(furnaces.map(furnace));
-    trials.push(Trial::new(Group::Transport, "one surface under an even sky", &SKY, judge_sky).at_most(8));
+    trials.push(Trial::new(Group::Transport, "one surface under an even sky", &SKY, check_sky).at_most(8));
     trials
-        .push(Trial::new(Group::Transport, "one surface under a lamp, 10 to 80 degrees", &LAMP, judge_lamp).at_most(8));
+        .push(Trial::new(Group::Transport, "one surface under a lamp, 10 to 80 degrees", &LAMP, check_lamp).at_most(8));
     trials
 }
 
 /// Whether the weights of the two ways to find the same light are 1 together.
-fn judge_weights(range: Range<u64>) -> Tally {
+fn check_weights(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(WEIGHTS.len());
     for index in range {
         let mut draws = Draws::new(2605, index);
@@ -72,17 +72,17 @@ fn judge_weights(range: Range<u64>) -> Tally {
 }
 
 /// The light of ways in a closed room, over what it is by theory.
-fn judge_roulette(albedo: f64, range: Range<u64>) -> Tally {
+fn check_roulette(albedo: f64, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ROULETTE.len());
     let truth = 1.0 / (1.0 - albedo);
     for _ in range {
         let (mut weighed, mut unweighed) = (0.0, 0.0);
-        for way in 0..WAYS {
-            weighed += light_of_way(albedo, way, |share, chance| share / chance);
-            unweighed += light_of_way(albedo, way, |share, _| share);
+        for way in 0..PATHS {
+            weighed += light_of_path(albedo, way, |share, random| share / random);
+            unweighed += light_of_path(albedo, way, |share, _| share);
         }
         tally.count(true);
-        let means = [weighed / WAYS as f64, light_of_capped_way(albedo, CAP), unweighed / WAYS as f64];
+        let means = [weighed / PATHS as f64, light_of_capped_path(albedo, CAP), unweighed / PATHS as f64];
         for (score, mean) in tally.scores.iter_mut().zip(means) {
             score.measure((mean / truth - 1.0).abs());
         }
@@ -91,22 +91,22 @@ fn judge_roulette(albedo: f64, range: Range<u64>) -> Tally {
 }
 
 /// What one way brings that ends by chance; `kept` is the share of one that goes on.
-fn light_of_way(albedo: f64, way: u64, kept: impl Fn(f64, f64) -> f64) -> f64 {
+fn light_of_path(albedo: f64, way: u64, kept: impl Fn(f64, f64) -> f64) -> f64 {
     let mut draws = Draws::new(2503, way);
     let (mut light, mut share) = (0.0, 1.0);
     loop {
         light += share;
         share *= albedo;
-        let chance = chance_to_go_on([share; 3]);
-        if draws.unit() >= chance {
+        let random = survival_probability([share; 3]);
+        if draws.unit() >= random {
             return light;
         }
-        share = kept(share, chance);
+        share = kept(share, random);
     }
 }
 
 /// What a surface of albedo 0.8 sends on of a sky that is 1 everywhere.
-fn judge_sky(range: Range<u64>) -> Tally {
+fn check_sky(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SKY.len());
     let albedo = 0.8;
     for index in range {
@@ -115,7 +115,7 @@ fn judge_sky(range: Range<u64>) -> Tally {
             let mut draws = Draws::new(2504 + index, number);
             let u = [draws.unit(), draws.unit()];
             let cosine = cosine_direction(u).z;
-            let sent = albedo / PI * cosine / cosine_density(cosine);
+            let sent = albedo / PI * cosine / cosine_pdf(cosine);
             let answers = [sent, weight_without_cosine(albedo), weight_without_pi(albedo), sent * cosine];
             sums.iter_mut().zip(answers).for_each(|(sum, answer)| *sum += answer);
         }
@@ -128,7 +128,7 @@ fn judge_sky(range: Range<u64>) -> Tally {
 }
 
 /// What a white surface receives from a round patch of the sky, 1 within an angle from the zenith: its sine squared.
-fn judge_lamp(range: Range<u64>) -> Tally {
+fn check_lamp(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(LAMP.len());
     for index in range {
         let angle = (10.0 + 10.0 * index as f64).to_radians();

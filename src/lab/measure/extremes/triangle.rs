@@ -1,13 +1,13 @@
 //! Rays against triangles: edges, corners, slivers, flat views, every size.
 
 use super::bench::Bench;
-use super::triangle_aim::{Aim, Corners, From, View, shot, triangle_table};
+use super::triangle_aim::{Corners, From, SampleLights, View, shot, triangle_table};
 use super::{Group, Method, Score, Tally, Trial};
 use super::{triangle_limits, triangle_mesh, triangle_surface};
 use crate::measure::oracle_triangle;
 use crate::measure::ray_aim::AimedRay;
 use crate::naive::triangle::{hit_f32, hit_woop_f32};
-use pinhole::extract::Facet;
+use pinhole::extract::TriangleRow;
 use pinhole::intersect::{Hits, start_stage, triangle_stage, triangle_t};
 use std::ops::Range;
 
@@ -31,18 +31,18 @@ const ANY_PLACE: u64 = 204;
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     let views = [
-        ("seen from the eye, any size 1e-8 to 1e8", 0.0, Aim::Inside, From::Eye(3.0)),
-        ("edges from the eye, 1 to 1e3 edges away", 0.0, Aim::Edge, From::Eye(3.0)),
-        ("edges from the eye, 1 to 1e7 edges away", 0.0, Aim::Edge, From::Eye(7.0)),
-        ("edges and places 1e-8 to 1e8", 0.0, Aim::Edge, From::Anywhere(0.0)),
-        ("corners and places 1e-8 to 1e8", 0.0, Aim::Corner, From::Anywhere(0.0)),
-        ("any place, slope from 1e-12", 0.0, Aim::Inside, From::Anywhere(12.0)),
-        ("slivers, 1e-10 as high as long, their edges", 10.0, Aim::Edge, From::Eye(3.0)),
-        ("slivers, any place, slope from 1e-6", 10.0, Aim::Inside, From::Anywhere(6.0)),
+        ("seen from the eye, any size 1e-8 to 1e8", 0.0, SampleLights::Inside, From::Eye(3.0)),
+        ("edges from the eye, 1 to 1e3 edges away", 0.0, SampleLights::Edge, From::Eye(3.0)),
+        ("edges from the eye, 1 to 1e7 edges away", 0.0, SampleLights::Edge, From::Eye(7.0)),
+        ("edges and places 1e-8 to 1e8", 0.0, SampleLights::Edge, From::Anywhere(0.0)),
+        ("corners and places 1e-8 to 1e8", 0.0, SampleLights::Corner, From::Anywhere(0.0)),
+        ("any place, slope from 1e-12", 0.0, SampleLights::Inside, From::Anywhere(12.0)),
+        ("slivers, 1e-10 as high as long, their edges", 10.0, SampleLights::Edge, From::Eye(3.0)),
+        ("slivers, any place, slope from 1e-6", 10.0, SampleLights::Inside, From::Anywhere(6.0)),
     ];
-    let trial = |(seed, (name, thinnest, aim, from)): (u64, (&str, f64, Aim, From))| {
+    let trial = |(seed, (name, thinnest, aim, from)): (u64, (&str, f64, SampleLights, From))| {
         let view = View { seed, thinnest, aim, from };
-        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range));
+        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| check(view, range));
         if seed == ANY_PLACE { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (201..).zip(views).map(trial).collect();
@@ -52,7 +52,7 @@ pub fn trials() -> Vec<Trial> {
     trials
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
     let shots: Vec<(AimedRay, Corners)> = range.map(|index| shot(view, index)).collect();
@@ -60,10 +60,10 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let truths: Vec<Option<f64>> = shots.iter().map(|&(ray, corners)| exact(ray, corners)).collect();
         for (&(ray, corners), &exact) in shots.iter().zip(&truths) {
             tally.count(exact.is_some());
-            judge_alone(&mut bench, ray, corners, exact, &mut tally.scores[0]);
-            judge_naive(ray, corners, exact, &mut tally.scores[2..]);
+            check_alone(&mut bench, ray, corners, exact, &mut tally.scores[0]);
+            check_naive(ray, corners, exact, &mut tally.scores[2..]);
         }
-        judge_among(&mut bench, shots, &truths, &mut tally.scores[1]);
+        check_among(&mut bench, shots, &truths, &mut tally.scores[1]);
     }
     tally
 }
@@ -74,22 +74,22 @@ pub(super) fn exact(ray: AimedRay, corners: Corners) -> Option<f64> {
 }
 
 /// The distance by the kit's function of one ray and one triangle.
-pub(super) fn by_function(ray: AimedRay, facet: &Facet) -> f64 {
+pub(super) fn by_function(ray: AimedRay, facet: &TriangleRow) -> f64 {
     triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), facet)
 }
 
 /// One ray and one triangle through the stage: no neighbour can save a ray from being culled.
-fn judge_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option<f64>, score: &mut Score) {
+fn check_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option<f64>, score: &mut Score) {
     bench.share(triangle_table([corners]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
-    score.judge(t.to_bits() == by_function(ray, &Facet::new(corners)).to_bits());
-    score.judge_t(Some(t).filter(|t| t.is_finite()), exact);
+    score.check(t.to_bits() == by_function(ray, &TriangleRow::new(corners)).to_bits());
+    score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
 /// All at once through the stage, against every ray with every triangle by the kit's function, to the last bit.
-fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option<f64>], score: &mut Score) {
+fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option<f64>], score: &mut Score) {
     let table = triangle_table(shots.iter().map(|&(_, corners)| corners));
     let rays: Vec<AimedRay> = shots.iter().map(|&(ray, _)| ray).collect();
     bench.share(table.clone());
@@ -98,18 +98,18 @@ fn judge_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
         let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
-        score.judge(hits.t[row].to_bits() == nearest.to_bits());
+        score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
-            score.judge_t(Some(hits.t[row]), exact[row]);
+            score.check_t(Some(hits.t[row]), exact[row]);
         }
     }
 }
 
 /// The methods in f32, judged on the triangle that f32 can hold.
-fn judge_naive(ray: AimedRay, corners: Corners, exact_f64: Option<f64>, scores: &mut [Score]) {
+fn check_naive(ray: AimedRay, corners: Corners, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = corners.map(|corner| corner.as_vec3());
     let held = rounded.map(|corner| corner.as_dvec3());
     let truth = if held == corners { exact_f64 } else { exact(ray, held) };
-    scores[0].judge_t(hit_f32(ray.origin, ray.direction, rounded).map(f64::from), truth);
-    scores[1].judge_t(hit_woop_f32(ray.origin, ray.direction, rounded).map(f64::from), truth);
+    scores[0].check_t(hit_f32(ray.origin, ray.direction, rounded).map(f64::from), truth);
+    scores[1].check_t(hit_woop_f32(ray.origin, ray.direction, rounded).map(f64::from), truth);
 }

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::TriangleTable;
 use pinhole::plan::Table;
-use pinhole::scene::{ChildOf, Matte, PerspectiveCamera, Placement, Refusal, Triangle};
+use pinhole::scene::{ChildOf, Matte, PerspectiveCamera, Placement, SceneError, Triangle};
 
 /// One direction quantum: the spacing of f32 numbers just below 1.
 const QUANTUM: f64 = 1.0 / (1_u64 << 24) as f64;
@@ -16,7 +16,7 @@ pub type Corners = [DVec3; 3];
 
 /// Where a ray is aimed.
 #[derive(Clone, Copy, Debug)]
-pub enum Aim {
+pub enum SampleLights {
     /// Anywhere on it.
     Inside,
     /// At an edge, up to a few direction quanta.
@@ -42,7 +42,7 @@ pub struct View {
     /// The height is 10^U(−this, 0) of the longest edge.
     pub thinnest: f64,
     /// Where rays go.
-    pub aim: Aim,
+    pub aim: SampleLights,
     /// Where they come from.
     pub from: From,
 }
@@ -53,12 +53,12 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Corners) {
     let size = draws.power_of_ten(-8.0, 8.0);
     let height = size * draws.power_of_ten(-view.thinnest, 0.0);
     let axes = turn(&mut draws);
-    let flat = [DVec3::ZERO, DVec3::X * size, DVec3::new(draws.between(-0.25, 1.25) * size, height, 0.0)];
+    let planar = [DVec3::ZERO, DVec3::X * size, DVec3::new(draws.between(-0.25, 1.25) * size, height, 0.0)];
     let place = match view.from {
         From::Eye(farthest) => draws.unit_vector() * (size * draws.power_of_ten(0.0, farthest)),
         From::Anywhere(_) => draws.unit_vector() * draws.power_of_ten(-8.0, 8.0),
     };
-    let corners = flat.map(|corner| axes * corner + place);
+    let corners = planar.map(|corner| axes * corner + place);
     let normal = axes * DVec3::Z;
     let weights = weights(&mut draws, view.aim);
     let target: DVec3 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
@@ -72,23 +72,23 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Corners) {
 }
 
 /// Shares of the corners that lead to a point of the kind.
-fn weights(draws: &mut Draws, aim: Aim) -> [f64; 3] {
+fn weights(draws: &mut Draws, aim: SampleLights) -> [f64; 3] {
     let (a, b) = (draws.unit(), draws.unit());
     let mut weights = match aim {
-        Aim::Inside if a + b > 1.0 => [1.0 - a, 1.0 - b, a + b - 1.0],
-        Aim::Inside => [a, b, 1.0 - a - b],
-        Aim::Edge => [a, 1.0 - a, 0.0],
-        Aim::Corner => [1.0, 0.0, 0.0],
+        SampleLights::Inside if a + b > 1.0 => [1.0 - a, 1.0 - b, a + b - 1.0],
+        SampleLights::Inside => [a, b, 1.0 - a - b],
+        SampleLights::Edge => [a, 1.0 - a, 0.0],
+        SampleLights::Corner => [1.0, 0.0, 0.0],
     };
     weights.rotate_left((draws.unit() * 3.0) as usize);
     weights
 }
 
 /// The ray from there, beside an edge by up to a few direction quanta.
-fn band(draws: &mut Draws, aim: Aim, origin: Vec3, target: DVec3) -> AimedRay {
+fn band(draws: &mut Draws, aim: SampleLights, origin: Vec3, target: DVec3) -> AimedRay {
     let towards = target - origin.as_dvec3();
     let beside = match aim {
-        Aim::Edge => draws.between(-BAND_IN_QUANTA, BAND_IN_QUANTA) * QUANTUM * towards.length(),
+        SampleLights::Edge => draws.between(-BAND_IN_QUANTA, BAND_IN_QUANTA) * QUANTUM * towards.length(),
         _ => 0.0,
     };
     rounded_ray(origin, towards + draws.unit_vector() * beside)
@@ -152,7 +152,7 @@ impl Mesh {
     /// extracted as a render does.
     ///
     /// Errors: none that a case should meet.
-    pub fn placed(&self, draws: &mut Draws, eye: DVec3, place: DVec3) -> Result<TriangleTable, Refusal> {
+    pub fn placed(&self, draws: &mut Draws, eye: DVec3, place: DVec3) -> Result<TriangleTable, SceneError> {
         let mut scene = World::new();
         scene.spawn((PerspectiveCamera::default(), Placement { position: eye, ..Placement::default() }));
         let (orientation, scale) = (turn(draws).normalize(), scales(draws, 3.0));

@@ -3,12 +3,12 @@
 
 use super::bench::Bench;
 use super::triangle::{BESIDE, T_BOUND, by_function, exact};
-use super::triangle_aim::{Aim, Corners, From, View, shot, triangle_table};
+use super::triangle_aim::{Corners, From, SampleLights, View, shot, triangle_table};
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::triangle::hit_f32;
 use glam::{DVec3, Vec3};
-use pinhole::extract::Facet;
+use pinhole::extract::TriangleRow;
 use pinhole::intersect::{Hits, NO_SHAPE, start_stage, triangle_stage};
 
 /// Rays and triangles of one block.
@@ -23,20 +23,20 @@ pub fn trials() -> Vec<Trial> {
 fn one_by_one(
     name: &str,
     methods: &[Method],
-    judge: impl Fn(&mut Bench, u64, &mut Tally) + Send + Sync + 'static,
+    check: impl Fn(&mut Bench, u64, &mut Tally) + Send + Sync + 'static,
 ) -> Trial {
     let rows = methods.len();
     Trial::new(Group::Triangle, name, methods, move |range| {
         let mut tally = Tally::new(rows);
         let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
-        range.for_each(|index| judge(&mut bench, index, &mut tally));
+        range.for_each(|index| check(&mut bench, index, &mut tally));
         tally
     })
 }
 
 /// A ray and a triangle whose edges it is aimed at.
 fn at_edge(seed: u64, index: u64) -> (AimedRay, Corners) {
-    shot(View { seed, thinnest: 1.0, aim: Aim::Edge, from: From::Eye(3.0) }, index)
+    shot(View { seed, thinnest: 1.0, aim: SampleLights::Edge, from: From::Eye(3.0) }, index)
 }
 
 /// Corners on a grid of eighths and rays along the axes or nearly: by parts of 0 with either sign, and denormal ones.
@@ -64,9 +64,9 @@ fn axes() -> Trial {
         bench.aim(&[ray]);
         bench.run();
         let t = bench.column::<Hits>().t[0];
-        tally.scores[0].judge_t(Some(t).filter(|t| t.is_finite()), truth);
+        tally.scores[0].check_t(Some(t).filter(|t| t.is_finite()), truth);
         let naive = hit_f32(origin, direction, corners.map(|corner| corner.as_vec3()));
-        tally.scores[1].judge_t(naive.map(f64::from), truth);
+        tally.scores[1].check_t(naive.map(f64::from), truth);
     })
 }
 
@@ -78,14 +78,14 @@ fn lengths_of_directions() -> Trial {
         let (ray, corners) = at_edge(262, index);
         let scale = libm::ldexp(1.0, Draws::new(263, index).between(-60.0, 61.0).floor() as i32);
         let longer = AimedRay { direction: ray.direction * scale as f32, ..ray };
-        let facet = Facet::new(corners);
+        let facet = TriangleRow::new(corners);
         let t = by_function(ray, &facet);
         tally.count(t.is_finite());
-        tally.scores[0].judge(t.to_bits() == (by_function(longer, &facet) * scale).to_bits());
+        tally.scores[0].check(t.to_bits() == (by_function(longer, &facet) * scale).to_bits());
         let rounded = corners.map(|corner| corner.as_vec3());
         let naive = |ray: AimedRay| hit_f32(ray.origin, ray.direction, rounded).map(f64::from);
         let [t, of_longer] = [naive(ray).unwrap_or(-1.0), naive(longer).unwrap_or(-1.0 / scale)];
-        tally.scores[1].judge(t.to_bits() == (of_longer * scale).to_bits());
+        tally.scores[1].check(t.to_bits() == (of_longer * scale).to_bits());
     })
 }
 
@@ -94,7 +94,7 @@ fn lengths_of_directions() -> Trial {
 fn no_rays() -> Trial {
     const ROWS: [Method; 1] = [Method::kit("kit, meets nothing, spoils nothing", "", 0.0)];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, |bench, index, tally| {
-        let shot = |lane: usize| at_edge(264, index * BLOCK as u64 + lane as u64);
+        let shot = |component: usize| at_edge(264, index * BLOCK as u64 + component as u64);
         let (mut rays, corners): (Vec<AimedRay>, Vec<Corners>) = (0..BLOCK).map(shot).unzip();
         let (bad, part) = (index as usize % BLOCK, index as usize / BLOCK % 3);
         match index / 3 % 4 {
@@ -109,10 +109,14 @@ fn no_rays() -> Trial {
         bench.run();
         let hits = bench.column::<Hits>();
         tally.count(true);
-        for (lane, &ray) in rays.iter().enumerate() {
+        for (component, &ray) in rays.iter().enumerate() {
             let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
-            let nothing = hits.t[lane] == f64::INFINITY && hits.shape[lane] == NO_SHAPE;
-            tally.scores[0].judge(if lane == bad { nothing } else { hits.t[lane].to_bits() == nearest.to_bits() });
+            let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
+            tally.scores[0].check(if component == bad {
+                nothing
+            } else {
+                hits.t[component].to_bits() == nearest.to_bits()
+            });
         }
     })
 }
@@ -140,7 +144,7 @@ fn ends() -> Trial {
             if !met {
                 found[0].0 = f64::INFINITY;
             }
-            tally.scores[0].judge(found[0] == found[1] && found[1].0 == by_function(ray, &Facet::new(corners)));
+            tally.scores[0].check(found[0] == found[1] && found[1].0 == by_function(ray, &TriangleRow::new(corners)));
         }
         tally
     })
@@ -151,7 +155,7 @@ fn duplicates() -> Trial {
     const ROWS: [Method; 1] = [Method::kit("kit, the lowest number, the same t", "", 0.0)];
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     one_by_one("six triangles of the same three corners", &ROWS, |bench, index, tally| {
-        let view = View { seed: 266, thinnest: 3.0, aim: Aim::Inside, from: From::Anywhere(6.0) };
+        let view = View { seed: 266, thinnest: 3.0, aim: SampleLights::Inside, from: From::Anywhere(6.0) };
         let (ray, corners) = shot(view, index);
         let mut table = triangle_table(ORDERS.map(|order| order.map(|corner| corners[corner])));
         let turned = Draws::new(267, index).between(0.0, 6.0) as usize;
@@ -160,9 +164,9 @@ fn duplicates() -> Trial {
         bench.aim(&[ray]);
         bench.run();
         let hits = bench.column::<Hits>();
-        let t = by_function(ray, &Facet::new(corners));
+        let t = by_function(ray, &TriangleRow::new(corners));
         tally.count(t.is_finite());
         let lowest = if t.is_finite() { 0 } else { NO_SHAPE };
-        tally.scores[0].judge(hits.t[0].to_bits() == t.to_bits() && hits.shape[0] == lowest);
+        tally.scores[0].check(hits.t[0].to_bits() == t.to_bits() && hits.shape[0] == lowest);
     })
 }

@@ -55,16 +55,16 @@ pub fn trials() -> Vec<Trial> {
     ];
     let trial = |(seed, (name, place, eye_near, inside, mesh)): (u64, (&str, DVec3, bool, bool, fn() -> Mesh))| {
         let view = View { seed, place, eye_near, inside, mesh };
-        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range));
+        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| check(view, range));
         if inside { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (221..).zip(views).map(trial).collect();
-    let on_edges = Trial::new(Group::Triangle, "closed, on a grid, rays exactly on edges", &ON_EDGES, judge_on_edges);
+    let on_edges = Trial::new(Group::Triangle, "closed, on a grid, rays exactly on edges", &ON_EDGES, check_on_edges);
     trials.push(on_edges.at_most(BESIDE));
     trials
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(METHODS.len());
     let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
     let mut start = range.start;
@@ -75,15 +75,15 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let beside = draws.unit_vector() * 8.0;
         let eye = if view.eye_near { view.place + beside } else { DVec3::ZERO };
         match (view.mesh)().placed(&mut draws, eye, view.place) {
-            Ok(table) => judge_mesh(view, &mut bench, &table, view.place - eye, start..end, &mut tally),
-            Err(_) => tally.scores[0].judge(false),
+            Ok(table) => check_mesh(view, &mut bench, &table, view.place - eye, start..end, &mut tally),
+            Err(_) => tally.scores[0].check(false),
         }
         start = end;
     }
     tally
 }
 
-fn judge_mesh(
+fn check_mesh(
     view: View,
     bench: &mut Bench,
     table: &TriangleTable,
@@ -103,16 +103,16 @@ fn judge_mesh(
             tally.count(met);
             let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
             let must = view.inside || met || table.facet.iter().any(|facet| exact(ray, facet.corners).is_some());
-            tally.scores[0].judge(hits.t[row].to_bits() == nearest.to_bits() && met == must);
+            tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && met == must);
             let found = table.facet.get(hits.shape[row] as usize);
             let about = table.facet.iter().filter(|facet| at.iter().all(|corner| facet.corners.contains(corner)));
             for facet in about.chain(found) {
                 let t = by_function(ray, facet);
-                tally.scores[1].judge_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+                tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
             }
             if must {
                 let by_f32 = rounded.iter().any(|&corners| hit_f32(ray.origin, ray.direction, corners).is_some());
-                tally.scores[2].judge(by_f32);
+                tally.scores[2].check(by_f32);
             }
         }
     }
@@ -128,7 +128,7 @@ fn aimed(view: View, table: &TriangleTable, centre: DVec3, index: u64) -> (Aimed
 
 /// An octahedron of edges and corners that f32 holds, looked at from inside along rays that lie on an edge without any
 /// rounding: a ray that no face claims would leak.
-fn judge_on_edges(range: Range<u64>) -> Tally {
+fn check_on_edges(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ON_EDGES.len());
     let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
     let table = Mesh::octahedron();
@@ -145,14 +145,14 @@ fn judge_on_edges(range: Range<u64>) -> Tally {
         bench.run();
         let met = bench.column::<Hits>().shape[0] != NO_SHAPE;
         tally.count(met);
-        tally.scores[0].judge(met);
+        tally.scores[0].check(met);
         for facet in &table.facet {
             let t = by_function(ray, facet);
-            tally.scores[1].judge_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+            tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
         }
         let strictly =
             |corners| hit_inside_strictly(ray.origin.as_dvec3(), ray.direction.as_dvec3(), corners).is_some();
-        tally.scores[2].judge(table.facet.iter().any(|facet| strictly(facet.corners)));
+        tally.scores[2].check(table.facet.iter().any(|facet| strictly(facet.corners)));
     }
     tally
 }

@@ -3,7 +3,7 @@
 use super::shadow_stages::{Shadow, ShadowStages, leaving};
 use super::transform_surface::angles;
 use super::triangle::{BESIDE, by_function};
-use super::triangle_aim::{Aim, Corners, From, View, shot, triangle_table};
+use super::triangle_aim::{Corners, From, SampleLights, View, shot, triangle_table};
 use super::{Group, Method, Tally, Trial};
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::exact_vector::ExactVector;
@@ -12,7 +12,7 @@ use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::shadow::{start_after_constant, start_at_hit, start_off_surface};
 use crate::naive::triangle::normal_by_winding;
 use glam::DVec3;
-use pinhole::extract::Facet;
+use pinhole::extract::TriangleRow;
 use pinhole::intersect::{Meeting, Surface, shading_normal};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -35,24 +35,24 @@ const ANY_PLACE: u64 = 242;
 /// The cases.
 pub fn trials() -> Vec<Trial> {
     let views = [
-        ("leave, seen from the eye, any size", 0.0, Aim::Inside, From::Eye(3.0)),
-        ("leave, any size and place 1e-8 to 1e8", 0.0, Aim::Inside, From::Anywhere(0.0)),
-        ("leave, any place, slope from 1e-12", 0.0, Aim::Inside, From::Anywhere(12.0)),
-        ("leave slivers, 1e-6 as high as long", 6.0, Aim::Inside, From::Anywhere(3.0)),
-        ("leave, at edges", 0.0, Aim::Edge, From::Eye(3.0)),
+        ("leave, seen from the eye, any size", 0.0, SampleLights::Inside, From::Eye(3.0)),
+        ("leave, any size and place 1e-8 to 1e8", 0.0, SampleLights::Inside, From::Anywhere(0.0)),
+        ("leave, any place, slope from 1e-12", 0.0, SampleLights::Inside, From::Anywhere(12.0)),
+        ("leave slivers, 1e-6 as high as long", 6.0, SampleLights::Inside, From::Anywhere(3.0)),
+        ("leave, at edges", 0.0, SampleLights::Edge, From::Eye(3.0)),
     ];
-    let trial = |(seed, (name, thinnest, aim, from)): (u64, (&str, f64, Aim, From))| {
+    let trial = |(seed, (name, thinnest, aim, from)): (u64, (&str, f64, SampleLights, From))| {
         let view = View { seed, thinnest, aim, from };
-        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| judge(view, range));
+        let trial = Trial::new(Group::Triangle, name, &METHODS, move |range| check(view, range));
         if seed == ANY_PLACE { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (241..).zip(views).map(trial).collect();
-    let shares = Trial::new(Group::Triangle, "shares of the corners, slivers, any slope", &SHARES, judge_shares);
+    let shares = Trial::new(Group::Triangle, "shares of the corners, slivers, any slope", &SHARES, check_shares);
     trials.push(shares.at_most(BESIDE));
     trials
 }
 
-fn judge(view: View, range: Range<u64>) -> Tally {
+fn check(view: View, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(METHODS.len()), ShadowStages::of_triangles());
     for index in range {
         let (ray, corners) = shot(view, index);
@@ -61,14 +61,14 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let surface = surface.filter(|surface| surface.position.abs().max_element() < FARTHEST);
         let mut draws = Draws::new(view.seed + 1000, index);
         let shadow = surface.and_then(|surface| {
-            let size = Facet::new(corners).size + surface.position.as_dvec3().length();
+            let size = TriangleRow::new(corners).size + surface.position.as_dvec3().length();
             let away = leaving(&mut draws, surface.normal, 6.0) * (size * draws.power_of_ten(-2.0, 3.0));
             Some((surface, stages.shadow(surface, surface.position.as_dvec3() + away)?))
         });
         tally.count(shadow.is_some());
         let Some((surface, shadow)) = shadow else { continue };
-        tally.scores[0].judge(is_left(ray, shadow, corners));
-        judge_normal(ray, corners, surface, &mut tally);
+        tally.scores[0].check(is_left(ray, shadow, corners));
+        check_normal(ray, corners, surface, &mut tally);
         let exact = ExactVector::of(exact_normal(corners));
         let above = exact.dot(&ExactVector::of(surface.position).minus(&ExactVector::of(corners[0]))).to_f64();
         let size = U * surface.position.as_dvec3().abs().element_sum() + f64::from(f32::from_bits(1));
@@ -77,7 +77,7 @@ fn judge(view: View, range: Range<u64>) -> Tally {
         let starts = [start_at_hit(position), start_after_constant(position), start_off_surface(position, normal)];
         for (score, start) in tally.scores[3..6].iter_mut().zip(starts) {
             let t = triangle_t(start.origin, shadow.direction, corners);
-            score.judge(!t.is_some_and(|t| t > f64::from(start.t_min)));
+            score.check(!t.is_some_and(|t| t > f64::from(start.t_min)));
         }
     }
     tally
@@ -86,7 +86,7 @@ fn judge(view: View, range: Range<u64>) -> Tally {
 /// Whether the shadow ray starts strictly on the viewer's side of the plane, and never meets the triangle again.
 fn is_left(ray: AimedRay, shadow: Shadow, corners: Corners) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;
-    let meets = by_function(AimedRay { origin, direction }, &Facet::new(corners)).is_finite();
+    let meets = by_function(AimedRay { origin, direction }, &TriangleRow::new(corners)).is_finite();
     let side = side_of_triangle(ray.origin.as_dvec3(), corners);
     side != Ordering::Equal
         && side_of_triangle(origin.as_dvec3(), corners) == side
@@ -96,7 +96,7 @@ fn is_left(ray: AimedRay, shadow: Shadow, corners: Corners) -> bool {
 }
 
 /// The normal on the viewer's side; the naive one is told the side.
-fn judge_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut Tally) {
+fn check_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut Tally) {
     let turn = if side_of_triangle(ray.origin.as_dvec3(), corners) == Ordering::Less { -1.0 } else { 1.0 };
     let truth = exact_normal(corners) * turn;
     let scaled = truth / truth.abs().max_element();
@@ -107,7 +107,7 @@ fn judge_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut T
         tally.scores[1].measure(kit);
         tally.scores[6].measure(naive);
     } else {
-        tally.scores[1].judge(false);
+        tally.scores[1].check(false);
     }
 }
 
@@ -118,12 +118,12 @@ const SHARES: [Method; 3] = [
 ];
 
 /// The corners' shares of the hit against the exact ones, absolute.
-fn judge_shares(range: Range<u64>) -> Tally {
+fn check_shares(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SHARES.len());
     for index in range {
-        let view = View { seed: 251, thinnest: 8.0, aim: Aim::Inside, from: From::Anywhere(9.0) };
+        let view = View { seed: 251, thinnest: 8.0, aim: SampleLights::Inside, from: From::Anywhere(9.0) };
         let (ray, corners) = shot(view, index);
-        let facet = Facet::new(corners);
+        let facet = TriangleRow::new(corners);
         let t = by_function(ray, &facet);
         let truth = if t.is_finite() { exact_weights(ray.origin, ray.direction, facet.corners) } else { None };
         tally.count(truth.is_some());
@@ -141,7 +141,7 @@ fn judge_shares(range: Range<u64>) -> Tally {
 }
 
 /// The shares as areas about a point that was reached along the ray.
-fn by_areas(point: DVec3, facet: &Facet) -> [f64; 3] {
+fn by_areas(point: DVec3, facet: &TriangleRow) -> [f64; 3] {
     let [a, b, c] = facet.corners;
     let normal = normal_by_winding([a, b, c]);
     let area = |b: DVec3, c: DVec3| (b - point).cross(c - point).dot(normal);

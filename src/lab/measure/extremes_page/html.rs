@@ -58,7 +58,7 @@ fn table(case: &Case) -> String {
     let head = "<thead><tr><th>method</th><th>wrong</th><th>worst error</th><th>asked</th><th></th></tr></thead>";
     let rows: String = case.outcomes.iter().map(row).collect();
     let mut html = format!(
-        "<h3>{}</h3>\n<p class=\"note\">{} tried, {} of them with something to judge</p>\n\
+        "<h3>{}</h3>\n<p class=\"note\">{} tried, {} of them with something to check</p>\n\
          <table>{head}<tbody>\n{rows}</tbody></table>\n",
         escaped(&case.name),
         case.rays,
@@ -80,8 +80,8 @@ fn row(outcome: &Outcome) -> String {
         outcome.score.wrong,
         words.worst,
         escaped(&words.asked),
-        words.verdict.to_lowercase().replace(' ', "-"),
-        words.verdict.to_lowercase()
+        words.intersection.to_lowercase().replace(' ', "-"),
+        words.intersection.to_lowercase()
     )
 }
 

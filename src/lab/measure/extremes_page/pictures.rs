@@ -10,7 +10,7 @@ use crate::naive::sphere::{hit_f32, hit_haines_f32};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use pinhole::Result;
-use pinhole::extract::{CameraAxes, ImageShape, PinholeLens, PlaneTable, SphereTable, eye};
+use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection, PlaneTable, SphereTable, eye};
 use pinhole::film::Curve;
 use pinhole::intersect::{plane_t, sphere_t};
 use pinhole::plan::{Stage, Table};
@@ -55,7 +55,7 @@ fn strip(title: String, says: impl Fn(usize, usize) -> String, naive: (&str, Pic
 
 /// The frame's rays, line by line from the top.
 fn rays_of(scene: &World, offer: &[Stage]) -> Result<Vec<AimedRay>> {
-    let image = ImageShape::extract(scene)?;
+    let image = ImageFrame::extract(scene)?;
     // One tile, whose rows then are the image's lines.
     let frame = inspect(scene, offer, image.width.max(image.height))?;
     let Some(rays) = frame.world.get::<WorldRays>(frame.tiles[0]) else { return Ok(Vec::new()) };
@@ -163,7 +163,7 @@ fn far_eye(make: &dyn Fn() -> World, offer: &[Stage], distance: f64) -> Result<S
     let rays = rays_of(&scene, offer)?;
     let kit = painted(&scene, &rays, SIZE[0])?;
     let (eye, axes) = (eye(&scene)?.as_vec3(), CameraAxes::extract(&scene)?.world_from_camera.as_mat3());
-    let vertical = 2.0 * libm::atan(PinholeLens::extract(&scene)?.tan_half_vertical).to_degrees();
+    let vertical = 2.0 * libm::atan(PerspectiveProjection::extract(&scene)?.tan_half_vertical).to_degrees();
     let naive_ray = |pixel: u32| {
         let pixel = [pixel % SIZE[0], pixel / SIZE[0]];
         let direction = viewport_f32(eye, axes, vertical as f32, SIZE, pixel);
@@ -220,7 +220,7 @@ fn widest(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
     };
     let (near, turned) = (naive(WIDEST as f32)?, naive(180.0)?);
     let says = format!(
-        "At {WIDEST} degrees the tangent in f32 is wrong in its fourth digit, which so wide an image hardly shows: {} of {} \
+        "At {WIDEST} degrees the tangent in f32 is wrong in its fourth digit, which so double_double an image hardly shows: {} of {} \
          pixels differ. At 180 degrees it is negative, and the image stands on its head; the kit refuses that angle.",
         kit.differing(&near),
         kit.pixels.len()

@@ -97,8 +97,8 @@ impl Shapes {
                 let map = ellipsoid.unit_from_world;
                 map.transpose() * (map * (point - ellipsoid.centre))
             }
-            ShapeKind::Disk => self.disks.flat[row].normal,
-            ShapeKind::Rectangle => self.rectangles.flat[row].normal,
+            ShapeKind::Disk => self.disks.planar[row].normal,
+            ShapeKind::Rectangle => self.rectangles.planar[row].normal,
             ShapeKind::Cuboid => {
                 let slabs = &self.cuboids.slabs[row];
                 slabs.normal[face_of_point(slabs, point - slabs.centre)]

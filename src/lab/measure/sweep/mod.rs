@@ -194,7 +194,9 @@ fn angles(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Vec<Line>> {
         let mut scene = make();
         set_fov(&mut scene, degrees);
         let (came, held) = match Frame::of(&scene, offer) {
-            Err(Error::Refusal(refusal)) => (format!("refused: {}", refusal.field), refusal.field == "fov"),
+            Err(Error::SceneError(scene_error)) => {
+                (format!("refused: {}", scene_error.field), scene_error.field == "fov")
+            }
             Err(error) => return Err(error),
             Ok(frame) => {
                 let finite = frame.middle.iter().all(|direction| direction.is_finite());
@@ -230,9 +232,9 @@ fn sized(make: &dyn Fn() -> World, offer: &[Stage], size: [u32; 2], watch: &dyn 
     let asked = "a sample a pixel, or refused by name".into();
     let film = match render(&scene, offer, &Execution::default(), watch) {
         Ok(rendered) => rendered.film,
-        Err(Error::Refusal(refusal)) => {
-            let held = refusal.field == "fov" && size[1] > SIZE[1];
-            return Ok(Line { done, asked, came: format!("refused: {}", refusal.field), held, difference: None });
+        Err(Error::SceneError(scene_error)) => {
+            let held = scene_error.field == "fov" && size[1] > SIZE[1];
+            return Ok(Line { done, asked, came: format!("refused: {}", scene_error.field), held, difference: None });
         }
         Err(error) => return Err(error),
     };

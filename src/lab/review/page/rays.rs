@@ -15,15 +15,15 @@ pub fn rays(before: &str, now: &str) -> Option<String> {
             probes.push((row.probe, String::new(), 0));
         }
         if let Some((_, lines, count)) = probes.last_mut() {
-            let changed = changed_lanes(row);
+            let changed = changed_components(row);
             *count += changed.len();
-            for Changed { column, lane, before, now } in changed {
+            for Changed { column, component, before, now } in changed {
                 let [before, now] = marked(&before, &now);
                 let _ = writeln!(
                     lines,
                     "<tr><th scope=\"row\">{}</th><td>{}</td><td>{before}</td><td>{now}</td></tr>",
                     escape(&column),
-                    escape(&lane)
+                    escape(&component)
                 );
             }
         }
@@ -34,8 +34,8 @@ pub fn rays(before: &str, now: &str) -> Option<String> {
         let (place, _) = probe.split_once("   ").unwrap_or((probe, ""));
         let _ = write!(
             text,
-            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"wide\"><table>\
-             <thead><tr><th scope=\"col\">column</th><th scope=\"col\">lane</th><th scope=\"col\">before</th>\
+            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"double_double\"><table>\
+             <thead><tr><th scope=\"col\">column</th><th scope=\"col\">component</th><th scope=\"col\">before</th>\
              <th scope=\"col\">now</th></tr></thead><tbody>\n{lines}</tbody></table></div></details>\n",
             escape(place)
         );
@@ -47,53 +47,55 @@ pub fn rays(before: &str, now: &str) -> Option<String> {
 #[derive(Debug, PartialEq)]
 struct Changed {
     column: String,
-    lane: String,
+    component: String,
     before: String,
     now: String,
 }
 
 /// The lanes of a column that changed at a probe.
-fn changed_lanes(row: &ChangedRow<'_>) -> Vec<Changed> {
-    let split = |lines: &[&str]| lines.iter().map(|line| lanes(line)).collect::<Vec<_>>();
+fn changed_components(row: &ChangedRow<'_>) -> Vec<Changed> {
+    let split = |lines: &[&str]| lines.iter().map(|line| components(line)).collect::<Vec<_>>();
     let (before, now) = (split(&row.before), split(&row.now));
     let named = before.first().or(now.first());
     let column = named.map_or("", |(name, _)| name).to_string();
     let mut changed = Vec::new();
     for index in 0..before.len().max(now.len()) {
-        let [old, new] = [&before, &now].map(|lines| lines.get(index).map_or(&[][..], |(_, lanes)| lanes));
+        let [old, new] = [&before, &now].map(|lines| lines.get(index).map_or(&[][..], |(_, components)| components));
         let several = before.len().max(now.len()) > 1;
         let number = if several { format!(" ({})", index + 1) } else { String::new() };
-        let same_lanes = old.len() == new.len() && old.iter().zip(new).all(|(old, new)| old.0 == new.0);
-        if same_lanes {
+        let same_components = old.len() == new.len() && old.iter().zip(new).all(|(old, new)| old.0 == new.0);
+        if same_components {
             let pairs = old.iter().zip(new).filter(|(old, new)| old != new);
-            changed.extend(pairs.map(|((lane, before), (_, now))| Changed {
+            changed.extend(pairs.map(|((component, before), (_, now))| Changed {
                 column: column.clone(),
-                lane: format!("{lane}{number}"),
+                component: format!("{component}{number}"),
                 before: before.clone(),
                 now: now.clone(),
             }));
         } else {
-            let [before, now] = [old, new].map(|lanes| {
-                let words: Vec<String> =
-                    lanes.iter().map(|(lane, value)| format!("{lane} {value}").trim().to_string()).collect();
+            let [before, now] = [old, new].map(|components| {
+                let words: Vec<String> = components
+                    .iter()
+                    .map(|(component, value)| format!("{component} {value}").trim().to_string())
+                    .collect();
                 words.join("  ")
             });
-            changed.push(Changed { column: column.clone(), lane: number.trim().to_string(), before, now });
+            changed.push(Changed { column: column.clone(), component: number.trim().to_string(), before, now });
         }
     }
     changed
 }
 
 /// A line's column, and its lanes: a name and a value each.
-fn lanes(line: &str) -> (String, Vec<(String, String)>) {
+fn components(line: &str) -> (String, Vec<(String, String)>) {
     let letters: Vec<char> = line.chars().collect();
     let aligned = letters.get(LANES_AT - 1) == Some(&' ') && letters.len() > LANES_AT;
     let cut = if aligned { LANES_AT } else { 0 };
     let (head, rest): (String, String) = (letters[..cut].iter().collect(), letters[cut..].iter().collect());
     let name = head.split("  ").next().unwrap_or_default().trim().to_string();
     let pairs = rest.trim().split("  ").filter(|pair| !pair.is_empty());
-    let lanes = pairs.map(|pair| pair.trim().split_once(' ').unwrap_or((pair.trim(), "")));
-    (name, lanes.map(|(lane, value)| (lane.to_string(), value.to_string())).collect())
+    let components = pairs.map(|pair| pair.trim().split_once(' ').unwrap_or((pair.trim(), "")));
+    (name, components.map(|(component, value)| (component.to_string(), value.to_string())).collect())
 }
 
 /// Both values, from the first letter that differs on between marks.
@@ -115,7 +117,7 @@ pub fn escape(text: &str) -> String {
 mod tests {
     use super::*;
 
-    const PROBES: &str = "96 × 54 pixels\n\ntop: pixel 48,0   sample 0, leg 0\n\
+    const PROBES: &str = "96 × 54 pixels\n\ntop: pixel 48,0   sample 0, depth 0\n\
         world     world, from the eye  scene units              dx +0.100000  dy +0.223456  dz -1.000000\n\
         hit       along the ray        scene units              t +12.500000  shape near ball\n\
         light     world, from the eye  scene units              nothing\n";

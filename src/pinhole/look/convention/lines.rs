@@ -1,10 +1,10 @@
-use super::{Described, Opening, PlacedCamera, Program, theirs_from_ours};
+use super::{Described, Opening, PlacedCamera, Program, theirs_from_pinhole};
 use crate::scene::FovAxis;
 use glam::{DMat3, DQuat, DVec3};
 
 /// What to type in a program to get our camera there, line by line; numbers have twelve digits.
 pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
-    let theirs = theirs_from_ours(program, camera);
+    let theirs = theirs_from_pinhole(program, camera);
     let opening = short(theirs.opening);
     let (width, height) = (camera.image.width, camera.image.height);
     let [eye, target, up] = [camera.look.eye, camera.look.target, camera.look.up].map(|point| parts(point, ", "));

@@ -14,5 +14,5 @@ mod round_trip;
 pub use lines::{back, lines};
 pub use mistake::Mistake;
 pub use placed::PlacedCamera;
-pub use program::{Described, Opening, Program, ours_from_theirs, theirs_from_ours};
+pub use program::{Described, Opening, Program, pinhole_from_theirs, theirs_from_pinhole};
 pub use round_trip::{RoundTrip, round_trip};

@@ -1,4 +1,4 @@
-use crate::extract::{CameraAxes, ImageShape, PinholeLens, camera_entity, eye};
+use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, eye};
 use crate::plan::Table;
 use crate::scene::{ChildOf, LookAt, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
@@ -15,7 +15,7 @@ pub struct PlacedCamera {
     /// tan(vertical angle / 2).
     pub tan_half_vertical: f64,
     /// The image's shape.
-    pub image: ImageShape,
+    pub image: ImageFrame,
 }
 
 impl PlacedCamera {
@@ -37,8 +37,8 @@ impl PlacedCamera {
         Ok(Self {
             look: written.unwrap_or(derived),
             world_from_camera,
-            tan_half_vertical: PinholeLens::extract(scene)?.tan_half_vertical,
-            image: ImageShape::extract(scene)?,
+            tan_half_vertical: PerspectiveProjection::extract(scene)?.tan_half_vertical,
+            image: ImageFrame::extract(scene)?,
         })
     }
 }

@@ -1,5 +1,5 @@
 use super::PlacedCamera;
-use crate::extract::{ImageShape, angle_of_tan_half, half_extent, tan_half};
+use crate::extract::{ImageFrame, angle_of_tan_half, half_extent, tan_half};
 use crate::scene::{Degrees, FovAxis, LookAt};
 use glam::{DMat3, DVec3};
 use std::fmt;
@@ -55,7 +55,7 @@ const RIGHT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z)
 const LEFT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::NEG_X, DVec3::Y, DVec3::NEG_Z);
 const RIGHT_DOWN_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
 /// Our (x, y, z) is (x, −z, y) where z points up.
-const Z_UP_FROM_OURS: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+const Z_UP_FROM_PINHOLE: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
 
 impl Program {
     /// All of them, those that share our axes first.
@@ -96,8 +96,8 @@ impl Program {
     }
 
     /// From our world to its world.
-    pub fn world_from_ours(self) -> DMat3 {
-        if self == Self::Blender { Z_UP_FROM_OURS } else { DMat3::IDENTITY }
+    pub fn world_from_pinhole(self) -> DMat3 {
+        if self == Self::Blender { Z_UP_FROM_PINHOLE } else { DMat3::IDENTITY }
     }
     // ANCHOR_END: camera_axes
 }
@@ -117,9 +117,9 @@ impl fmt::Display for Program {
     }
 }
 
-// ANCHOR: theirs_from_ours
+// ANCHOR: theirs_from_pinhole
 /// Our camera in a program's words.
-pub fn theirs_from_ours(program: Program, camera: &PlacedCamera) -> Described {
+pub fn theirs_from_pinhole(program: Program, camera: &PlacedCamera) -> Described {
     let (tan, aspect) = (camera.tan_half_vertical, camera.image.aspect());
     let opening = match program.opening() {
         Opening::Degrees(axis) => angle_of_tan_half(tan * half_extent(axis, aspect)).0,
@@ -127,12 +127,12 @@ pub fn theirs_from_ours(program: Program, camera: &PlacedCamera) -> Described {
         Opening::Pixels => f64::from(camera.image.height) / (2.0 * tan),
         Opening::Millimetres(film, axis) => film / (2.0 * tan * half_extent(axis, aspect)),
     };
-    let world = program.world_from_ours();
+    let world = program.world_from_pinhole();
     Described { opening, axes: world * camera.world_from_camera * program.camera_axes(), eye: world * camera.look.eye }
 }
 
 /// A program's camera in ours.
-pub fn ours_from_theirs(program: Program, described: &Described, image: ImageShape) -> PlacedCamera {
+pub fn pinhole_from_theirs(program: Program, described: &Described, image: ImageFrame) -> PlacedCamera {
     let (number, aspect) = (described.opening, image.aspect());
     let tan_half_vertical = match program.opening() {
         Opening::Degrees(axis) => tan_half(Degrees(number)) / half_extent(axis, aspect),
@@ -141,13 +141,13 @@ pub fn ours_from_theirs(program: Program, described: &Described, image: ImageSha
         Opening::Millimetres(film, axis) => film / (2.0 * number * half_extent(axis, aspect)),
     };
     // Swaps and signs are undone by turning the matrix over its diagonal.
-    let world = program.world_from_ours().transpose();
+    let world = program.world_from_pinhole().transpose();
     let world_from_camera = world * described.axes * program.camera_axes().transpose();
     let eye = world * described.eye;
     let look = LookAt { eye, target: eye - world_from_camera.z_axis, up: world_from_camera.y_axis };
     PlacedCamera { look, world_from_camera, tan_half_vertical, image }
 }
-// ANCHOR_END: theirs_from_ours
+// ANCHOR_END: theirs_from_pinhole
 
 #[cfg(test)]
 mod tests {
@@ -156,12 +156,12 @@ mod tests {
     #[test]
     fn handedness_is_as_each_program_says() {
         for program in Program::ALL {
-            let (camera, world) = (program.camera_axes().determinant(), program.world_from_ours().determinant());
+            let (camera, world) = (program.camera_axes().determinant(), program.world_from_pinhole().determinant());
             assert_eq!(camera, if program == Program::Pbrt { -1.0 } else { 1.0 }, "{program}");
             assert_eq!(world, 1.0, "{program}");
         }
-        assert_eq!(Z_UP_FROM_OURS * DVec3::Y, DVec3::Z);
-        assert_eq!(Z_UP_FROM_OURS * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -3.0, 2.0));
+        assert_eq!(Z_UP_FROM_PINHOLE * DVec3::Y, DVec3::Z);
+        assert_eq!(Z_UP_FROM_PINHOLE * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -3.0, 2.0));
     }
 
     #[test]

@@ -1,5 +1,5 @@
-use super::{PlacedCamera, Program, ours_from_theirs, theirs_from_ours};
-use crate::extract::{ImageShape, look_at_axes, tan_half};
+use super::{PlacedCamera, Program, pinhole_from_theirs, theirs_from_pinhole};
+use crate::extract::{ImageFrame, look_at_axes, tan_half};
 use crate::scene::{Degrees, LookAt};
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub fn round_trip(program: Program, cameras: u64) -> RoundTrip {
     let mut trip = RoundTrip { cameras, ..RoundTrip::default() };
     for index in 0..cameras {
         let ours = camera(index);
-        let back = ours_from_theirs(program, &theirs_from_ours(program, &ours), ours.image);
+        let back = pinhole_from_theirs(program, &theirs_from_pinhole(program, &ours), ours.image);
         let error = (back.tan_half_vertical / ours.tan_half_vertical - 1.0).abs() / f64::EPSILON;
         trip.moved += u64::from(back.look.eye != ours.look.eye || back.world_from_camera != ours.world_from_camera);
         trip.widened += u64::from(back.tan_half_vertical != ours.tan_half_vertical);
@@ -41,7 +41,7 @@ fn camera(index: u64) -> PlacedCamera {
     let look = LookAt { eye, target: eye + point(7) * 1e3, up: DVec3::Y };
     let world_from_camera = look_at_axes("camera", &look).unwrap_or_default();
     let tan_half_vertical = tan_half(Degrees(degrees.clamp(1e-4, 179.99)));
-    PlacedCamera { look, world_from_camera, tan_half_vertical, image: ImageShape { width: side(1), height: side(2) } }
+    PlacedCamera { look, world_from_camera, tan_half_vertical, image: ImageFrame { width: side(1), height: side(2) } }
 }
 
 /// From 0 to 1, a function of its argument only (splitmix64's finaliser).

@@ -9,6 +9,7 @@
 
 mod fingerprint;
 mod found;
+mod mistake;
 mod nearest;
 mod open;
 mod problem;
@@ -16,7 +17,6 @@ mod read;
 mod refer;
 mod scan;
 mod scene_file;
-mod slip;
 mod word;
 mod write;
 

@@ -38,7 +38,7 @@ impl SceneFile {
                 let good = refused.utf8_error().valid_up_to();
                 let byte = refused.as_bytes().get(good).copied().unwrap_or_default();
                 let text = String::from_utf8_lossy(refused.as_bytes().get(..good).unwrap_or(&[])).into_owned();
-                let place = Some(super::slip::place_of(&text, good));
+                let place = Some(super::mistake::place_of(&text, good));
                 let what = format!("the byte 0x{byte:02x} is no UTF-8, but a scene file is text in UTF-8");
                 Err(FileProblem { path: path.into(), place, what })
             }

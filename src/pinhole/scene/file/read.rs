@@ -1,9 +1,9 @@
 //! The words of one entity → its components.
 
 use super::found::{found, shown};
+use super::mistake::{Mistake, byte_at};
 use super::nearest::nearest;
 use super::scan::{EntityText, Part, check_fields, fields};
-use super::slip::{Slip, byte_at};
 use super::word::{Put, RELATIONS, Word, words};
 use crate::scene::printable;
 use ron::error::{Error, SpannedError};
@@ -47,7 +47,7 @@ pub struct FileEntity {
 }
 
 /// Reads an entity's words; whom it refers to is found out later, by [`resolve`](super::refer::resolve).
-pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Slip> {
+pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Mistake> {
     let mut read = FileEntity {
         at: entity.at,
         name: None,
@@ -64,7 +64,7 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Sl
     for part in &entity.parts {
         if read.parts.iter().any(|earlier| earlier.word == part.word) {
             let what = format!("{who} is given `{}` twice, but an entity has one of a kind", part.word);
-            return Err(Slip::new(part.at, what));
+            return Err(Mistake::new(part.at, what));
         }
         match (part.word, Word::find(part.word)) {
             (_, Some(word)) => {
@@ -74,7 +74,7 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Sl
             }
             ("name" | "parent" | "material", None) => {}
             ("disabled", None) => read.disabled = read_simply(text, part, &who)?,
-            (unknown, None) => return Err(Slip::new(part.at, unknown_word(unknown, &who))),
+            (unknown, None) => return Err(Mistake::new(part.at, unknown_word(unknown, &who))),
         }
         read.parts.push(FilePart { word: part.word.into(), at: part.at, value: part.value.clone() });
     }
@@ -86,20 +86,20 @@ pub fn quoted(name: &str) -> String {
     format!("\"{}\"", printable(name, LONGEST_NAME))
 }
 
-fn read_name(text: &str, part: &Part<'_>) -> Result<String, Slip> {
+fn read_name(text: &str, part: &Part<'_>) -> Result<String, Mistake> {
     let name: String = read_simply(text, part, "an entity")?;
     if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
         let what = format!(
             "an entity's name is {}, but a name is one line of at most {LONGEST_NAME} letters",
             shown(text.get(part.value.clone()).unwrap_or(""))
         );
-        return Err(Slip::new(part.value.start, what));
+        return Err(Mistake::new(part.value.start, what));
     }
     Ok(name)
 }
 
 /// The value of a word that is no component.
-pub fn read_simply<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, who: &str) -> Result<V, Slip> {
+pub fn read_simply<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, who: &str) -> Result<V, Mistake> {
     let value = text.get(part.value.clone()).unwrap_or("");
     ron::from_str(value).map_err(|error| value_slip(text, part, who, &error))
 }
@@ -122,7 +122,7 @@ fn snake_case(word: &str) -> String {
 }
 
 /// What `ron` found wrong with a value, in the words of this kit.
-fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> Slip {
+fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> Mistake {
     let value = text.get(part.value.clone()).unwrap_or("");
     let stopped = part.value.start + byte_at(value, error.span.end.line, error.span.end.col);
     let fields = fields(text, part.value.clone());
@@ -138,14 +138,14 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
                 [one] => format!("its field is {one}"),
                 _ => format!("its fields are {}", words.join(", ")),
             };
-            Slip::new(at, format!("{whose}: a field `{}` is given, but {fields}", shown(found)))
+            Mistake::new(at, format!("{whose}: a field `{}` is given, but {fields}", shown(found)))
         }
         Error::MissingStructField { field, .. } => {
-            Slip::new(part.value.start, format!("{whose}: {field} is missing, but it must be given"))
+            Mistake::new(part.value.start, format!("{whose}: {field} is missing, but it must be given"))
         }
         Error::DuplicateStructField { field, .. } => {
             let at = fields.iter().rev().find(|own| own.word == *field).map_or(stopped, |own| own.at);
-            Slip::new(at, format!("{whose}: {field} is given twice, but a component has one of a kind"))
+            Mistake::new(at, format!("{whose}: {field} is given twice, but a component has one of a kind"))
         }
         Error::ExpectedComma => {
             let at = token_at(text, &part.value, stopped);
@@ -153,13 +153,13 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
             if let Some(field) = fields.iter().find(|field| fraction && field.value.contains(&at)) {
                 let whole = shown(text.get(field.value.clone()).unwrap_or(""));
                 let what = format!("{whose}: {} is {whole}, but it must be a whole number", field.word);
-                return Slip::new(field.value.start, what);
+                return Mistake::new(field.value.start, what);
             }
-            Slip::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
+            Mistake::new(at, format!("{whose}: found {}, but expected `,` or a closing bracket", found(text, at)))
         }
         code => {
-            if let Err(slip) = check_fields(text, part.value.clone()) {
-                return Slip::new(slip.at, format!("{whose}: {}", slip.what));
+            if let Err(mistake) = check_fields(text, part.value.clone()) {
+                return Mistake::new(mistake.at, format!("{whose}: {}", mistake.what));
             }
             let field = fields.iter().find(|field| (field.at..=field.value.end).contains(&stopped));
             let (name, range) = field.map_or((part.word, &part.value), |field| (field.word, &field.value));
@@ -179,7 +179,7 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> S
             };
             let stands = found(text, at);
             let instead = if at == range.start { String::new() } else { format!(", and at {stands} it is not") };
-            Slip::new(at, format!("{whose}: {name} is {}, but it must be {expected}{instead}", shown(whole)))
+            Mistake::new(at, format!("{whose}: {name} is {}, but it must be {expected}{instead}", shown(whole)))
         }
     }
 }

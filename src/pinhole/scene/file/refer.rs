@@ -1,17 +1,17 @@
 //! Names → the entities that are meant.
 
 use super::found::shown;
+use super::mistake::{Mistake, place_of};
 use super::nearest::nearest;
 use super::read::{FileEntity, FilePart, quoted, read_simply};
 use super::scan::Part;
-use super::slip::{Slip, place_of};
 use std::collections::HashMap;
 
 /// The most parents above one another.
 const MOST_PARENTS: usize = 64;
 
 /// Finds every parent and every material by name, and follows parents to the root.
-pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Slip> {
+pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Mistake> {
     let mut named: HashMap<String, Vec<usize>> = HashMap::new();
     for (number, entity) in entities.iter().enumerate() {
         if let Some(name) = &entity.name {
@@ -25,7 +25,7 @@ pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Slip> {
             let other = find(text, entities, &named, number, part)?;
             if other == number {
                 let what = format!("{}: {word} is this entity itself, but {noun} must be another", who(entity));
-                return Err(Slip::new(part.value.start, what));
+                return Err(Mistake::new(part.value.start, what));
             }
             match word {
                 "parent" => entities[number].parent = Some(other),
@@ -42,7 +42,7 @@ fn find(
     named: &HashMap<String, Vec<usize>>,
     number: usize,
     part: &FilePart,
-) -> Result<usize, Slip> {
+) -> Result<usize, Mistake> {
     let who = who(&entities[number]);
     let name: String = read_simply(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
     let what = match named.get(&name).map_or([].as_slice(), |found| found) {
@@ -60,10 +60,10 @@ fn find(
             format!("{who}: {} is {}, but {missing}", part.word, shown(&format!("\"{name}\"")))
         }
     };
-    Err(Slip::new(part.value.start, what))
+    Err(Mistake::new(part.value.start, what))
 }
 
-fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
+fn check_parents(entities: &[FileEntity]) -> Result<(), Mistake> {
     for (number, entity) in entities.iter().enumerate() {
         let mut steps = 0;
         let (mut at, mut above) = (number, vec![number]);
@@ -79,7 +79,7 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Slip> {
                 let accepted = format!("parents must lead to an entity without one in at most {MOST_PARENTS} steps");
                 let place = entity.parts.iter().find(|part| part.word == "parent");
                 let place = place.map_or(entity.at, |part| part.value.start);
-                return Err(Slip::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));
+                return Err(Mistake::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));
             }
             above.push(parent);
             at = parent;

@@ -4,7 +4,7 @@
 //! everything, in one pass over the text and without recursion.
 
 use super::found::{found, shown};
-use super::slip::{Slip, place_of};
+use super::mistake::{Mistake, place_of};
 use std::ops::Range;
 
 /// The deepest brackets within a value; components need three.
@@ -34,13 +34,13 @@ pub struct EntityText<'t> {
 }
 
 /// Every entity of a file, in order.
-pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Slip> {
+pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Mistake> {
     let mut cursor = Cursor { text, at: text.len() - text.trim_start_matches('\u{feff}').len() };
     cursor.skip_space()?;
     if cursor.rest().is_empty() {
         let what =
             "there is nothing here, but a scene file is a list of entities, such as [(name: \"ball\", sphere: ())]";
-        return Err(Slip::new(cursor.at, what));
+        return Err(Mistake::new(cursor.at, what));
     }
     if !cursor.take('[') {
         return Err(cursor.expected("`[`, for a scene file is a list of entities"));
@@ -50,12 +50,15 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Slip> {
     while !cursor.take(']') {
         let at = cursor.at;
         if entities.len() == MOST_ENTITIES {
-            return Err(Slip::new(at, format!("one more entity begins here, but a file has at most {MOST_ENTITIES}")));
+            return Err(Mistake::new(
+                at,
+                format!("one more entity begins here, but a file has at most {MOST_ENTITIES}"),
+            ));
         }
         if !cursor.take('(') {
             return Err(cursor.expected("an entity, which begins with `(`, or the `]` that ends the list"));
         }
-        let parts = cursor.parts().map_err(|slip| unclosed(text, at, slip))?;
+        let parts = cursor.parts().map_err(|mistake| unclosed(text, at, mistake))?;
         entities.push(EntityText { at, parts });
         cursor.skip_space()?;
         let comma = cursor.take(',');
@@ -78,7 +81,7 @@ pub fn fields(text: &str, value: Range<usize>) -> Vec<Part<'_>> {
 }
 
 /// The same, or the first slip between the brackets.
-pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Slip> {
+pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Mistake> {
     let Some(inside) = text.get(..value.end) else { return Ok(Vec::new()) };
     let mut cursor = Cursor { text: inside, at: value.start };
     cursor.take_word();
@@ -87,12 +90,12 @@ pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Sl
 }
 
 /// A file that ends too early is told by where the entity that it cuts began.
-fn unclosed(text: &str, began: usize, slip: Slip) -> Slip {
-    if slip.at < text.len() || slip.what.starts_with("the file ends here") {
-        return slip;
+fn unclosed(text: &str, began: usize, mistake: Mistake) -> Mistake {
+    if mistake.at < text.len() || mistake.what.starts_with("the file ends here") {
+        return mistake;
     }
     let line = place_of(text, began).line;
-    Slip::new(slip.at, format!("the file ends here, but the entity that begins on line {line} is not closed"))
+    Mistake::new(mistake.at, format!("the file ends here, but the entity that begins on line {line} is not closed"))
 }
 
 struct Cursor<'t> {
@@ -105,8 +108,8 @@ impl<'t> Cursor<'t> {
         self.text.get(self.at..).unwrap_or("")
     }
 
-    fn expected(&self, expected: &str) -> Slip {
-        Slip::new(self.at, format!("found {}, but expected {expected}", found(self.text, self.at)))
+    fn expected(&self, expected: &str) -> Mistake {
+        Mistake::new(self.at, format!("found {}, but expected {expected}", found(self.text, self.at)))
     }
 
     fn take(&mut self, letter: char) -> bool {
@@ -130,7 +133,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Skips white space and comments, as RON has them.
-    fn skip_space(&mut self) -> Result<(), Slip> {
+    fn skip_space(&mut self) -> Result<(), Mistake> {
         loop {
             self.skip_while(is_space);
             let began = self.at;
@@ -144,7 +147,7 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    fn skip_block_comment(&mut self, began: usize) -> Result<(), Slip> {
+    fn skip_block_comment(&mut self, began: usize) -> Result<(), Mistake> {
         self.at += 2;
         let mut depth = 1;
         while depth > 0 {
@@ -153,7 +156,7 @@ impl<'t> Cursor<'t> {
                 let line = place_of(self.text, began).line;
                 let what =
                     format!("the file ends here, but the comment that begins on line {line} is not closed by `*/`");
-                return Err(Slip::new(self.text.len(), what));
+                return Err(Mistake::new(self.text.len(), what));
             };
             let pair = rest.get(next..next + 2);
             depth += usize::from(pair == Some("/*"));
@@ -173,7 +176,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Words with their values, up to the bracket that closes them.
-    fn parts(&mut self) -> Result<Vec<Part<'t>>, Slip> {
+    fn parts(&mut self) -> Result<Vec<Part<'t>>, Mistake> {
         let mut parts = Vec::new();
         self.skip_space()?;
         while !self.take(')') {
@@ -199,7 +202,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Passes over one value, up to the comma or the bracket that ends it.
-    fn value(&mut self) -> Result<Range<usize>, Slip> {
+    fn value(&mut self) -> Result<Range<usize>, Mistake> {
         self.skip_space()?;
         let (start, mut end) = (self.at, self.at);
         let mut open: Vec<(char, usize)> = Vec::new();
@@ -226,7 +229,7 @@ impl<'t> Cursor<'t> {
                 },
                 '(' | '[' | '{' if open.len() == DEEPEST => {
                     let what = format!("brackets are nested deeper than {DEEPEST} here, and no component needs that");
-                    return Err(Slip::new(began, what));
+                    return Err(Mistake::new(began, what));
                 }
                 '(' => self.open(&mut open, ')'),
                 '[' => self.open(&mut open, ']'),
@@ -250,7 +253,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Passes over a text in quotes, in which `\` keeps the next letter from ending it.
-    fn skip_text(&mut self, began: usize) -> Result<(), Slip> {
+    fn skip_text(&mut self, began: usize) -> Result<(), Mistake> {
         self.at += 1;
         loop {
             self.skip_while(|letter| letter != '"' && letter != '\\');
@@ -266,7 +269,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Passes over `"…"#` after `r#`, with as many `#` as there are.
-    fn skip_raw_text(&mut self, began: usize) -> Result<(), Slip> {
+    fn skip_raw_text(&mut self, began: usize) -> Result<(), Mistake> {
         let before = self.at;
         self.skip_while(|letter| letter == '#');
         let end = format!("\"{}", "#".repeat(self.at - before));
@@ -277,7 +280,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Passes over a letter in single quotes.
-    fn skip_letter(&mut self, began: usize) -> Result<(), Slip> {
+    fn skip_letter(&mut self, began: usize) -> Result<(), Mistake> {
         self.at += 1;
         if self.take('\\') {
             self.at += self.rest().chars().next().map_or(0, char::len_utf8);
@@ -286,13 +289,16 @@ impl<'t> Cursor<'t> {
             self.at += self.rest().chars().next().map_or(0, char::len_utf8);
         }
         let what = "found `'`, but a single letter and another `'` do not follow; a text stands in double quotes";
-        if self.take('\'') { Ok(()) } else { Err(Slip::new(began, what)) }
+        if self.take('\'') { Ok(()) } else { Err(Mistake::new(began, what)) }
     }
 }
 
-fn unclosed_text(text: &str, began: usize) -> Slip {
+fn unclosed_text(text: &str, began: usize) -> Mistake {
     let line = place_of(text, began).line;
-    Slip::new(text.len(), format!("the file ends here, but the text that begins on line {line} has no closing quote"))
+    Mistake::new(
+        text.len(),
+        format!("the file ends here, but the text that begins on line {line} has no closing quote"),
+    )
 }
 
 /// What RON takes for white space.

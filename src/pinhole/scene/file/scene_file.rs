@@ -1,9 +1,9 @@
+use super::mistake::{Mistake, place_of};
 use super::read::{FileEntity, read_entity};
 use super::refer::resolve;
 use super::scan::{entities, fields};
-use super::slip::{Slip, place_of};
 use super::{FileProblem, PlaceInFile};
-use crate::scene::{ChildOf, Disabled, Name, Refusal, SceneFolder, UsesMaterial};
+use crate::scene::{ChildOf, Disabled, Name, SceneError, SceneFolder, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ impl SceneFile {
     ///
     /// Errors: the first slip in it, with line and column.
     pub fn parse(path: &Path, text: String) -> Result<Self, FileProblem> {
-        let read = || -> Result<Vec<FileEntity>, Slip> {
+        let read = || -> Result<Vec<FileEntity>, Mistake> {
             let mut read = Vec::new();
             for entity in entities(&text)? {
                 read.push(read_entity(&text, &entity)?);
@@ -34,9 +34,9 @@ impl SceneFile {
         };
         match read() {
             Ok(entities) => Ok(Self { path: path.into(), text, entities }),
-            Err(slip) => {
-                let place = Some(place_of(&text, slip.at));
-                Err(FileProblem { path: path.into(), place, what: slip.what })
+            Err(mistake) => {
+                let place = Some(place_of(&text, mistake.at));
+                Err(FileProblem { path: path.into(), place, what: mistake.what })
             }
         }
     }
@@ -60,15 +60,15 @@ impl SceneFile {
     ///
     /// `refuse` gets the scene with entities that are called by their number, so that two of one name, or of none, can
     /// be told apart.
-    pub fn place_of(&self, refuse: impl FnOnce(&mut World) -> Option<Refusal>) -> Option<PlaceInFile> {
-        let refusal = refuse(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
+    pub fn place_of(&self, refuse: impl FnOnce(&mut World) -> Option<SceneError>) -> Option<PlaceInFile> {
+        let scene_error = refuse(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
         let marked = |text: &str| text.rsplit(MARK).nth(1).and_then(|number| number.parse::<usize>().ok());
-        let number = marked(&refusal.entity).or_else(|| marked(&refusal.value))?;
+        let number = marked(&scene_error.entity).or_else(|| marked(&scene_error.value))?;
         let entity = self.entities.get(number)?;
-        let kind = refusal.entity.split(' ').next().unwrap_or("");
+        let kind = scene_error.entity.split(' ').next().unwrap_or("");
         // A part of a field is named after it, as in `filter radius`.
-        let outer = refusal.field.split(' ').next().unwrap_or("");
-        let at = self.field(entity, kind, refusal.field).or_else(|| self.field(entity, kind, outer));
+        let outer = scene_error.field.split(' ').next().unwrap_or("");
+        let at = self.field(entity, kind, scene_error.field).or_else(|| self.field(entity, kind, outer));
         let at = at.unwrap_or(entity.at);
         Some(place_of(&self.text, at))
     }

@@ -1,6 +1,6 @@
 use super::read::LONGEST_NAME;
 use super::word::Word;
-use crate::scene::{ChildOf, Disabled, Name, Refusal, UsedByShapes, UsesMaterial, called, printable};
+use crate::scene::{ChildOf, Disabled, Name, SceneError, UsedByShapes, UsesMaterial, called, printable};
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
 use bevy_ecs::resource::IsResource;
@@ -16,7 +16,7 @@ const WIDTH: usize = 120;
 ///
 /// Errors: an entity that a file cannot hold: a component without a word, a name that is no line of text, a parent or
 /// a material that has no name of its own.
-pub fn scene_text(scene: &World) -> Result<String, Refusal> {
+pub fn scene_text(scene: &World) -> Result<String, SceneError> {
     let mut entities: Vec<EntityRef<'_>> = scene
         .archetypes()
         .iter()
@@ -44,14 +44,14 @@ pub fn scene_text(scene: &World) -> Result<String, Refusal> {
 }
 
 /// An entity's words with their values.
-fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>) -> Result<Vec<String>, Refusal> {
+fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>) -> Result<Vec<String>, SceneError> {
     let who = called(scene, entity.id());
     let mut parts = Vec::new();
     if let Some(name) = entity.get::<Name>() {
         if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
             let value = format!("\"{}\"", printable(name, LONGEST_NAME));
             let accepted = format!("in a scene file a name is one line of at most {LONGEST_NAME} letters");
-            return Err(Refusal::new("an entity", "name", value, accepted));
+            return Err(SceneError::new("an entity", "name", value, accepted));
         }
         parts.push(format!("name: {}", quoted(name)?));
     }
@@ -59,7 +59,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
         Some(name) if carriers.get(name.as_str()) == Some(&1) => Ok(format!("{word}: {}", quoted(name)?)),
         _ => {
             let accepted = "in a scene file it is meant by name, so it must have one that no other has";
-            Err(Refusal::new(who.clone(), word, called(scene, other), accepted))
+            Err(SceneError::new(who.clone(), word, called(scene, other), accepted))
         }
     };
     if let Some(parent) = entity.get::<ChildOf>() {
@@ -85,7 +85,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
 }
 
 /// Components without a word would be lost.
-fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<(), Refusal> {
+fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<(), SceneError> {
     let relations = [
         TypeId::of::<Name>(),
         TypeId::of::<ChildOf>(),
@@ -101,7 +101,7 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
             .is_some_and(|kind| relations.contains(&kind) || Word::all().iter().any(|word| (word.kind)() == kind));
         if !has_word {
             let accepted = "it has no word in scene files, where every component needs one";
-            return Err(Refusal::new(who, "component", info.name().shortname(), accepted));
+            return Err(SceneError::new(who, "component", info.name().shortname(), accepted));
         }
     }
     Ok(())
@@ -113,10 +113,10 @@ fn brought_along(scene: &World, entity: &EntityRef<'_>) -> BTreeSet<ComponentId>
     infos.flat_map(|info| info.required_components().iter_ids()).collect()
 }
 
-fn quoted(text: &str) -> Result<String, Refusal> {
+fn quoted(text: &str) -> Result<String, SceneError> {
     ron::to_string(text).map_err(|error| unwritable(text, "name", &error))
 }
 
-fn unwritable(who: &str, field: &'static str, error: &ron::Error) -> Refusal {
-    Refusal::new(who, field, error, "it must be possible to write it as RON")
+fn unwritable(who: &str, field: &'static str, error: &ron::Error) -> SceneError {
+    SceneError::new(who, field, error, "it must be possible to write it as RON")
 }

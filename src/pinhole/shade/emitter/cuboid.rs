@@ -1,5 +1,5 @@
 use super::LightPoint;
-use super::parallelogram::{parallelogram_density, parallelogram_point, parallelogram_solid_angle};
+use super::parallelogram::{parallelogram_pdf, parallelogram_point, parallelogram_solid_angle};
 use crate::extract::{EmittingCuboid, Parallelogram};
 use glam::DVec3;
 
@@ -42,15 +42,15 @@ pub fn cuboid_point(cuboid: &EmittingCuboid, from: DVec3, u: [f64; 2]) -> LightP
         passed += solid_angle;
     }
     let Some(number) = chosen else { return LightPoint::NONE };
-    let chance = seen.solid_angles[number] / seen.whole;
+    let random = seen.solid_angles[number] / seen.whole;
     let first = ((at - before) / seen.solid_angles[number]).clamp(0.0, 1.0);
     let point = parallelogram_point(&face(cuboid, number), from, [first, u[1]]);
-    LightPoint { density: chance * point.density, ..point }
+    LightPoint { pdf: random * point.pdf, ..point }
 }
 
 /// How likely [`cuboid_point`] was to choose a direction, in 1/sr; `to` leads to the cuboid's point there.
 #[inline(always)]
-pub fn cuboid_density(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
+pub fn cuboid_pdf(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
     let seen = CuboidSeen::new(cuboid, from);
     let at = from + to - cuboid.centre;
     let share = |number: usize| {
@@ -64,8 +64,8 @@ pub fn cuboid_density(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
             nearest = number;
         }
     }
-    let density = parallelogram_density(&face(cuboid, nearest), from, to);
-    if seen.whole > 0.0 { density * (seen.solid_angles[nearest] / seen.whole) } else { 0.0 }
+    let pdf = parallelogram_pdf(&face(cuboid, nearest), from, to);
+    if seen.whole > 0.0 { pdf * (seen.solid_angles[nearest] / seen.whole) } else { 0.0 }
 }
 
 /// Where a ray aimed at a cuboid meets it: where it has entered all slabs, or from inside left one.

@@ -1,5 +1,5 @@
 use super::parallelogram::RectangleSeen;
-use super::{LightPoint, density_from_area};
+use super::{LightPoint, pdf_from_area};
 use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -28,10 +28,10 @@ pub fn disk_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint 
 
 /// How likely [`disk_point`] was to choose a direction, in 1/sr; `to` leads to the disk's point there.
 #[inline(always)]
-pub fn disk_density(disk: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
+pub fn disk_pdf(disk: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     match box_seen(disk, from) {
-        Some(seen) => seen.ellipse_density(to),
-        None => density_from_area(to, disk.normal, PI / 4.0 * disk.area()),
+        Some(seen) => seen.ellipse_pdf(to),
+        None => pdf_from_area(to, disk.normal, PI / 4.0 * disk.area()),
     }
 }
 
@@ -68,5 +68,5 @@ fn disk_area_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint
     let [x, y] = disk.half_edges;
     let (sine, cosine) = libm::sincos(turn);
     let to = disk.centre - from + x * (radius * cosine) + y * (radius * sine);
-    LightPoint { to, density: density_from_area(to, disk.normal, PI / 4.0 * disk.area()) }
+    LightPoint { to, pdf: pdf_from_area(to, disk.normal, PI / 4.0 * disk.area()) }
 }

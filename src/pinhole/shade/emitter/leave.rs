@@ -29,10 +29,12 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
             let normal = sphere_direction(u);
             (*centre + *radius * normal, normal, sum_of_parts(*centre) + radius)
         }
-        Emitter::Rectangle(flat) => (flat_point(flat, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), flat.normal, reach(flat)),
-        Emitter::Disk(flat) => {
+        Emitter::Rectangle(planar) => {
+            (planar_point(planar, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), planar.normal, reach(planar))
+        }
+        Emitter::Disk(planar) => {
             let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
-            (flat_point(flat, [radius * cosine, radius * sine]), flat.normal, reach(flat))
+            (planar_point(planar, [radius * cosine, radius * sine]), planar.normal, reach(planar))
         }
         Emitter::Triangle { corners: [a, b, c], normal } => {
             let root = u[0].sqrt();
@@ -66,16 +68,16 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
         (_, true) => INWARD,
         _ => 0.5,
     };
-    let (normal, chance) = if side < away { (-normal, away) } else { (normal, 1.0 - away) };
-    LeavingPoint { position, normal, area: emitter.area() / chance, size }
+    let (normal, random) = if side < away { (-normal, away) } else { (normal, 1.0 - away) };
+    LeavingPoint { position, normal, area: emitter.area() / random, size }
 }
 
-fn flat_point(flat: &Parallelogram, [x, y]: [f64; 2]) -> DVec3 {
-    flat.centre + x * flat.half_edges[0] + y * flat.half_edges[1]
+fn planar_point(planar: &Parallelogram, [x, y]: [f64; 2]) -> DVec3 {
+    planar.centre + x * planar.half_edges[0] + y * planar.half_edges[1]
 }
 
-fn reach(flat: &Parallelogram) -> f64 {
-    sum_of_parts(flat.centre) + sum_of_parts(flat.half_edges[0]) + sum_of_parts(flat.half_edges[1])
+fn reach(planar: &Parallelogram) -> f64 {
+    sum_of_parts(planar.centre) + sum_of_parts(planar.half_edges[0]) + sum_of_parts(planar.half_edges[1])
 }
 
 fn sum_of_parts(v: DVec3) -> f64 {
@@ -123,7 +125,7 @@ fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
 pub fn direction_to_targets(
     targets: &[Target],
     from: DVec3,
-    wide: f64,
+    double_double: f64,
     choice: f64,
     u: [f64; 2],
 ) -> Option<(DVec3, f64)> {
@@ -131,7 +133,7 @@ pub fn direction_to_targets(
     let cones = &mut cones[..targets.len()];
     cones.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
     let all = TAU * cones.iter().map(|(_, whole)| whole).sum::<f64>();
-    if all == 0.0 || all >= wide {
+    if all == 0.0 || all >= double_double {
         return None;
     }
     let (mut left, mut chosen) = (choice * all, 0);
@@ -198,13 +200,13 @@ mod tests {
     #[test]
     fn points_of_lights_are_spread_over_their_area() {
         const TRIED: u64 = 40_000;
-        let flat = Parallelogram::new(DVec3::new(1.0, 2.0, 3.0), [DVec3::X * 2.0, DVec3::Z], DVec3::Y);
+        let planar = Parallelogram::new(DVec3::new(1.0, 2.0, 3.0), [DVec3::X * 2.0, DVec3::Z], DVec3::Y);
         let cuboid = EmittingCuboid::new(DVec3::ONE, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 0.5]);
         let triangle = [DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 2.0];
         let emitters = [
             (Emitter::Sphere { centre: DVec3::ONE, radius: 2.0 }, DVec3::ONE),
-            (Emitter::Rectangle(flat), flat.centre),
-            (Emitter::Disk(flat), flat.centre),
+            (Emitter::Rectangle(planar), planar.centre),
+            (Emitter::Disk(planar), planar.centre),
             (Emitter::Triangle { corners: triangle, normal: DVec3::Z }, DVec3::new(1.0, 2.0 / 3.0, 0.0)),
             (Emitter::Cuboid(cuboid), DVec3::ONE),
         ];

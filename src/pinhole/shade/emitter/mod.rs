@@ -11,15 +11,15 @@ mod parallelogram;
 mod sphere;
 mod triangle;
 
-pub use cuboid::{CuboidSeen, cuboid_density, cuboid_distance, cuboid_point};
-pub use disk::{disk_density, disk_point};
+pub use cuboid::{CuboidSeen, cuboid_distance, cuboid_pdf, cuboid_point};
+pub use disk::{disk_pdf, disk_point};
 pub use leave::{LeavingPoint, WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
 pub use parallelogram::{
-    RectangleSeen, parallelogram_area_density, parallelogram_area_point, parallelogram_density, parallelogram_point,
+    RectangleSeen, parallelogram_area_pdf, parallelogram_area_point, parallelogram_pdf, parallelogram_point,
 };
-pub use sphere::{cone_versine, sphere_density, sphere_distance, sphere_point};
+pub use sphere::{cone_versine, sphere_distance, sphere_pdf, sphere_point};
 pub use triangle::{
-    TriangleSeen, triangle_area_density, triangle_area_point, triangle_density, triangle_point, triangle_solid_angle,
+    TriangleSeen, triangle_area_pdf, triangle_area_point, triangle_pdf, triangle_point, triangle_solid_angle,
 };
 
 use crate::extract::Emitter;
@@ -31,12 +31,12 @@ pub struct LightPoint {
     /// From the lit point to it, in scene units.
     pub to: DVec3,
     /// How likely a direction about this one was to be chosen, in 1/sr; 0 where the light has no side to be seen.
-    pub density: f64,
+    pub pdf: f64,
 }
 
 impl LightPoint {
     /// No point: the light is seen from its edge.
-    pub const NONE: Self = Self { to: DVec3::ZERO, density: 0.0 };
+    pub const NONE: Self = Self { to: DVec3::ZERO, pdf: 0.0 };
 }
 
 /// A point of a light for a point of the unit square.
@@ -53,13 +53,13 @@ pub fn point_on(emitter: &Emitter, from: DVec3, u: [f64; 2]) -> LightPoint {
 
 /// How likely [`point_on`] was to choose a direction about that to a point of the light, in 1/sr.
 #[inline(always)]
-pub fn density_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
+pub fn pdf_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
     match emitter {
-        Emitter::Sphere { centre, radius } => sphere_density(*centre - from, *radius),
-        Emitter::Rectangle(rectangle) => parallelogram_density(rectangle, from, at - from),
-        Emitter::Disk(disk) => disk_density(disk, from, at - from),
-        Emitter::Triangle { corners, .. } => triangle_density(corners, from, at - from),
-        Emitter::Cuboid(cuboid) => cuboid_density(cuboid, from, at - from),
+        Emitter::Sphere { centre, radius } => sphere_pdf(*centre - from, *radius),
+        Emitter::Rectangle(rectangle) => parallelogram_pdf(rectangle, from, at - from),
+        Emitter::Disk(disk) => disk_pdf(disk, from, at - from),
+        Emitter::Triangle { corners, .. } => triangle_pdf(corners, from, at - from),
+        Emitter::Cuboid(cuboid) => cuboid_pdf(cuboid, from, at - from),
     }
 }
 
@@ -70,25 +70,25 @@ pub fn density_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
 pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
     match emitter {
         Emitter::Sphere { centre, radius } => sphere_distance(*centre - from, *radius, direction),
-        Emitter::Rectangle(flat) | Emitter::Disk(flat) => {
-            flat.normal.dot(flat.centre - from) / flat.normal.dot(direction)
+        Emitter::Rectangle(planar) | Emitter::Disk(planar) => {
+            planar.normal.dot(planar.centre - from) / planar.normal.dot(direction)
         }
         Emitter::Triangle { corners, normal } => normal.dot(corners[0] - from) / normal.dot(direction),
         Emitter::Cuboid(cuboid) => cuboid_distance(cuboid, from, direction),
     }
 }
 
-// ANCHOR: density_from_area
+// ANCHOR: pdf_from_area
 /// The density per unit of solid angle of a point chosen evenly on a flat area: d² / (A cos θ), θ at the light.
 ///
 /// 0 where the area is seen from its edge, for then it fills no solid angle.
 #[inline(always)]
-pub fn density_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
+pub fn pdf_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
     // Not yet over d.
     let cosine = unit_normal.dot(to).abs();
     if cosine > 0.0 { to.length_squared() * to.length() / (area * cosine) } else { 0.0 }
 }
-// ANCHOR_END: density_from_area
+// ANCHOR_END: pdf_from_area
 
 /// The angle whose sine and cosine are in this proportion, from 0 to π.
 #[inline(always)]

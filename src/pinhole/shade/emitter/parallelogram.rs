@@ -1,5 +1,5 @@
 use super::triangle::{LEAST_SOLID_ANGLE, TriangleSeen, triangle_solid_angle};
-use super::{LightPoint, angle_of, density_from_area};
+use super::{LightPoint, angle_of, pdf_from_area};
 use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -115,12 +115,12 @@ impl RectangleSeen {
         let x = self.axes[0].dot(self.at(u));
         let (middle, half) = (0.5 * (self.y[0] + self.y[1]), self.half_chord(x));
         let to = self.along(x, [middle - half, middle + half], u[1]);
-        LightPoint { to, density: self.ellipse_density(to) }
+        LightPoint { to, pdf: self.ellipse_pdf(to) }
     }
 
     /// How likely [`Self::in_ellipse`] was to choose a direction, in 1/sr; without end at the two ends, which are points.
     #[inline(always)]
-    pub(super) fn ellipse_density(&self, to: DVec3) -> f64 {
+    pub(super) fn ellipse_pdf(&self, to: DVec3) -> f64 {
         let x = self.axes[0].dot(to) * (self.z / self.axes[2].dot(to));
         let (middle, half) = (0.5 * (self.y[0] + self.y[1]), self.half_chord(x));
         let [low, high] = self.sines(x, self.y);
@@ -139,14 +139,14 @@ fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[inline(always)]
 pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     match Seen::of(shape, from) {
-        Seen::Rectangle(seen) => LightPoint { to: seen.at(u), density: 1.0 / seen.solid_angle },
+        Seen::Rectangle(seen) => LightPoint { to: seen.at(u), pdf: 1.0 / seen.solid_angle },
         Seen::Triangles(solid_angles) => {
             let whole = solid_angles[0] + solid_angles[1];
             let at = u[0] * whole;
             let (which, before) = if at < solid_angles[0] { (0, 0.0) } else { (1, solid_angles[0]) };
             let first = ((at - before) / solid_angles[which]).clamp(0.0, 1.0);
             let corners = halves(shape)[which].map(|corner| corner - from);
-            LightPoint { to: TriangleSeen::new(corners, solid_angles[which]).at([first, u[1]]), density: 1.0 / whole }
+            LightPoint { to: TriangleSeen::new(corners, solid_angles[which]).at([first, u[1]]), pdf: 1.0 / whole }
         }
         Seen::Small => parallelogram_area_point(shape, from, u),
     }
@@ -154,11 +154,11 @@ pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> L
 
 /// How likely [`parallelogram_point`] was to choose a direction, in 1/sr; `to` leads to the light's point there.
 #[inline(always)]
-pub fn parallelogram_density(shape: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
+pub fn parallelogram_pdf(shape: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     match Seen::of(shape, from) {
         Seen::Rectangle(seen) => 1.0 / seen.solid_angle,
         Seen::Triangles(solid_angles) => 1.0 / (solid_angles[0] + solid_angles[1]),
-        Seen::Small => parallelogram_area_density(shape, to),
+        Seen::Small => parallelogram_area_pdf(shape, to),
     }
 }
 
@@ -167,13 +167,13 @@ pub fn parallelogram_density(shape: &Parallelogram, from: DVec3, to: DVec3) -> f
 pub fn parallelogram_area_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     let [x, y] = shape.half_edges;
     let to = shape.centre - from + x * (2.0 * u[0] - 1.0) + y * (2.0 * u[1] - 1.0);
-    LightPoint { to, density: parallelogram_area_density(shape, to) }
+    LightPoint { to, pdf: parallelogram_area_pdf(shape, to) }
 }
 
 /// The density of [`parallelogram_area_point`], in 1/sr.
 #[inline(always)]
-pub fn parallelogram_area_density(shape: &Parallelogram, to: DVec3) -> f64 {
-    density_from_area(to, shape.normal, shape.area())
+pub fn parallelogram_area_pdf(shape: &Parallelogram, to: DVec3) -> f64 {
+    pdf_from_area(to, shape.normal, shape.area())
 }
 
 /// The solid angle of a parallelogram, in sr; where it is small, what its area would fill at its middle.

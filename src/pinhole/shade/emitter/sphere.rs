@@ -29,13 +29,13 @@ pub fn sphere_point(axis: DVec3, radius: f64, u: [f64; 2]) -> LightPoint {
     let (up_share, right_share) = libm::sincos(turn);
     let direction = ahead * (1.0 - versine) + (right * right_share + up * up_share) * sine;
     let distance = sphere_distance(axis, radius, direction);
-    LightPoint { to: direction * distance, density: 1.0 / (TAU * whole) }
+    LightPoint { to: direction * distance, pdf: 1.0 / (TAU * whole) }
 }
 // ANCHOR_END: sphere_point
 
 /// How likely [`sphere_point`] was to choose any one direction that meets the sphere, in 1/sr.
 #[inline(always)]
-pub fn sphere_density(axis: DVec3, radius: f64) -> f64 {
+pub fn sphere_pdf(axis: DVec3, radius: f64) -> f64 {
     let (dd, rr) = (axis.length_squared(), radius * radius);
     if dd <= rr { 1.0 / (4.0 * PI) } else { 1.0 / (TAU * cone_versine(rr / dd)) }
 }

@@ -1,4 +1,4 @@
-use super::{LightPoint, angle_of, density_from_area};
+use super::{LightPoint, angle_of, pdf_from_area};
 use glam::DVec3;
 
 /// A triangle that fills less than this many sr is aimed at by its area: of a thin one no digits are left for its width.
@@ -82,14 +82,14 @@ pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPo
     if solid_angle < LEAST_SOLID_ANGLE {
         return triangle_area_point(corners, from, u);
     }
-    LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), density: 1.0 / solid_angle }
+    LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), pdf: 1.0 / solid_angle }
 }
 
 /// How likely [`triangle_point`] was to choose a direction, in 1/sr; `to` leads to the triangle's point there.
 #[inline(always)]
-pub fn triangle_density(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
+pub fn triangle_pdf(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
     let solid_angle = triangle_solid_angle(&corners.map(|corner| corner - from));
-    if solid_angle < LEAST_SOLID_ANGLE { triangle_area_density(corners, to) } else { 1.0 / solid_angle }
+    if solid_angle < LEAST_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
 }
 
 /// A point of a triangle, evenly over its area: √u runs from the first corner to the edge across from it.
@@ -98,14 +98,14 @@ pub fn triangle_area_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> Li
     let [a, b, c] = *corners;
     let far = u[0].sqrt();
     let to = (a - from) + ((b - a) * (1.0 - u[1]) + (c - a) * u[1]) * far;
-    LightPoint { to, density: triangle_area_density(corners, to) }
+    LightPoint { to, pdf: triangle_area_pdf(corners, to) }
 }
 
 /// The density of [`triangle_area_point`], in 1/sr.
 #[inline(always)]
-pub fn triangle_area_density(corners: &[DVec3; 3], to: DVec3) -> f64 {
+pub fn triangle_area_pdf(corners: &[DVec3; 3], to: DVec3) -> f64 {
     let [a, b, c] = *corners;
     let cross = (b - a).cross(c - a);
     let doubled = cross.length();
-    density_from_area(to, cross / doubled, 0.5 * doubled)
+    pdf_from_area(to, cross / doubled, 0.5 * doubled)
 }

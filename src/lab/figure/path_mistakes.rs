@@ -1,0 +1,116 @@
+//! Scenes beside what one mistake makes of them.
+
+use super::Figure;
+use super::gallery::{Exhibit, gallery_foot, hang};
+use super::picture::Picture;
+use super::svg::Drawing;
+use crate::naive::mistake::{
+    aimed_light_counted_in_full, glass_that_keeps_beams_narrow, metal_counted_as_matte, sky_in_all_directions_alike,
+};
+use bevy_ecs::prelude::*;
+use pinhole::Chapter;
+use pinhole::Result;
+use pinhole::plan::Stage;
+use pinhole::scene::{Glass, Sampling};
+
+const SIZE: [u32; 2] = [276, 155];
+
+/// The figures that show mistakes.
+pub fn figures() -> Vec<Figure> {
+    vec![
+        Figure {
+            name: "19_broken",
+            chapter: "19_mirrors",
+            about: "rough metal, and rough metal by the density of something else",
+            draw: draw_metal,
+        },
+        Figure {
+            name: "20_broken",
+            chapter: "20_glass",
+            about: "glass, glass that bends the wrong way, and glass that keeps beams narrow",
+            draw: draw_glass,
+        },
+        Figure {
+            name: "22_broken",
+            chapter: "22_ambient_occlusion",
+            about: "how much of the sky points see, with the cosine and without",
+            draw: draw_sky,
+        },
+        Figure {
+            name: "26_broken",
+            chapter: "26_choosing_samples",
+            about: "two ways to find a lamp, weighed, and both counted",
+            draw: draw_weights,
+        },
+        Figure {
+            name: "25_broken",
+            chapter: "25_path_tracing",
+            about: "one scene by paths with a factor too few or too many, and encoded twice",
+            draw: super::broken_paths::draw,
+        },
+    ]
+}
+
+/// So many samples a pixel.
+fn sampled(samples: u32) -> impl Fn(&mut EntityWorldMut<'_>) + Copy {
+    move |camera| {
+        camera.insert(Sampling { samples, seed: 19, ..Sampling::default() });
+    }
+}
+
+fn exhibit(picture: Result<Picture>, [what, why]: [&str; 2]) -> Result<Exhibit> {
+    Ok(Exhibit { picture: picture?, lines: vec![what.to_owned(), why.to_owned()] })
+}
+
+/// Right, and with one stage more that spoils it.
+fn spoiled(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, lines: [&str; 2]) -> Result<Drawing> {
+    let exhibits = [
+        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", "as it should be"])?,
+        exhibit(Picture::beside(chapter, SIZE, Some(stage), sampled(samples)), lines)?,
+    ];
+    Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
+}
+
+/// Right, and with another stage in the place of those that do the same.
+fn replaced(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, lines: [&str; 2]) -> Result<Drawing> {
+    let exhibits = [
+        exhibit(Picture::of(chapter, SIZE, None, sampled(samples)), ["right", "as it should be"])?,
+        exhibit(Picture::of(chapter, SIZE, Some(stage), sampled(samples)), lines)?,
+    ];
+    Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
+}
+
+/// Rough metal by the wrong density.
+pub fn draw_metal(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let lines = ["the wrong density", "drawn by tiny mirrors, counted as matte"];
+    spoiled(chapter, figure, 8, metal_counted_as_matte(), lines)
+}
+
+/// Glass that bends the wrong way, and glass that keeps beams narrow.
+pub fn draw_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let upside_down = |camera: &mut EntityWorldMut<'_>| {
+        sampled(2)(camera);
+        camera.world_scope(|world| {
+            world.query::<&mut Glass>().iter_mut(world).for_each(|mut glass| glass.ior = 1.0 / glass.ior);
+        });
+    };
+    let keep_closest = Picture::beside(chapter, SIZE, Some(glass_that_keeps_beams_narrow()), sampled(2));
+    let exhibits = [
+        exhibit(Picture::of(chapter, SIZE, None, sampled(2)), ["right", "as it should be"])?,
+        exhibit(Picture::of(chapter, SIZE, None, upside_down), ["*η* upside down", "as if air were the denser"])?,
+        exhibit(keep_closest, ["*η*² forgotten on the way out", "beams stay narrow, and dark"])?,
+    ];
+    Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
+}
+
+/// A sky without the cosine.
+pub fn draw_sky(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let lines = ["the missing cosine", "light that grazes counts in full"];
+    replaced(chapter, figure, 16, sky_in_all_directions_alike(), lines)
+}
+
+/// Two ways to find a light, both counted.
+pub fn draw_weights(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let lines = ["no weight on what was aimed at", "found twice, counted twice"];
+    replaced(chapter, figure, 8, aimed_light_counted_in_full(), lines)
+}

@@ -1,0 +1,197 @@
+//! Slips between surfaces and the picture.
+
+use bevy_ecs::prelude::*;
+use glam::{DVec3, Vec3};
+use pinhole::extract::{
+    BackgroundTable, DirectionalLightTable, EmissiveTable, MaterialTable, PlaneTable, SpotLightTable,
+};
+use pinhole::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
+use pinhole::intersect::{EmissiveRows, Surfaces};
+use pinhole::plan::{Column, Shared};
+use pinhole::shade::{LightRays, Radiance, ShadowHits, irradiance_from_point, matte_radiance};
+use std::mem::swap;
+
+/// Radiance that does not start at 0.
+pub fn not_dark(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let radiance = &mut *radiance;
+        radiance.r.iter_mut().chain(&mut radiance.g).chain(&mut radiance.b).for_each(|part| *part = 0.05);
+    }
+}
+
+/// The background behind everything, and before it too.
+pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles: Query<&mut Radiance>) {
+    let [red, green, blue] = background.radiance;
+    for mut radiance in &mut tiles {
+        radiance.r.iter_mut().for_each(|part| *part += red);
+        radiance.g.iter_mut().for_each(|part| *part += green);
+        radiance.b.iter_mut().for_each(|part| *part += blue);
+    }
+}
+
+/// A row of light rays is there before any light has been aimed at.
+pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        rays.clear();
+        let (_, _, _, _, _, dy, ..) = rays.slices_mut(1);
+        dy.fill(1.0);
+    }
+}
+
+/// Parallel light that falls at a slant counts in full: what each ray brings is as much as the strongest brings.
+pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        let rays = &mut *rays;
+        for ray in 0..rays.rows() {
+            if rays.reach[ray] == f32::INFINITY {
+                [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.irradiance[0].map(|part| part as f32);
+            }
+        }
+    }
+}
+
+/// A light with an area as bright from afar as from a distance of 1: the square of the distance left out of the density.
+pub fn no_distance(mut tiles: Query<&mut LightRays>) {
+    for mut rays in &mut tiles {
+        let rays = &mut *rays;
+        for ray in 0..rays.rows() {
+            let squared = rays.reach[ray] * rays.reach[ray];
+            for part in [&mut rays.r[ray], &mut rays.g[ray], &mut rays.b[ray]] {
+                *part *= squared;
+            }
+        }
+    }
+}
+
+/// A spot's edge is as sharp as its inner cone: what has faded shines in full.
+pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+    for (surfaces, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+            let way = spots.position[0] - origin;
+            let direction = rays.direction_of(ray);
+            if way.normalize().dot(direction) < 1.0 - 1e-9 || rays.reach[ray] == f32::INFINITY {
+                continue;
+            }
+            let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);
+            let whole = irradiance_from_point(spots.intensity[0], cosine, way.length_squared());
+            [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
+        }
+    }
+}
+
+/// No highlight of Phong's kind.
+pub fn phong_forgotten() {}
+
+/// No highlight of Blinn's kind.
+pub fn blinn_phong_forgotten() {}
+
+/// What a surface emits counts twice.
+pub fn emitted_twice(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&EmissiveRows, &mut Radiance)>) {
+    for (list, mut radiance) in &mut tiles {
+        for (&row, &of) in list.row.iter().zip(&list.emissive) {
+            let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
+            radiance.r[row] += 2.0 * r;
+            radiance.g[row] += 2.0 * g;
+            radiance.b[row] += 2.0 * b;
+        }
+    }
+}
+
+/// Light that falls at a slant counts in full.
+pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
+    for (surfaces, mut rays) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let normal = surfaces.get(rays.path[ray] as usize).normal;
+            let cosine = normal.dot(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
+            rays.r[ray] /= cosine;
+            rays.g[ray] /= cosine;
+            rays.b[ray] /= cosine;
+        }
+    }
+}
+
+/// What stands behind a lamp is in its way too.
+pub fn endless_t_max(mut tiles: Query<&mut ShadowHits>) {
+    for mut hits in &mut tiles {
+        hits.t.fill(f64::INFINITY);
+    }
+}
+
+/// No sphere is ever in the way.
+pub fn spheres_ignored() {}
+
+/// No ellipsoid is looked for.
+pub fn ellipsoids_ignored() {}
+
+/// No disk is looked for.
+pub fn disks_ignored() {}
+
+/// No rectangle is looked for.
+pub fn rectangles_ignored() {}
+
+/// No cuboid is looked for.
+pub fn cuboids_ignored() {}
+
+/// A plane behind the ray counts as before it.
+pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
+    for (rays, mut hits) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let origin = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
+            let direction = DVec3::from(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
+            for (plane, normal) in planes.normal.iter().enumerate() {
+                let t = ((planes.offset[plane] - normal.dot(origin)) / normal.dot(direction)).abs();
+                if t < hits.t[ray] {
+                    (hits.t[ray], hits.shape[ray]) = (t, planes.shape[plane]);
+                }
+            }
+        }
+    }
+}
+
+/// Light arrives whatever stands in between.
+pub fn shadow_forgotten(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Surfaces, &LightRays, &mut Radiance)>,
+) {
+    for (surfaces, rays, mut radiance) in &mut tiles {
+        for ray in 0..rays.rows() {
+            let path = rays.path[ray] as usize;
+            let colour = materials.colour[surfaces.material[path] as usize];
+            let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
+            radiance.r[path] += r as f32;
+            radiance.g[path] += g as f32;
+            radiance.b[path] += b as f32;
+        }
+    }
+}
+
+/// Blue, green, red for red, green, blue.
+pub fn blue_first(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let Radiance { r, b, .. } = &mut *radiance;
+        swap(r, b);
+    }
+}
+
+/// A view's x painted green and its y red.
+pub fn green_first(mut tiles: Query<&mut Radiance>) {
+    for mut radiance in &mut tiles {
+        let Radiance { r, g, .. } = &mut *radiance;
+        swap(r, g);
+    }
+}
+
+/// A sample added twice and counted once.
+pub fn added_twice(mut tiles: Query<&mut FilmTile>) {
+    for mut film in &mut tiles {
+        let film = &mut *film;
+        film.r.iter_mut().chain(&mut film.g).chain(&mut film.b).for_each(|sum| *sum *= 2.0);
+    }
+}
+
+/// The curve taken of what has been through it already.
+pub fn gamma_twice(linear: f32, curve: Curve) -> u8 {
+    let once = if linear > 0.0 { srgb_from_linear(f64::from(linear)) as f32 } else { linear };
+    byte_from_linear(once, curve)
+}

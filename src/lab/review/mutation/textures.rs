@@ -1,0 +1,115 @@
+//! Slips in textures and environments.
+
+use bevy_ecs::prelude::*;
+use pinhole::extract::{CheckerTable, EnvironmentTable, ImageTable, NO_TEXTURE, StripesTable, TwoColours};
+use pinhole::film::srgb_from_linear;
+use pinhole::intersect::{Hits, MaterialRows, NO_SHAPE, Surfaces};
+use pinhole::plan::{Column, Shared};
+use pinhole::rays::WorldRays;
+use pinhole::shade::{
+    Footprints, Radiance, SurfaceColours, TexturePoint, TexturePoints, checker_share, environment_radiance,
+    stripes_share,
+};
+
+/// The step across two pixels for that across one.
+pub fn two_pixels(mut tiles: Query<&mut Footprints>) {
+    for mut footprints in &mut tiles {
+        let footprints = &mut *footprints;
+        [&mut footprints.rx, &mut footprints.ry, &mut footprints.rz]
+            .into_iter()
+            .flatten()
+            .for_each(|part| *part *= 2.0);
+    }
+}
+
+/// A share of the light lost.
+pub fn half_colour(mut tiles: Query<&mut SurfaceColours>) {
+    for mut colours in &mut tiles {
+        colours.r.iter_mut().for_each(|part| *part *= 0.5);
+    }
+}
+
+/// Cells that begin where their middle should be.
+pub fn half_cell(mut tiles: Query<&mut TexturePoints>) {
+    for mut points in &mut tiles {
+        points.x.iter_mut().for_each(|x| *x -= 0.5);
+    }
+}
+
+/// The two colours of a checker exchanged.
+pub fn colours_exchanged(
+    checkers: Res<Shared<CheckerTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
+) {
+    for (surfaces, list, points, mut colours) in &mut tiles {
+        recolour(&checkers.0, surfaces, list, points, &mut colours, |at| 1.0 - checker_share(&at));
+    }
+}
+
+/// Stripes at one point of each pixel.
+pub fn stripes_at_a_point(
+    stripes: Res<Shared<StripesTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
+) {
+    for (surfaces, list, points, mut colours) in &mut tiles {
+        recolour(&stripes.0, surfaces, list, points, &mut colours, |at| stripes_share(&at.alone()));
+    }
+}
+
+fn recolour(
+    table: &TwoColours,
+    surfaces: &Surfaces,
+    list: &MaterialRows,
+    points: &TexturePoints,
+    colours: &mut SurfaceColours,
+    share: impl Fn(TexturePoint) -> f64,
+) {
+    for &row in &list.row {
+        let row = row as usize;
+        let texture = table.of_material[surfaces.material[row] as usize];
+        if texture == NO_TEXTURE {
+            continue;
+        }
+        let (first, second) = (table.first[texture as usize], table.second[texture as usize]);
+        let share = share(points.get(row));
+        let mixed = |part: usize| share * first[part] + (1.0 - share) * second[part];
+        (colours.r[row], colours.g[row], colours.b[row]) = (mixed(0), mixed(1), mixed(2));
+    }
+}
+
+/// An image's numbers taken for light as they stand in the file.
+pub fn bytes_for_light(
+    images: Res<Shared<ImageTable>>,
+    mut tiles: Query<(&Surfaces, &MaterialRows, &mut SurfaceColours)>,
+) {
+    for (surfaces, list, mut colours) in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            if images.of_material[surfaces.material[row] as usize] != NO_TEXTURE {
+                let colours = &mut *colours;
+                for component in [&mut colours.r, &mut colours.g, &mut colours.b] {
+                    component[row] = srgb_from_linear(component[row]);
+                }
+            }
+        }
+    }
+}
+
+/// The environment mirrored: longitude the other way round.
+pub fn mirrored(
+    environment: Res<Shared<EnvironmentTable>>,
+    mut tiles: Query<(&WorldRays, Option<&Hits>, &mut Radiance)>,
+) {
+    for (rays, hits, mut radiance) in &mut tiles {
+        for row in 0..rays.rows() {
+            if hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE) {
+                let mut direction = rays.direction_of(row);
+                direction.x = -direction.x;
+                let [r, g, b] = environment_radiance(&environment, direction);
+                radiance.r[row] += r as f32;
+                radiance.g[row] += g as f32;
+                radiance.b[row] += b as f32;
+            }
+        }
+    }
+}

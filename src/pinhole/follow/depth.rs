@@ -1,0 +1,167 @@
+use super::deeper_media::deeper_media_evidence;
+use super::media::media_evidence;
+use super::{DeeperMedia, Media, Scattered, Stop};
+use crate::extract::{IntegratorTable, filtered_evidence, followed_evidence, motion_evidence};
+use crate::plan::{Bounce, Column, Shared, Stage, TileSystems};
+use crate::rays::{Depth, PathLight, Paths, RayTimes, WorldRays};
+use crate::shade::{Footprints, Radiance};
+use bevy_ecs::prelude::*;
+
+// ANCHOR: add_bounce
+/// Adds to every way's light the share that reaches the film of what its ray brought back on this leg.
+pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
+    for (paths, radiance, mut light) in &mut tiles {
+        let light = &mut *light;
+        for row in 0..paths.rows() {
+            let (first, [r, g, b]) = (paths.first[row] as usize, paths.share(row));
+            light.r[first] += r * f64::from(radiance.r[row]);
+            light.g[first] += g * f64::from(radiance.g[row]);
+            light.b[first] += b * f64::from(radiance.b[row]);
+        }
+    }
+}
+// ANCHOR_END: add_bounce
+
+// ANCHOR: step_on
+/// Makes the scattered rays the rays of the next leg, in the dark; none where this was the last leg.
+pub fn step_on(
+    integrator: Res<Shared<IntegratorTable>>,
+    mut kept: Local<Paths>,
+    mut tiles: Query<(&mut Depth, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance)>,
+) {
+    for (mut depth, scattered, mut rays, mut paths, mut radiance) in &mut tiles {
+        depth.0 += 1;
+        let rows = if depth.0 < integrator.max_depth { scattered.rows() } else { 0 };
+        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(rows);
+        let from = [&scattered.ox, &scattered.oy, &scattered.oz, &scattered.dx, &scattered.dy, &scattered.dz];
+        [ox, oy, oz, dx, dy, dz].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+
+        let (first, r, g, b, pdf) = kept.slices_mut(rows);
+        for (first, &path) in first.iter_mut().zip(&scattered.path) {
+            *first = paths.first[path as usize];
+        }
+        let from = [&scattered.r, &scattered.g, &scattered.b, &scattered.pdf];
+        [r, g, b, pdf].into_iter().zip(from).for_each(|(to, from)| to.copy_from_slice(&from[..rows]));
+        std::mem::swap(&mut *kept, &mut *paths);
+
+        let (r, g, b) = radiance.slices_mut(rows);
+        [r, g, b].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+// ANCHOR_END: step_on
+
+/// Gives the rays of the next leg the times of those that they come from.
+pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
+    for (scattered, rays, mut times) in &mut tiles {
+        let next = kept.slices_mut(rays.rows());
+        next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
+        std::mem::swap(&mut *kept, &mut *times);
+    }
+}
+
+/// Leaves the rays of the next leg no footprints: what a pixel covers is known on the first leg only, and later nothing is
+/// filtered.
+pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
+    for (rays, mut footprints) in &mut tiles {
+        let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
+        [rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
+    }
+}
+
+// ANCHOR: trace_bounces
+/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left; where nobody waits any
+/// longer, those that are left are dropped.
+pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, With<Depth>>) {
+    let max_depth = world.resource::<Shared<IntegratorTable>>().max_depth;
+    for _ in 1..max_depth {
+        if tiles.iter_mut(world).all(|rays| rays.rows() == 0) {
+            break;
+        }
+        if world.get_resource_mut::<Stop>().is_some_and(|mut stop| stop.gives_up()) {
+            tiles.iter_mut(world).for_each(|mut rays| rays.clear());
+            break;
+        }
+        world.run_schedule(Bounce);
+    }
+}
+// ANCHOR_END: trace_bounces
+
+/// Goes back to the first leg and gives its rows the light that their ways brought, as their radiance.
+pub fn gather_light(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
+    for (mut depth, light, mut radiance) in &mut tiles {
+        *depth = Depth(0);
+        let (r, g, b) = radiance.slices_mut(light.rows());
+        for (to, from) in [r, g, b].into_iter().zip([&light.r, &light.g, &light.b]) {
+            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from as f32);
+        }
+    }
+}
+
+/// The stage that adds a leg's light.
+pub fn add_bounce_stage() -> Stage {
+    Stage::new("Add the bounce's light to its path", TileSystems::AddBounce, add_bounce)
+        .reads::<Paths>()
+        .reads::<Radiance>()
+        .reads::<PathLight>()
+        .writes::<PathLight>()
+        .when(followed_evidence)
+}
+
+/// The stage that steps on to the next leg.
+pub fn step_stage() -> Stage {
+    Stage::new("Advance to the next bounce", TileSystems::Step, step_on)
+        .reads::<Scattered>()
+        .reads::<WorldRays>()
+        .reads::<Paths>()
+        .reads::<Radiance>()
+        .writes::<WorldRays>()
+        .writes::<Paths>()
+        .writes::<Radiance>()
+        .table::<IntegratorTable>()
+        .when(followed_evidence)
+}
+
+/// The stage that takes times along.
+pub fn times_stage() -> Stage {
+    Stage::new("Carry times to the next bounce", TileSystems::Step, take_times_along)
+        .reads::<Scattered>()
+        .reads::<WorldRays>()
+        .reads::<RayTimes>()
+        .writes::<RayTimes>()
+        .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
+}
+
+/// The stage that takes footprints away.
+pub fn footprints_stage() -> Stage {
+    Stage::new("Drop footprints", TileSystems::Step, take_footprints_away)
+        .on_camera_paths()
+        .reads::<WorldRays>()
+        .reads::<Footprints>()
+        .writes::<Footprints>()
+        .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
+}
+
+/// The stage that is all later legs.
+pub fn follow_stage() -> Stage {
+    Stage::new("Trace the remaining bounces", TileSystems::RemainingBounces, trace_bounces)
+        .on_first_bounce()
+        .reads::<WorldRays>()
+        .reads_where::<Media>(media_evidence)
+        .reads_where::<DeeperMedia>(deeper_media_evidence)
+        .reads_where::<RayTimes>(motion_evidence)
+        .reads_where::<Footprints>(filtered_evidence)
+        .reads::<PathLight>()
+        .writes::<PathLight>()
+        .table::<IntegratorTable>()
+        .when(followed_evidence)
+}
+
+/// The stage that gathers.
+pub fn gather_stage() -> Stage {
+    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, gather_light)
+        .on_first_bounce()
+        .reads::<PathLight>()
+        .reads::<Radiance>()
+        .writes::<Radiance>()
+        .when(followed_evidence)
+}
