@@ -7,32 +7,32 @@ use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::time::Duration;
 
-/// What a render leaves.
+/// The result of a render.
 pub struct Rendered {
-    /// What ran and what did not.
+    /// The stages that ran, and those that did not.
     pub plan: Plan,
-    /// The light that arrived.
+    /// The accumulated radiance.
     pub film: Film,
-    /// A lap a kept stage, summed over workers; empty where no statistics were asked for.
+    /// One lap per kept stage, summed over workers; empty where no statistics were requested.
     pub laps: Vec<Lap>,
-    /// Workers.
+    /// The number of workers.
     pub threads: usize,
-    /// From the first tile to the last.
+    /// Elapsed time from the first tile to the last.
     pub time: Duration,
-    /// Bytes that the tables take.
+    /// Memory of the tables, in bytes.
     pub table_bytes: usize,
 }
 
 impl Rendered {
-    /// How the film becomes a picture: light by the sRGB curve, a view's numbers as they are.
+    /// The curve that turns the film into a picture: sRGB for radiance, the identity for a view's values.
     pub fn curve(&self) -> Curve {
         if self.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
     }
 }
 
-/// Renders a scene by the stages on offer that it needs.
+/// Renders a scene with those of the stages on offer that it needs.
 ///
-/// Errors: a refused scene, no plan, or a stop by the one who watches.
+/// Errors: an invalid scene, a plan that cannot be made, or an observer that stopped the render.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
     let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;
     match adaptive_of(scene)? {
