@@ -189,7 +189,7 @@ fn matter_that_no_stage_follows_is_refused() {
         assert!(prepare(&world, &chapter(true).stages()).is_ok(), "{word}");
         let refused = prepare(&world, &chapter(false).stages()).err().map(|error| error.to_string());
         let sentence = format!(
-            "sphere \"ball\": {word} is given, but no stage on offer sends light on from it; offer follow::stages(), \
+            "sphere \"ball\": {word} is given, but no stage on offer samples its BSDF; offer follow::stages(), \
              which do"
         );
         assert_eq!(refused, Some(sentence));

@@ -15,7 +15,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
         for ray in 0..rays.rows() {
             let normal = surfaces.get(rays.path[ray] as usize).normal.as_dvec3();
             let cosine = normal.dot(rays.direction_of(ray));
-            rays.mis(ray, 1.0 / cosine);
+            rays.weight_by(ray, 1.0 / cosine);
         }
     }
 }
@@ -24,7 +24,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
 /// Forgets how much of the image plane a pixel is.
 pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
-        (0..rays.rows()).for_each(|ray| rays.mis(ray, join.pixel_area()));
+        (0..rays.rows()).for_each(|ray| rays.weight_by(ray, join.pixel_area()));
     }
 }
 

@@ -29,7 +29,7 @@ pub struct AreaLightTable {
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
     /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
-    pub random: Vec<f64>,
+    pub probability: Vec<f64>,
     /// The light that a shape is; [`NO_ROW`] for a shape that is none.
     pub light_of_shape: Vec<u32>,
 }
@@ -62,8 +62,8 @@ pub(super) fn share_out(powers: &[f64]) -> (Vec<u64>, Vec<f64>) {
     if let Some(largest) = largest {
         parts[largest] = parts[largest] + PARTS - given;
     }
-    let random = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
-    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), random)
+    let probability = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
+    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), probability)
 }
 
 fn add(sum: &mut u64, parts: u64) -> u64 {
@@ -97,7 +97,7 @@ impl Table for AreaLightTable {
                 ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.planar[row])),
                 ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.planar[row])),
                 ShapeKind::Triangle => {
-                    Emitter::Triangle { corners: triangles.facet[row].corners, normal: triangles.normal[row] }
+                    Emitter::Triangle { corners: triangles.triangle[row].corners, normal: triangles.normal[row] }
                 }
                 ShapeKind::Cuboid => {
                     let slabs = &cuboids.slabs[row];
@@ -114,7 +114,7 @@ impl Table for AreaLightTable {
             table.radiance.push(radiance);
             table.one_sided.push(one_sided);
         }
-        (table.until, table.random) = share_out(&powers);
+        (table.until, table.probability) = share_out(&powers);
         Ok(table)
     }
 

@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 /// cuboid's length: with this ratio, by less than a third of the thickness.
 const LARGEST_RATIO: f64 = 1e7;
 /// By how much the sphere about it is taken larger, so that no rounding reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
 
 /// The points x of render space with |nᵢ · (x − C)| ≤ hᵢ for three normals: a box, or three slabs at any angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Slabs {
     /// h, from the centre to the faces, in lengths of n.
     pub half: [f64; 3],
     /// No point is farther from the centre than this.
-    pub reach: f64,
+    pub bounding_radius: f64,
 }
 
 impl Slabs {
@@ -34,8 +34,8 @@ impl Slabs {
     pub fn new(centre: DVec3, normals: [DVec3; 3], half_edges: [DVec3; 3]) -> Self {
         let normal = normals.map(unit_in_f32);
         let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
-        let reach = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * REACH_MARGIN;
-        Self { centre, normal, half, reach }
+        let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
+        Self { centre, normal, half, bounding_radius }
     }
 
     /// Whether the eye, which is the origin of render space, lies inside.

@@ -10,7 +10,7 @@ const EVEN_TOLERANCE: f64 = 1e-9;
 /// How many times as long one way as another an ellipsoid may be: the extremes hold up to here.
 const LARGEST_RATIO: f64 = 1e7;
 /// By how much its bounding sphere is taken larger, so that no rounding of the map reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
 
 /// A sphere that its placement scales unevenly: the points x of render space with |A (x − C)| = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +22,14 @@ pub struct Ellipsoid {
     /// ‖A‖, the root of the sum of its squares: the most by which A stretches, or a little more.
     pub norm: f64,
     /// No point is farther from the centre than this.
-    pub reach: f64,
+    pub bounding_radius: f64,
 }
 
 impl Ellipsoid {
     /// The ellipsoid of a map whose longest half axis has about this length, or less.
     pub fn new(centre: DVec3, unit_from_world: DMat3, longest: f64) -> Self {
         let squares: f64 = unit_from_world.to_cols_array().iter().map(|part| part * part).sum();
-        Self { centre, unit_from_world, norm: squares.sqrt(), reach: longest * REACH_MARGIN }
+        Self { centre, unit_from_world, norm: squares.sqrt(), bounding_radius: longest * RADIUS_MARGIN }
     }
 }
 
@@ -158,14 +158,14 @@ mod tests {
         let (world, spheres) = scene(&[scale]);
         let table = EllipsoidTable::extract(&world).expect("ellipsoids");
         let pose = pose(&world, "", spheres[0]).expect("a pose");
-        let Ellipsoid { centre, unit_from_world, reach, .. } = table.ellipsoid[0];
+        let Ellipsoid { centre, unit_from_world, bounding_radius, .. } = table.ellipsoid[0];
         assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let pole = pose.world_from_entity.matrix3 * (axis * 2.0);
             assert!((unit_from_world * pole - axis).length() < 1e-7, "{axis}: {}", unit_from_world * pole);
-            assert!(pole.length() <= reach);
+            assert!(pole.length() <= bounding_radius);
         }
-        assert!(reach < 2e3 * 1.0001);
+        assert!(bounding_radius < 2e3 * 1.0001);
     }
 
     #[test]
@@ -174,14 +174,17 @@ mod tests {
         let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
         world.entity_mut(spheres[0]).insert(ChildOf(parent));
         let map = pose(&world, "", spheres[0]).expect("a pose").world_from_entity.matrix3;
-        let reach = EllipsoidTable::extract(&world).expect("ellipsoids").ellipsoid[0].reach;
+        let bounding_radius = EllipsoidTable::extract(&world).expect("ellipsoids").ellipsoid[0].bounding_radius;
         let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
         let point = |angle: f64| {
             let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
             map * (DVec3::new(libm::cos(angle) * round, libm::sin(angle) * round, height) * 2.0)
         };
         let farthest = steps.map(|angle| point(angle).length()).fold(0.0, f64::max);
-        assert!(farthest <= reach && reach <= farthest * 1.02, "{farthest} within {reach}");
+        assert!(
+            farthest <= bounding_radius && bounding_radius <= farthest * 1.02,
+            "{farthest} within {bounding_radius}"
+        );
     }
 
     #[test]

@@ -144,7 +144,7 @@ fn pieces(scene: &World) -> Result<Vec<Piece>, SceneError> {
             ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
             ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
             ShapeKind::Triangle => {
-                let [a, b, c] = triangles.facet[row].corners;
+                let [a, b, c] = triangles.triangle[row].corners;
                 Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
             }
             // A plane of glass reaches everywhere, and what moves may; disks and rectangles of glass are refused.

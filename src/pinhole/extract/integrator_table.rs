@@ -14,11 +14,11 @@ pub struct IntegratorTable {
     /// The leg from which ways end by chance.
     pub roulette: u32,
     /// Whether points on lights are aimed at.
-    pub aimed: bool,
+    pub samples_lights: bool,
     /// How many times as large radiance is in the densest glass as outside: its index of refraction squared, at least 1.
-    pub narrowing: f64,
+    pub eta_scale: f64,
     /// Whether two ways to find a light are weighed against each other.
-    pub weighed: bool,
+    pub mis: bool,
     /// How far something still hides the sky, in scene units.
     pub distance: f32,
 }
@@ -36,7 +36,7 @@ impl Table for IntegratorTable {
             return Err(SceneError::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
         // Without more, light comes from a light by one surface to the camera.
-        let mut table = Self { max_depth: 2, narrowing: narrowing_in_glass(scene)?, ..Self::default() };
+        let mut table = Self { max_depth: 2, eta_scale: eta_scale_in_glass(scene)?, ..Self::default() };
         match integrator_of(scene).integrator {
             Integrator::RayCasting => {}
             Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
@@ -44,10 +44,10 @@ impl Table for IntegratorTable {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
             Integrator::Whitted { max_depth } => table.max_depth = max_depth,
-            Integrator::Distribution { max_depth } => (table.max_depth, table.aimed) = (max_depth, true),
+            Integrator::Distribution { max_depth } => (table.max_depth, table.samples_lights) = (max_depth, true),
             Integrator::Path { max_depth, roulette, lights } => {
-                (table.max_depth, table.roulette, table.weighed) = (max_depth, roulette, lights == LightStrategy::Mis);
-                table.aimed = lights != LightStrategy::Bsdf;
+                (table.max_depth, table.roulette, table.mis) = (max_depth, roulette, lights == LightStrategy::Mis);
+                table.samples_lights = lights != LightStrategy::Bsdf;
             }
         }
         if table.max_depth == 0 {
@@ -63,7 +63,7 @@ impl Table for IntegratorTable {
 }
 
 /// The largest index of refraction squared among the kinds of glass that shapes are made of; 1 without any.
-fn narrowing_in_glass(scene: &World) -> Result<f64, SceneError> {
+fn eta_scale_in_glass(scene: &World) -> Result<f64, SceneError> {
     if !glass_evidence(scene).needed {
         return Ok(1.0);
     }

@@ -54,7 +54,7 @@ pub struct LightPathTable {
     /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
     pub until: Vec<u64>,
     /// How likely it is to be chosen: half by its power, half evenly.
-    pub random: Vec<f64>,
+    pub probability: Vec<f64>,
     /// Spheres that hold all mirrors and glass; none where one of them has no end.
     pub target: Vec<Target>,
 }
@@ -93,8 +93,8 @@ impl Table for LightPathTable {
             powers.push(luminance(intensity) * PI * (edges[0] + edges[1]));
             light.push(LightSource::Point { position, intensity, cone: Some((spots.axis[number], edges)) });
         }
-        let (until, random) = share_out(&powers);
-        Ok(Self { light, until, random, target: targets(scene)? })
+        let (until, probability) = share_out(&powers);
+        Ok(Self { light, until, probability, target: targets(scene)? })
     }
 
     fn bytes(&self) -> usize {
@@ -125,7 +125,7 @@ fn targets(scene: &World) -> Result<Vec<Target>, SceneError> {
             ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.planar[row]),
             ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
             ShapeKind::Triangle => {
-                let [a, b, c] = triangles.facet[row].corners;
+                let [a, b, c] = triangles.triangle[row].corners;
                 Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
             }
             ShapeKind::Plane | ShapeKind::Moving => return Ok(Vec::new()),

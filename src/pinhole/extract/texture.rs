@@ -114,7 +114,7 @@ pub enum TextureMapping {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TextureMap {
     /// What the coordinates are made of.
-    pub laid: TextureMapping,
+    pub mapping: TextureMapping,
     /// Coordinates a unit.
     pub matrix: DMat3,
     /// The coordinates of the origin.
@@ -170,7 +170,7 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, SceneError
         let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
         let map = laid_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
         return Ok(if image.by == TextureBy::Space {
-            TextureMap { laid: TextureMapping::OnFaces, ..map }
+            TextureMap { mapping: TextureMapping::OnFaces, ..map }
         } else {
             map
         });
@@ -181,8 +181,8 @@ fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, SceneError
 /// In space a cell's or image's middle is at the origin, along uv its corner.
 fn laid_by(by: TextureBy, matrix: DMat3) -> TextureMap {
     match by {
-        TextureBy::Uv => TextureMap { laid: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
-        TextureBy::Space => TextureMap { laid: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
+        TextureBy::Uv => TextureMap { mapping: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
+        TextureBy::Space => TextureMap { mapping: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
     }
 }
 

@@ -11,7 +11,7 @@ const LEAST_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
 /// Coordinates below this, 2⁻²⁰⁰ scene units, count as 0, so that exact arithmetic has room below them.
 const SMALLEST_COORDINATE: f64 = f64::from_bits((1023 - 200) << 52);
 /// By how much the sphere about a triangle is taken larger, so that no rounding reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
 /// Texture coordinates where the author gives none: b₁ and b₂.
 const OWN_UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
@@ -28,7 +28,7 @@ pub struct TriangleRow {
     /// The middle of the longest edge.
     pub centre: DVec3,
     /// No corner is farther from the centre than this.
-    pub reach: f64,
+    pub bounding_radius: f64,
 }
 
 impl TriangleRow {
@@ -39,8 +39,9 @@ impl TriangleRow {
         let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j]));
         let longest = edges.into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
         let centre = longest.map_or(corners[0], |(a, b)| a.midpoint(b));
-        let reach = corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * REACH_MARGIN;
-        Self { corners, size, centre, reach }
+        let bounding_radius =
+            corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * RADIUS_MARGIN;
+        Self { corners, size, centre, bounding_radius }
     }
 
     /// (B − A) × (C − A), each part right to within two roundings however thin the triangle; all 0 where the corners lie
@@ -60,7 +61,7 @@ fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleTable {
     /// The triangles.
-    pub facet: Vec<TriangleRow>,
+    pub triangle: Vec<TriangleRow>,
     /// The unit normal on the side to which the author's normals point, or else from which the author's corners go
     /// round anticlockwise in the world.
     pub normal: Vec<DVec3>,
@@ -83,7 +84,7 @@ impl TriangleTable {
         let cross = facet.cross();
         // Corners that rounding has put on one line are met by no ray; any normal serves them.
         let along = (cross / cross.abs().max_element()).try_normalize().unwrap_or(DVec3::Z);
-        self.facet.push(facet);
+        self.triangle.push(facet);
         self.normal.push(if turned { -along } else { along });
         self.turned.push(turned);
         self.uvs.push(order_of_corners.map(|corner| uvs[corner]));
@@ -113,7 +114,7 @@ impl Table for TriangleTable {
 
     fn bytes(&self) -> usize {
         let row = size_of::<TriangleRow>() + size_of::<DVec3>() + size_of::<bool>() + size_of::<[DVec2; 3]>();
-        self.facet.len() * (row + size_of::<u32>())
+        self.triangle.len() * (row + size_of::<u32>())
     }
 }
 

@@ -111,7 +111,7 @@ impl Table for UvSlopes {
         }
         let triangles = TriangleTable::extract(scene)?;
         for (triangle, &shape) in triangles.shape.iter().enumerate() {
-            let [a, b, c] = triangles.facet[triangle].corners;
+            let [a, b, c] = triangles.triangle[triangle].corners;
             slope[shape as usize] = planar_slope([b - a, c - a], triangles.uvs[triangle]);
         }
         Ok(Self { slope })

@@ -6,8 +6,8 @@ use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// The normal that light is mirrored by: the one to shade by, or the surface's own where by the other it would be
-/// mirrored into the surface.
+/// The normal to reflect by: the shading normal, or the geometric one where reflection by the former would lead into
+/// the surface.
 #[inline(always)]
 pub(super) fn mirroring_normal(shading: Option<&ShadingNormals>, row: usize, own: DVec3, direction: DVec3) -> DVec3 {
     let normal = shading.map_or(own, |normals| normals.get(row));
@@ -15,7 +15,7 @@ pub(super) fn mirroring_normal(shading: Option<&ShadingNormals>, row: usize, own
 }
 
 // ANCHOR: scatter_mirror
-/// Sends a ray on from every mirror, the only one that there is.
+/// Reflects a ray from every mirror; the only direction of this specular BSDF.
 pub fn scatter_mirror(
     mirrors: Res<Shared<MirrorTable>>,
     mut tiles: Query<((&WorldRays, &Paths), (&Surfaces, Option<&ShadingNormals>, &MirrorRows), &mut Scattered)>,
@@ -24,11 +24,11 @@ pub fn scatter_mirror(
         scattered.append(&list.row, |number, row| {
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
-            let (share, colour) = (paths.share(row), mirrors.colour[list.of[number] as usize]);
+            let (throughput, colour) = (paths.share(row), mirrors.colour[list.of[number] as usize]);
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction: mirror_direction(direction, normal),
-                share: [0, 1, 2].map(|part| share[part] * colour[part]),
+                throughput: [0, 1, 2].map(|part| throughput[part] * colour[part]),
                 pdf: f64::INFINITY,
             }
         });
@@ -36,7 +36,7 @@ pub fn scatter_mirror(
 }
 // ANCHOR_END: scatter_mirror
 
-/// The stage on offer.
+/// The stage that runs [`scatter_mirror`].
 pub fn mirror_stage() -> Stage {
     Stage::new("Sample BSDFs: mirror", TileSystems::SampleBsdfs, scatter_mirror)
         .reads::<WorldRays>()

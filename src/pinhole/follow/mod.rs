@@ -1,11 +1,12 @@
-//! Light goes on: from each surface new rays, leg after leg, until a way ends.
+//! Paths: at each surface the BSDF is sampled for a further ray, bounce after bounce, until a path ends.
 //!
-//! Reads: what `shade` made of the leg at hand ([`Radiance`](crate::shade::Radiance)), surfaces, the tables of matter.
-//! Writes: [`Scattered`] rays, [`Paths`](crate::rays::Paths) with what share of their light reaches the film.
+//! Reads: the [`Radiance`](crate::shade::Radiance) that `shade` computed for the current bounce, surfaces, the material
+//! tables.
+//! Writes: [`Scattered`] rays, and [`Paths`](crate::rays::Paths) with each path's throughput.
 //! Space: render space.
 //!
-//! A later leg runs the very stages that the first one ran, from the start of intersection to the end of shading, over
-//! the rays that are left: so none of them knows of legs, and a row is a ray, not a pixel.
+//! A later bounce runs the same stages as the first, from intersection to shading, on the rays that are left; none of
+//! these stages knows of bounces, and a row is a ray, not a pixel.
 
 mod beer;
 mod caustic_paths;
@@ -33,7 +34,7 @@ mod scattered;
 mod shading_adjoint;
 mod splat;
 mod stop;
-mod unfollowed;
+mod unsampled;
 
 pub use beer::{absorbed, transmittance};
 pub use caustic_paths::{CausticPaths, caustic_paths_stage, note_caustic_paths};
@@ -64,20 +65,20 @@ pub use medium_stack::{Crossing, MediumStack};
 pub use metal::{RoughMetals, add_metal, metal_light_stage, metal_stage, scatter_metal};
 pub use mirror::{mirror_stage, scatter_mirror};
 pub use mis::{mis_matte, mis_matte_stage, mis_metal, mis_metal_stage};
-pub use multiple_scattering::{MultipleScatteringTable, found_again, lost_at};
-pub use occlusion::{SkyColumns, SkyLists, aim_by, sample_sky, show_the_sky, sky_rays_stage, sky_stage};
+pub use multiple_scattering::{MultipleScatteringTable, lost_at, multiple_scattering_albedo};
+pub use occlusion::{SkyColumns, SkyLists, sample_sky, sample_sky_with, show_the_sky, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{play_roulette, roulette_stage, survival_probability};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};
 pub use shading_adjoint::{correct_for_shading_normals, shading_adjoint, shading_adjoint_stage};
 pub use splat::{Splats, keep_specular, keep_specular_stage, splat_light, splat_stage};
 pub use stop::{Stop, is_whole};
-pub use unfollowed::check_materials_are_followed;
+pub use unsampled::check_materials_are_followed;
 
 use crate::plan::Stage;
 use crate::shade::{camera_join_stage, join_point_stage};
 
-/// All that follows light beyond the first surface.
+/// All stages that trace light beyond the first surface.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_paths_stage(), start_scattered_stage(), matte_stage()];
     stages.extend(material_stages());
@@ -102,7 +103,7 @@ pub fn stages() -> Vec<Stage> {
     stages
 }
 
-/// Caustics from the lights.
+/// The stages that trace caustics from the lights.
 pub fn light_stages() -> Vec<Stage> {
     let start = [light_start_stage(), keep_specular_stage()];
     let material = [matte_light_stage(), glass_light_stage(), shading_adjoint_stage()];
@@ -113,7 +114,7 @@ pub fn light_stages() -> Vec<Stage> {
         .collect()
 }
 
-/// What mirrors, glass and metal do with light.
+/// The stages that sample the BSDFs of mirrors, glass and metal.
 pub fn material_stages() -> Vec<Stage> {
     let mut stages = vec![classify_materials_stage(), mirror_stage(), metal_light_stage(), metal_stage()];
     stages.extend([glass_stage(), glass_sample_stage()]);

@@ -191,7 +191,7 @@ fn cuboid_rows(rays: RayBlockMut<'_>, cuboids: &CuboidTable, t: &mut [f64], shap
             for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
                 let f = slabs.centre - vector(&block.o, component);
                 *nearness_of_component =
-                    nearness(f, vector(&block.d, component), block.inverse[component], slabs.reach);
+                    nearness(f, vector(&block.d, component), block.inverse[component], slabs.bounding_radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let intersection = |origin, direction| cuboid_intersection(origin, direction, slabs);

@@ -95,7 +95,8 @@ fn ellipsoid_rows(rays: RayBlockMut<'_>, ellipsoids: &EllipsoidTable, t: &mut [f
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
                 let f = ellipsoid.centre - vector(&o, component);
-                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], ellipsoid.reach);
+                *nearness_of_component =
+                    nearness(f, vector(&d, component), inverse[component], ellipsoid.bounding_radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 keep_closest(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);

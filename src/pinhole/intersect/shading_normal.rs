@@ -75,7 +75,7 @@ pub fn interpolate_normals(
             if corners[0] == DVec3::ZERO {
                 continue;
             }
-            let meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), &triangles.facet[triangle]);
+            let meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), &triangles.triangle[triangle]);
             let leaves_by_normal = meeting.along != triangles.turned[triangle];
             let normal = shading_normal(corners, &meeting);
             let normal = if leaves_by_normal { -normal } else { normal };

@@ -207,11 +207,11 @@ fn rows_along<const Z: usize>(
             (own_t[component], own_shape[component]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
-        for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
+        for (facet, &number) in triangles.triangle.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
                 let f = facet.centre - vector(&o, component);
-                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], facet.reach);
+                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], facet.bounding_radius);
             }
             let (near, _) = nearest.as_chunks::<GROUP>();
             let t = own_t[..rows.len()].chunks_mut(GROUP);

@@ -76,7 +76,7 @@ pub fn triangle_surface(
     direction: DVec3,
     material: u32,
 ) -> (Surface, Meeting) {
-    let facet = &triangles.facet[row];
+    let facet = &triangles.triangle[row];
     let meeting = Meeting::of(origin, direction, facet);
     let point = meeting.mix(&facet.corners);
     let bound = offset_bound(point, origin, facet.size);

@@ -45,7 +45,7 @@ pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<
 fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u32> {
     let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
-        let corners = &triangles.facet[row].corners;
+        let corners = &triangles.triangle[row].corners;
         let angle = triangle_solid_angle(corners).copysign(triangles.normal[row].dot(corners[0]));
         let of = filled.entry(shapes.material[shape as usize]).or_insert((0.0, shape));
         of.0 += if angle.is_finite() { angle } else { 0.0 };

@@ -7,7 +7,7 @@ use crate::scene::ImageTexture;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// Colours the rows of materials that have an image.
+/// Evaluates the colours of materials with an image texture.
 pub fn colour_images(
     images: Res<Shared<ImageTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
@@ -35,7 +35,7 @@ pub fn colour_images(
     }
 }
 
-/// The same with its second coordinate stretched about the image's middle.
+/// The same point with its second coordinate stretched about the image's middle.
 #[inline(always)]
 fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     let stretched = |step: DVec3| DVec3::new(step.x, step.y * aspect, step.z);
@@ -43,7 +43,7 @@ fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     TexturePoint { point, steps: at.steps.map(stretched) }
 }
 
-/// The stage on offer.
+/// The stage that runs [`colour_images`].
 pub fn image_stage() -> Stage {
     Stage::new("Evaluate textures: images", TileSystems::Texture, colour_images)
         .reads::<Surfaces>()

@@ -1,7 +1,8 @@
-//! Surfaces → light: what each ray brings back.
+//! Surfaces → light: the radiance that each ray carries to its origin.
 //!
-//! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of matter and lights.
-//! Writes: [`LightRays`] towards lights, [`ShadowHits`] on the way there, [`Radiance`] in linear Rec. 709.
+//! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of materials and
+//! lights.
+//! Writes: [`LightRays`] towards lights, [`ShadowHits`] along them, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
 
 mod area_light;
@@ -29,8 +30,8 @@ mod shadow;
 mod spot_light;
 mod surface_colour;
 mod texture_point;
+mod unintersected;
 mod unlit;
-mod unmet;
 
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 pub use background::{add_background, background_stage};
@@ -39,7 +40,7 @@ pub use camera_join::{
     JoinPoints, camera_join_stage, connect_to_camera, draw_join_points, join_cosine, join_point_stage,
 };
 pub use checker::{
-    box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
+    box_width, checker_fraction, checker_stage, colour_checkers, colour_stripes, stripes_fraction, stripes_stage, wave,
     wave_mean,
 };
 pub use colour::SurfaceColours;
@@ -67,15 +68,15 @@ pub use shadow::{
     plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
     triangle_shadow_stage,
 };
-pub use spot_light::{sample_spot_lights, spot_light_stage, spot_share, versine};
+pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
+pub use unintersected::check_shapes_are_intersected;
 pub use unlit::{shade_unlit, unlit_stage};
-pub use unmet::check_shapes_are_intersected;
 
 use crate::plan::Stage;
 
-/// What light does at surfaces, with shadows, and what is behind everything.
+/// All stages of direct light, shadows and backgrounds.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), start_light_stage()];
     stages.extend(colour_stages());
@@ -97,17 +98,17 @@ pub fn stages() -> Vec<Stage> {
     stages
 }
 
-/// A surface's own colour, whether the scene has lights or not, and what is behind everything.
+/// The stages that show surface colours without any light, and backgrounds.
 pub fn unlit_stages() -> Vec<Stage> {
     vec![start_stage(), background_stage(), unlit_stage().when(unlit::shown_evidence)]
 }
 
-/// Surfaces with colours of their own: textures, and what a pixel covers of them.
+/// The stages of textures and the footprints that filter them.
 pub fn colour_stages() -> Vec<Stage> {
     vec![footprint_stage(), colour_stage(), lay_stage(), checker_stage(), stripes_stage(), image_stage()]
 }
 
-/// What is behind everything, of every kind.
+/// The stages of backgrounds of every kind.
 pub fn background_stages() -> Vec<Stage> {
     vec![background_stage(), gradient_stage(), environment_stage()]
 }

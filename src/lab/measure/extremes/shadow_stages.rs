@@ -168,7 +168,7 @@ impl ShadowStages {
         (rays.rows() == 1).then(|| Shadow {
             origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
             direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),
-            reach: rays.reach[0],
+            reach: rays.t_max[0],
             blocked: Some(hits.shape[0]).filter(|&shape| shape != NO_SHAPE),
         })
     }
