@@ -81,7 +81,7 @@ pub fn example_stems(manifest: &str) -> (Stems, Vec<Problem>) {
             table.lines().find(named).and_then(|line| line.split('"').nth(1)).unwrap_or_default()
         };
         let (name, path) = (value("name"), value("path"));
-        let expected = format!("chapters/{name}/main.rs");
+        let expected = format!("{name}/main.rs");
         if path != expected {
             let what = format!("the example `{name}` has the path `{path}`, and should have `{expected}`.");
             problems.push(Problem::new("chapters/Cargo.toml", 0, what));
@@ -132,11 +132,11 @@ mod tests {
 
     #[test]
     fn examples_are_chapters() {
-        let manifest = "[package]\nname = \"x\"\n\n[[example]]\nname = \"01_a\"\npath = \"chapters/01_a/main.rs\"\n\n\
+        let manifest = "[package]\nname = \"x\"\n\n[[example]]\nname = \"01_a\"\npath = \"01_a/main.rs\"\n\n\
                         [[example]]\nname = \"cover\"\npath = \"cover.rs\"\n\n[lints]\nname = \"y\"\n";
         let (stems, problems) = example_stems(manifest);
         assert!(stems.iter().map(String::as_str).eq(["01_a", "cover"]));
-        let what = "the example `cover` has the path `cover.rs`, and should have `chapters/cover/main.rs`.";
+        let what = "the example `cover` has the path `cover.rs`, and should have `cover/main.rs`.";
         assert_eq!(problems, [Problem::new("chapters/Cargo.toml", 0, what)]);
     }
 
