@@ -1,5 +1,5 @@
 use super::{cosine_pdf, ggx_sample};
-use crate::extract::{MetalTable, metals_of_several_mirrors};
+use crate::extract::{MetalTable, multiple_scattering_metals};
 use crate::plan::Table;
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
@@ -73,7 +73,7 @@ impl Table for MultipleScatteringTable {
     const NAME: &'static str = "multiple scattering";
 
     fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (metals, several) = (MetalTable::extract(scene)?, metals_of_several_mirrors(scene));
+        let (metals, several) = (MetalTable::extract(scene)?, multiple_scattering_metals(scene));
         let mut table = Self::default();
         for (metal, several) in several.into_iter().enumerate() {
             table.push(metals.colour[metal], several.then_some(metals.alpha[metal]));

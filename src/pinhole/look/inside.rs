@@ -19,7 +19,7 @@ pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<
     let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
     let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
     let cuboids = CuboidTable::extract(scene)?;
-    let within = |row: &usize| cuboids.slabs[*row].holds_the_eye();
+    let within = |row: &usize| cuboids.slabs[*row].contains_the_eye();
     let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
     let ellipsoids = EllipsoidTable::extract(scene)?;
     let within = |row: &usize| {

@@ -16,7 +16,7 @@ impl CuboidSeen {
     /// From outside up to three faces are visible, from inside all six.
     #[inline(always)]
     pub fn new(cuboid: &EmittingCuboid, from: DVec3) -> Self {
-        let inside = cuboid.holds(from);
+        let inside = cuboid.contains(from);
         let mut solid_angles = [0.0; 6];
         for (number, solid_angle) in solid_angles.iter_mut().enumerate() {
             let face = face(cuboid, number);
@@ -84,7 +84,7 @@ pub fn cuboid_distance(cuboid: &EmittingCuboid, from: DVec3, direction: DVec3) -
         enters = enters.max((to_middle - end) / along);
         leaves = leaves.min((to_middle + end) / along);
     }
-    if cuboid.holds(from) { leaves } else { enters }
+    if cuboid.contains(from) { leaves } else { enters }
 }
 
 /// One of the six faces, with its outward normal.
