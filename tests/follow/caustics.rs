@@ -388,5 +388,5 @@ fn what_only_light_tracing_finds_is_said_before() {
     for world in [&mut plain, &mut asking] {
         world.spawn((Name::new("sun"), DirectionalLight::default()));
     }
-    assert!(told(&asking).contains("no rays start on lights without a place (1 directional light: \"sun\")"));
+    assert!(told(&asking).contains("no paths start on lights without a position (1 directional light: \"sun\")"));
 }
