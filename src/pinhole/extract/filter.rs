@@ -36,7 +36,7 @@ pub struct Span {
     /// The area at its end; that of the last cell is beyond the whole.
     pub end: f64,
     /// The reciprocal of its own area.
-    pub inverse_area: f64,
+    pub per_area: f64,
     /// Where it begins, in pixels from the centre.
     pub x: f64,
     /// Its width, in pixels.
@@ -181,7 +181,7 @@ impl FilterCells {
                 let [start, end] = ends.map(area);
                 let [first, last] = ends.map(|x| filter_value(filter, x).abs());
                 let slope = first / (first + last);
-                cells.push(Span { start, end, inverse_area: 1.0 / (end - start), x, width, slope, negative });
+                cells.push(Span { start, end, per_area: 1.0 / (end - start), x, width, slope, negative });
             }
         }
         if let Some(last) = cells.last_mut() {

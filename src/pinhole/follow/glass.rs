@@ -100,7 +100,7 @@ impl GlassColumns<'_> {
         ScatteredRay {
             origin: offset_origin(surface.position, side, surface.bound),
             direction: sample.direction,
-            throughput: self.paths.share(row).map(|part| part * weight),
+            throughput: self.paths.throughput(row).map(|part| part * weight),
             pdf: f64::INFINITY,
         }
     }
