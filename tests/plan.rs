@@ -96,8 +96,8 @@ fn rows_systems_columns_and_tables_are_one_list() {
         if pictureless(&on) {
             refused += 1;
             match prepare(&scene, &offer).err().expect("refused") {
-                Error::Plan(PlanError::NoSuchView { asked, why }) => {
-                    assert_eq!(asked, VIEWED, "{on:?}");
+                Error::Plan(PlanError::NoSuchView { wanted, why }) => {
+                    assert_eq!(wanted, VIEWED, "{on:?}");
                     assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, "), "{on:?}: {why}");
                 }
                 other => panic!("{on:?}: {other}"),

@@ -310,7 +310,7 @@ fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
     assert!(
         plan_of(&asking)
             .to_string()
-            .contains("pass \"light\": a row is a way from a light, it leaves the splats on the film")
+            .contains("pass \"light\": a row is a path from a light, it produces the splats on the film")
     );
     // Without mirrors and glass, without a lamp, or with a view, there is nothing to trace.
     let without = |names: &[&str]| {
