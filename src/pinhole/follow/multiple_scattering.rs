@@ -216,14 +216,14 @@ mod tests {
             let (rule, mut bins) = (Quadrature::default(), Bins::new(LINES * LINES + 1));
             let line = |at: usize| at as f64 / LINES as f64;
             for (cosine, turn) in (0..LINES).flat_map(|cosine| (0..LINES).map(move |turn| (cosine, turn))) {
-                let share = rule.sum(line(cosine), line(cosine + 1), |z| {
+                let fraction = rule.sum(line(cosine), line(cosine + 1), |z| {
                     rule.sum(2.0 * PI * line(turn), 2.0 * PI * line(turn + 1), |turn| {
                         let across = (1.0 - z * z).sqrt();
                         let light = DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z);
                         rough.pdf(0, light, eye)
                     })
                 });
-                bins.expect(cosine * LINES + turn, share * SAMPLES as f64);
+                bins.expect(cosine * LINES + turn, fraction * SAMPLES as f64);
             }
             bins.expect(LINES * LINES, SAMPLES as f64 - bins.total());
             for index in 0..SAMPLES {

@@ -105,7 +105,7 @@ pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
 }
 // ANCHOR_END: matte_radiance
 
-// ANCHOR: aim
+// ANCHOR: shadow_ray_to
 /// The geometry of a ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ShadowRay {
@@ -125,7 +125,7 @@ pub(super) fn shadow_ray_to(surface: &Surface, normal: DVec3, light: DVec3) -> S
     let direction = (to_light * (1.0 / distance)).as_vec3();
     ShadowRay { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
 }
-// ANCHOR_END: aim
+// ANCHOR_END: shadow_ray_to
 
 /// The cosine by the shading normal, or 0 where the light is behind the geometric surface.
 #[inline(always)]
