@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheared_sphere_lies_within_its_reach_and_not_far_within() {
+    fn a_sheared_sphere_fills_its_bounding_radius() {
         let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
         let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
         world.entity_mut(spheres[0]).insert(ChildOf(parent));
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_longer_one_way_than_ten_million_times_another_is_refused() {
+    fn an_ellipsoid_longer_than_ten_million_times_its_thickness_is_refused() {
         let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
         assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
         for ratio in [2e7, 1e-8] {

@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn as_deep_as_boxes_share_a_point() {
+    fn depth_counts_boxes_with_a_common_point() {
         let depth = |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&world(balls), places).needed);
         assert_eq!(depth(&[]), Some(0));
         assert_eq!(depth(&[(0.0, 1.0), (5.0, 1.0)]), Some(1));

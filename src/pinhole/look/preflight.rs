@@ -160,7 +160,7 @@ fn missing_paths(scene: &World) -> Vec<String> {
     if placed.needed && !traced_evidence(scene).needed {
         warnings.push(format!(
             "light that arrives through mirrors or glass ({}) from a light without an area ({}) is missing on matte \
-             surfaces, for no ray hits a point by chance; LightTracing on the camera, beside paths, finds it from the light",
+             surfaces, since no sampled ray can hit a point; LightTracing on the camera, beside paths, finds it from the light",
             bends.reason, placed.reason
         ));
     }

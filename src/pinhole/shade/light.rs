@@ -192,15 +192,15 @@ fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl 
     let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
     for &row in rows {
-        let ray = ray_of(row as usize);
+        let light_ray = ray_of(row as usize);
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = ray.ray.direction.into();
-        t_max[at] = ray.t_max;
-        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
+        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
+        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
+        t_max[at] = light_ray.t_max;
+        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
         // At shorter distances the square is subnormal, and the direction is undefined.
-        let apart = ray.ray.distance * ray.ray.distance >= f64::MIN_POSITIVE;
-        at += usize::from(ray.ray.cosine > 0.0 && apart);
+        let apart = light_ray.ray.distance * light_ray.ray.distance >= f64::MIN_POSITIVE;
+        at += usize::from(light_ray.ray.cosine > 0.0 && apart);
     }
     if !casts_shadows {
         t_max[length..at].fill(0.0);
@@ -225,16 +225,16 @@ pub(super) fn append_sampled(
     for &row in receivers.rows {
         let surface = receivers.surfaces.get(row as usize);
         let normal = receivers.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (ray, pdf) = ray_of(row as usize, &surface, normal);
+        let (light_ray, pdf) = ray_of(row as usize, &surface, normal);
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = ray.ray.direction.into();
-        t_max[at] = ray.t_max;
-        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
+        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
+        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
+        t_max[at] = light_ray.t_max;
+        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
         if let Some(columns) = &mut pdf_columns {
             (columns.0[at], columns.1[at]) = (row, pdf);
         }
-        at += usize::from(ray.ray.cosine > 0.0);
+        at += usize::from(light_ray.ray.cosine > 0.0);
     }
     rays.slices_mut(at);
     if let Some(pdfs) = pdfs {
