@@ -148,8 +148,5 @@ fn from_standard_input() -> Result<SceneFile> {
 /// What a scene file is offered: all that the chapters teach.
 pub fn every_stage() -> Chapter {
     Chapter::new("scene", "a scene file", |_| ())
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+        .offer(stages::all())
 }

@@ -12,11 +12,7 @@ use pinhole::{intersect, rays, shade};
 use std::f64::consts::PI;
 
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(film_stage());
-    offer
+    crate::scenes::offer_of_direct_light()
 }
 
 /// A floor of colour 1/2, seen by a narrow camera at the origin, from aside.

@@ -9,11 +9,7 @@ use pinhole::scene::*;
 use pinhole::{rays, shade};
 
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(pinhole::film::film_stage());
-    offer
+    crate::scenes::offer_of_direct_light()
 }
 
 /// A scene with one shape that shines on one side, looked at along a line.

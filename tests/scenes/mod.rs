@@ -76,12 +76,32 @@ fn on_grid(point: DVec3) -> DVec3 {
 
 /// Every stage that a chapter can offer.
 pub fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.extend(follow::stages());
+    let mut offer = stages::all();
     offer.push(view_stage(&offer));
-    offer.extend([layers_stage(), moments_stage(), film_stage()]);
+    offer
+}
+
+/// Every stage of direct light, after which no path goes on.
+pub fn offer_of_direct_light() -> Vec<Stage> {
+    let mut offer = [
+        stages::camera_rays(),
+        stages::samples(),
+        stages::wide_cameras(),
+        stages::lens(),
+        stages::motion(),
+        stages::intersection(),
+        stages::surfaces(),
+        stages::transforms(),
+        stages::direct_light(),
+        stages::lights(),
+        stages::highlights(),
+        stages::textures(),
+        stages::environment(),
+        vec![shade::area_light_stage(), shade::environment_light_stage()],
+        stages::film(),
+    ]
+    .concat();
+    stages::sort(&mut offer);
     offer
 }
 

@@ -54,6 +54,4 @@ fn place_on_grid(mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut Ras
 fn grid_stage() -> Stage {
     Stage::new("Place samples on a grid", TileSystems::Raster, place_on_grid)
         .kind(StageKind::Alternative)
-        .writes::<RasterPoints>()
-        .writes::<PixelSamples>()
 }

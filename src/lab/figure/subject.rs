@@ -126,7 +126,7 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
         Ok(inspection) if complete(&inspection) => Ok(inspection),
         _ => {
             let mut whole = chapter.clone();
-            whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+            whole.offer = [stages::camera_rays(), stages::wide_cameras(), stages::lens(), stages::motion(), stages::intersection()].concat();
             inspect(scene, &whole.stages(), side)
         }
     }

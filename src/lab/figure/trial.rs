@@ -20,8 +20,7 @@ pub fn chapter(name: &'static str) -> Chapter {
         "22_ambient_occlusion" => occluded,
         _ => central,
     };
-    let chapter = Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages());
-    chapter.offer(shade::stages()).offer(follow::stages())
+    Chapter::new(name, "a trial", scene).offer(stages::all())
 }
 
 /// All chapters that figures show.

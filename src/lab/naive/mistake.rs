@@ -57,19 +57,13 @@ pub fn scatter_matte_by(way: MatteSample) -> Stage {
         };
     Stage::new("Scatter with a mistake", TileSystems::SampleBsdfs, scatter)
         .kind(StageKind::Estimator)
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
         .appends::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<MaterialTable>()
         .when(material_evidence)
 }
 
 /// A stage that spoils what was scattered, after all that scatter.
 fn spoils(stage: Stage) -> Stage {
-    stage.kind(StageKind::Alternative).reads::<Scattered>().writes::<Scattered>().reads::<Surfaces>()
+    stage.kind(StageKind::Alternative)
 }
 
 fn spoil_ray(Scattered { r, g, b, .. }: &mut Scattered, ray: usize, factor: f64) {
@@ -95,7 +89,6 @@ pub fn metal_counted_as_matte() -> Stage {
         }
     };
     spoils(Stage::new("Forget how metal was drawn", TileSystems::Roulette, spoil))
-        .table::<MaterialTable>()
         .when(metal_evidence)
 }
 
@@ -119,9 +112,6 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
         }
     };
     spoils(Stage::new("Forget the way out of glass", TileSystems::Roulette, spoil))
-        .reads::<SurfaceSides>()
-        .reads::<GlassRows>()
-        .table::<GlassTable>()
         .when(glass_evidence)
 }
 
@@ -135,12 +125,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
     };
     Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
-        .reads_if::<PixelSamples>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
         .appends::<LightRays>()
-        .table::<SamplingTable>()
-        .table::<IntegratorTable>()
         .when(occlusion_evidence)
 }
 
@@ -148,8 +133,6 @@ pub fn sky_in_all_directions_alike() -> Stage {
 pub fn aimed_light_counted_in_full() -> Stage {
     Stage::new("Count aimed light in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
         .kind(StageKind::Alternative)
-        .reads::<LightRays>()
-        .writes::<LightRays>()
         .when(mis_evidence)
 }
 
@@ -175,7 +158,6 @@ fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTabl
     Stage::new(name, TileSystems::SampleLights, forget)
         .kind(StageKind::Alternative)
         .appends::<LightRays>()
-        .table::<AreaLightTable>()
         .when(|scene| (area_light_stage().when)(scene))
 }
 
@@ -211,9 +193,6 @@ pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
     };
     Stage::new("Sample the lens otherwise", TileSystems::Lens, fill)
         .kind(StageKind::Alternative)
-        .reads::<RasterPoints>()
-        .writes::<LensPoints>()
-        .table::<LensTable>()
 }
 
 /// The stage that draws times, by so many moments in turn.
@@ -226,7 +205,4 @@ pub fn moments_in_turn(frames: u32) -> Stage {
     };
     Stage::new("Take moments in turn", TileSystems::Lens, fill)
         .kind(StageKind::Alternative)
-        .reads::<PixelSamples>()
-        .writes::<RayTimes>()
-        .table::<ShutterTable>()
 }

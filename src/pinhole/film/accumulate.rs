@@ -33,9 +33,7 @@ pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&S
 /// The stage on offer.
 pub fn film_stage() -> Stage {
     Stage::new("Accumulate film", TileSystems::Film, add_to_film)
-        .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<SampleSigns>(signed_evidence)
-        .writes::<FilmTile>()
         .when(|_| Evidence::always("the film is what is asked for"))
 }

@@ -1,8 +1,7 @@
 use super::develop::shown;
 use super::{FilmLayers, FilmMoments, FilmSplats};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime, column_component};
 use crate::rays::Tile;
-use bevy_ecs::prelude::*;
 
 /// How many steps of a render the first sample of all pixels takes: one for every eighth, fourth, second and every pixel.
 pub const FIRST_SAMPLE_STEPS: u32 = 4;
@@ -33,7 +32,7 @@ impl Rejected {
 /// All samples are summed alike; those that count negatively are summed once more by themselves, so that both their
 /// weighted mean and the plain one can be told, and a tile without any keeps nothing for them.
 /// Sums are added to in the order of the samples, so neither threads nor tile size can change a bit of them.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
     /// The pixels it covers.
     pub tile: Tile,
@@ -162,6 +161,8 @@ impl FilmTile {
         [&mut self.r, &mut self.g, &mut self.b]
     }
 }
+
+column_component!(FilmTile);
 
 impl Column for FilmTile {
     const NAME: &'static str = "pixel";

@@ -10,7 +10,7 @@ pub const NO_SHAPE: u32 = u32::MAX;
 
 column! {
     /// What each ray meets first.
-    pub struct Hits("hit", "along the ray", "scene units", Ray) {
+    pub struct Hits("hit", "along the ray", "scene units", Ray, begun in Start) {
         /// The distance t in r(t) = O + tR; infinite where nothing is met.
         t: f64,
         /// The number of the shape; none where nothing is met.
@@ -81,7 +81,7 @@ pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits)>) {
 
 /// The stage on offer.
 pub fn start_stage() -> Stage {
-    Stage::new("Clear hits", TileSystems::Start, start_hits).reads::<WorldRays>().writes::<Hits>().when(shape_evidence)
+    Stage::new("Clear hits", TileSystems::Start, start_hits).when(shape_evidence)
 }
 
 /// Evidence that the scene holds a shape of any kind.

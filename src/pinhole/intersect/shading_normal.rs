@@ -86,16 +86,7 @@ pub fn interpolate_normals(
 
 /// The stage on offer.
 pub fn shading_normal_stage() -> Stage {
-    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .reads::<TriangleRows>()
-        .writes::<ShadingNormals>()
-        .table::<TriangleTable>()
-        .table::<VertexNormalTable>()
-        .table::<ShapeTable>()
-        .when(vertex_normal_evidence)
+    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals).when(vertex_normal_evidence)
 }
 
 /// Evidence that the scene holds a triangle whose corners have normals.

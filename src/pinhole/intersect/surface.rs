@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 column! {
     /// What is known of the surface that each ray hit; all 0 where nothing is met.
-    pub struct Surfaces("surface", "world, from the eye", "scene units", Ray) {
+    pub struct Surfaces("surface", "world, from the eye", "scene units", Ray, begun in Classify) {
         /// Position, x.
         px: f32,
         /// Position, y.

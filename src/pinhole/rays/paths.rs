@@ -2,7 +2,7 @@ use crate::plan::column;
 
 column! {
     /// The way of light that each ray goes on with.
-    pub struct Paths("path", "light", "share, 1/sr", Path) {
+    pub struct Paths("path", "light", "share, 1/sr", Path, begun in Start) {
         /// The tile's row on the first leg.
         first: u32,
         /// The share of what this ray brings back that reaches the film, red.
@@ -31,7 +31,7 @@ impl Paths {
 
 column! {
     /// The light that each way has brought to the film so far.
-    pub struct PathLight("path light", "light", "linear Rec. 709", Path) {
+    pub struct PathLight("path light", "light", "linear Rec. 709", Path, begun in Start) {
         /// Red.
         r: f64,
         /// Green.

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// When each ray and all that follow from it are on their way; row by row those of the rays.
-    pub struct RayTimes("time", "since the shutter opened", "units of time", Ray) {
+    pub struct RayTimes("time", "since the shutter opened", "units of time", Ray, begun in Lens) {
         /// From 0 to below the time that the shutter is open.
         time: f64,
     }
@@ -36,11 +36,5 @@ pub fn draw_times(
 
 /// The stage on offer.
 pub fn time_stage() -> Stage {
-    Stage::new("Sample times", TileSystems::Lens, draw_times)
-        .reads::<RasterPoints>()
-        .reads_if::<PixelSamples>()
-        .writes::<RayTimes>()
-        .table::<ShutterTable>()
-        .table::<SamplingTable>()
-        .when(motion_evidence)
+    Stage::new("Sample times", TileSystems::Lens, draw_times).when(motion_evidence)
 }

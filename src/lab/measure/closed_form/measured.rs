@@ -104,10 +104,5 @@ impl ClosedForm {
 
 /// All that closed forms are measured by.
 pub fn every_stage() -> Vec<Stage> {
-    let mut stages = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
-    if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
-        stages.push(place_samples_stage());
-    }
-    stages.push(film_stage());
-    stages
+    stages::all()
 }

@@ -201,11 +201,8 @@ fn scene(number: u64) -> World {
 
 /// Every stage up to the light of lamps.
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(film_stage());
-    offer
+    let rays = [stages::camera_rays(), stages::intersection(), stages::transforms(), stages::surfaces()].concat();
+    [rays, stages::direct_light(), stages::film()].concat()
 }
 
 /// Pixel by pixel the bits of the sums, of a film that so many threads rendered in tiles of this side; none where the

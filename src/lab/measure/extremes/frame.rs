@@ -39,8 +39,7 @@ fn check(range: Range<u64>) -> Tally {
 
 /// The stages of chapter 3: up to the hits, which a view asks for.
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
+    let mut offer = [stages::camera_rays(), stages::intersection()].concat();
     offer.push(view_stage(&offer));
     offer.push(film_stage());
     offer
