@@ -61,8 +61,7 @@ fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
 
 /// The stage on offer.
 fn facing_stage() -> Stage {
-    Stage::new("Compute facing ratios", TileSystems::Shade, fill_facing)
-        .when(shape_evidence)
+    Stage::new("Compute facing ratios", TileSystems::Shade, fill_facing).when(shape_evidence)
 }
 // ANCHOR_END: facing
 

@@ -184,7 +184,8 @@ pub fn all() -> Vec<Stage> {
 /// Puts stages into the order of the list; those that are not in it follow, as they stood.
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
-    let places = PLACES.get_or_init(|| LIST.iter().enumerate().map(|(place, (_, stage))| (stage().id, place)).collect());
+    let places =
+        PLACES.get_or_init(|| LIST.iter().enumerate().map(|(place, (_, stage))| (stage().id, place)).collect());
     offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
 }
 

@@ -3,12 +3,10 @@
 use super::environment::{evening, summed};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::film_stage;
 use pinhole::plan::{Stage, plan};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::shade::environment_radiance;
-use pinhole::{intersect, rays, shade};
 use std::f64::consts::PI;
 
 fn offer() -> Vec<Stage> {

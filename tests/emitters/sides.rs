@@ -2,11 +2,11 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::intersect::{self, SurfaceSides};
+use pinhole::intersect::SurfaceSides;
 use pinhole::plan::Stage;
 use pinhole::render::inspect;
 use pinhole::scene::*;
-use pinhole::{rays, shade};
+use pinhole::shade;
 
 fn offer() -> Vec<Stage> {
     crate::scenes::offer_of_direct_light()

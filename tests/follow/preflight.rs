@@ -6,7 +6,7 @@ use pinhole::Error;
 use pinhole::look::{MISTAKES, Preflight, preflight};
 use pinhole::render::prepare;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 /// What is said of a scene for which every stage is on offer, or the refusal.
 fn said(scene: &World) -> Result<Vec<String>, Error> {

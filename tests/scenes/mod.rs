@@ -10,12 +10,11 @@ mod textured;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::{film_stage, layers_stage, moments_stage};
 use pinhole::look::view_stage;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::{shade, stages};
 pub use pinhole_lab::measure::film_bits::FilmBits;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use soft::soft;

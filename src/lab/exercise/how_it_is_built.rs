@@ -7,6 +7,7 @@ use crate::attempt::StageWords;
 use crate::measure::ray_aim::Draws;
 use bevy_ecs::prelude::World;
 use pinhole::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
+use pinhole::stages;
 use std::time::Duration;
 
 type Input = (Vec<StageWords>, String);

@@ -52,6 +52,5 @@ fn place_on_grid(mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut Ras
 }
 
 fn grid_stage() -> Stage {
-    Stage::new("Place samples on a grid", TileSystems::Raster, place_on_grid)
-        .kind(StageKind::Alternative)
+    Stage::new("Place samples on a grid", TileSystems::Raster, place_on_grid).kind(StageKind::Alternative)
 }

@@ -6,7 +6,7 @@ use pinhole::scene::{
     BlinnPhong, Checker, Cuboid, DQuat, Degrees, Emissive, Glass, Integrator, LookAt, Matte, Name, OrthographicCamera,
     PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Rgb, Sphere,
 };
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::stages;
 
 /// A chapter of this name with a scene that suits its figure.
 pub fn chapter(name: &'static str) -> Chapter {

@@ -11,7 +11,7 @@ use pinhole::extract::{
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
 use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_pdf, frame_of};
-use pinhole::intersect::{Hits, MaterialRows, SurfaceSides, Surfaces, offset_origin};
+use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
@@ -88,8 +88,7 @@ pub fn metal_counted_as_matte() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget how metal was drawn", TileSystems::Roulette, spoil))
-        .when(metal_evidence)
+    spoils(Stage::new("Forget how metal was drawn", TileSystems::Roulette, spoil)).when(metal_evidence)
 }
 
 /// A beam that enters glass narrows, and its radiance is divided by η² on the way back to the camera; here it is not
@@ -111,8 +110,7 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget the way out of glass", TileSystems::Roulette, spoil))
-        .when(glass_evidence)
+    spoils(Stage::new("Forget the way out of glass", TileSystems::Roulette, spoil)).when(glass_evidence)
 }
 
 /// The missing cosine: rays to the sky go in all directions alike, and each counts the same; in the place of all that aim.
@@ -191,8 +189,7 @@ pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
             }
         }
     };
-    Stage::new("Sample the lens otherwise", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
+    Stage::new("Sample the lens otherwise", TileSystems::Lens, fill).kind(StageKind::Alternative)
 }
 
 /// The stage that draws times, by so many moments in turn.
@@ -203,6 +200,5 @@ pub fn moments_in_turn(frames: u32) -> Stage {
             times.time.extend(samples.sample.iter().map(|&sample| time_of_frame(sample, frames, shutter.length)));
         }
     };
-    Stage::new("Take moments in turn", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
+    Stage::new("Take moments in turn", TileSystems::Lens, fill).kind(StageKind::Alternative)
 }

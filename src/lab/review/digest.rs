@@ -177,8 +177,7 @@ mod tests {
 
     #[test]
     fn the_side_of_the_tiles_does_not_matter() -> Result {
-        let chapter = Chapter::new("digest", "for this test", scene)
-            .offer(stages::all());
+        let chapter = Chapter::new("digest", "for this test", scene).offer(stages::all());
         let (world, stages) = (chapter.world(&pinhole::Overrides::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
         assert!(text.contains("\n\"Sample point lights\" writes light\n"), "{text}");

@@ -15,6 +15,8 @@ static COLUMNS: RwLock<BTreeMap<TypeId, ColumnKind>> = RwLock::new(BTreeMap::new
 /// The tables that any world has registered, by the type of their resource.
 static TABLES: RwLock<BTreeMap<TypeId, TableKind>> = RwLock::new(BTreeMap::new());
 /// What systems touch, by their types, since lists of stages are made over and over.
+///
+/// The type of a system is that of its function or closure, or of a tuple of such, and so are its parameters.
 static SYSTEMS: RwLock<BTreeMap<TypeId, Arc<Access>>> = RwLock::new(BTreeMap::new());
 
 /// What a system reads and writes, each in the order of its parameters.
@@ -39,10 +41,7 @@ impl Access {
             return Arc::clone(known);
         }
         let access = Arc::new(Self::measured(configs()));
-        // A configuration says nothing about which systems are in it; a function or a closure is a type of its own.
-        if system != TypeId::of::<ScheduleConfigs<ScheduleSystem>>() {
-            SYSTEMS.write().unwrap_or_else(PoisonError::into_inner).insert(system, Arc::clone(&access));
-        }
+        SYSTEMS.write().unwrap_or_else(PoisonError::into_inner).insert(system, Arc::clone(&access));
         access
     }
 

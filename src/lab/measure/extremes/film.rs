@@ -9,12 +9,12 @@ use crate::naive::film::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::film::{FilmTile, film_stage};
-use pinhole::intersect;
 use pinhole::plan::Stage;
-use pinhole::rays::{self, Tile};
+use pinhole::rays::Tile;
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
-use pinhole::shade::{self, Radiance};
+use pinhole::shade::Radiance;
+use pinhole::stages;
 use std::ops::Range;
 
 /// Samples of a pixel that is watched until f32 has stopped long since.

@@ -8,12 +8,13 @@ use bevy_ecs::prelude::*;
 use glam::Vec3;
 use pinhole::extract::SphereTable;
 use pinhole::film::film_stage;
-use pinhole::intersect::{self, Hits};
+use pinhole::intersect::Hits;
 use pinhole::look::view_stage;
 use pinhole::plan::{Column, Stage, Table};
-use pinhole::rays::{self, WorldRays};
+use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
+use pinhole::stages;
 use std::ops::Range;
 
 /// The side of a frame in pixels.

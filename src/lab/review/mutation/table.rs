@@ -1,11 +1,25 @@
 use super::{Bug, Mutation, hits, light, moving, pieces, rays, textures, triangles};
 use bevy_ecs::prelude::*;
-use pinhole::film::{film_stage};
-use pinhole::intersect::{classify_stage, cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage, ellipsoid_surface_stage, moving_stage, moving_surface_stage, plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage, shading_normal_stage, sphere_stage, sphere_surface_stage, triangle_stage, triangle_surface_stage};
-use pinhole::look::{view_stage};
-use pinhole::rays::{lens_point_stage, lens_stage, ndc_stage, orthographic_stage, perspective_stage, place_samples_stage, raster_stage, screen_stage, time_stage, world_stage};
-use pinhole::shade::{area_light_stage, background_stage, blinn_phong_stage, checker_stage, colour_stage, cuboid_shadow_stage, directional_light_stage, disk_shadow_stage, ellipsoid_shadow_stage, emissive_stage, environment_stage, footprint_stage, gradient_stage, image_stage, lay_stage, light_stage, moving_shadow_stage, phong_stage, plane_shadow_stage, point_light_stage, rectangle_shadow_stage, sphere_shadow_stage, spot_light_stage, start_light_stage, start_shadow_stage, stripes_stage, triangle_shadow_stage, unlit_stage};
+use pinhole::film::film_stage;
+use pinhole::intersect::{
+    classify_stage, cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage,
+    ellipsoid_surface_stage, moving_stage, moving_surface_stage, plane_stage, plane_surface_stage, rectangle_stage,
+    rectangle_surface_stage, shading_normal_stage, sphere_stage, sphere_surface_stage, triangle_stage,
+    triangle_surface_stage,
+};
+use pinhole::look::view_stage;
 use pinhole::plan::Stage;
+use pinhole::rays::{
+    lens_point_stage, lens_stage, ndc_stage, orthographic_stage, perspective_stage, place_samples_stage, raster_stage,
+    screen_stage, time_stage, world_stage,
+};
+use pinhole::shade::{
+    area_light_stage, background_stage, blinn_phong_stage, checker_stage, colour_stage, cuboid_shadow_stage,
+    directional_light_stage, disk_shadow_stage, ellipsoid_shadow_stage, emissive_stage, environment_stage,
+    footprint_stage, gradient_stage, image_stage, lay_stage, light_stage, moving_shadow_stage, phong_stage,
+    plane_shadow_stage, point_light_stage, rectangle_shadow_stage, sphere_shadow_stage, spot_light_stage,
+    start_light_stage, start_shadow_stage, stripes_stage, triangle_shadow_stage, unlit_stage,
+};
 use pinhole::{intersect, shade};
 
 /// A row of the table.
