@@ -1,8 +1,8 @@
-//! Raster → NDC → screen → camera → world: a ray for every pixel, one file a space.
+//! Raster → NDC → screen → camera → world: a ray for every sample, with one file per space.
 //!
-//! Reads: the tile's rectangle, the image's shape, the camera's pinhole, lens and axes.
+//! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
-//! Each file holds the pure function of one row and the system that fills the column with it.
+//! Each file holds a pure function for one row, and the system that fills a column with it.
 
 mod camera;
 mod depth;
