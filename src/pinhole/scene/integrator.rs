@@ -42,7 +42,7 @@ pub enum Integrator {
 /// How a path tracer estimates direct light from emitters that have an area, and from the environment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LightStrategy {
-    /// BSDF sampling alone: paths hit emitters by chance.
+    /// BSDF sampling alone: an emitter contributes if a sampled direction hits it.
     Bsdf,
     /// Light sampling (next-event estimation) alone.
     Light,
