@@ -1,6 +1,6 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
 use bevy_ecs::prelude::*;
 
 /// The media around each ray's origin beyond the four that [`Media`] holds, in order of rank; exists only where more
@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 ///
 /// All rows share one list, so that a ray inside a hundred glasses needs no allocation of its own, and one outside
 /// needs no space.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeeperMedia {
     /// The end of each row's range in the list; it begins where the previous row's ends.
     end: Vec<u32>,
@@ -107,6 +107,8 @@ impl Carrier {
         std::mem::swap(&mut self.kept, with);
     }
 }
+
+column_component!(DeeperMedia);
 
 impl Column for DeeperMedia {
     const NAME: &'static str = "deeper media";

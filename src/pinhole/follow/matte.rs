@@ -81,18 +81,7 @@ pub fn matte_light_stage() -> Stage {
 }
 
 fn reading(stage: Stage) -> Stage {
-    stage
-        .kind(StageKind::Estimator)
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads_if::<SurfaceColours>()
-        .reads::<MaterialRows>()
-        .appends::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<MaterialTable>()
+    stage.kind(StageKind::Estimator).appends::<Scattered>()
 }
 
 /// Evidence that light is scattered from matte surfaces to others.

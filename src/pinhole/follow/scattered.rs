@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 
 column! {
     /// Rays scattered from surfaces, grouped by the kind of material.
-    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray) {
+    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the ray that it was scattered from.
         path: u32,
         /// Origin, x: offset from the surface by its error bound.
@@ -87,7 +87,5 @@ pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
 
 /// The stage that runs [`start_scattered`].
 pub fn start_scattered_stage() -> Stage {
-    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered)
-        .writes::<Scattered>()
-        .when(followed_evidence)
+    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered).when(followed_evidence)
 }

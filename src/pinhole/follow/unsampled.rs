@@ -1,7 +1,7 @@
 //! Materials whose BSDF no stage on offer samples.
 
 use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
-use crate::plan::{Stage, Table, TileSystems};
+use crate::plan::{Stage, Table, TableKind, TileSystems};
 use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
@@ -11,9 +11,8 @@ use bevy_ecs::prelude::*;
 /// Errors: the first shape of a material that no stage on offer samples.
 pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
-    let unsampled = |word: &'static str, table: &str, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
-        let scatters =
-            |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.iter().any(|read| read.name == table);
+    let unsampled = |word: &'static str, table: TableKind, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
+        let scatters = |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.contains(&table);
         let goes_on = |stage: &Stage| stage.set == TileSystems::RemainingBounces;
         if offer.iter().any(scatters) && offer.iter().any(goes_on) {
             return Ok(());
@@ -26,10 +25,10 @@ pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<()
             return Ok(());
         };
         let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
-        let accepted = "no stage on offer samples its BSDF; offer follow::stages(), which do";
+        let accepted = "no stage on offer samples its BSDF; offer stages::all(), which do";
         Err(SceneError::new(name, word, "given", accepted))
     };
-    unsampled("mirror", MirrorTable::NAME, &|entity| entity.contains::<Mirror>())?;
-    unsampled("glass", GlassTable::NAME, &|entity| entity.contains::<Glass>())?;
-    unsampled("metal", MetalTable::NAME, &|entity| entity.contains::<Metal>())
+    unsampled("mirror", TableKind::of::<MirrorTable>(), &|entity| entity.contains::<Mirror>())?;
+    unsampled("glass", TableKind::of::<GlassTable>(), &|entity| entity.contains::<Glass>())?;
+    unsampled("metal", TableKind::of::<MetalTable>(), &|entity| entity.contains::<Metal>())
 }

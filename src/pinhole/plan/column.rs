@@ -1,6 +1,8 @@
+use super::TileSystems;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use serde::Serialize;
+use std::any::TypeId;
 use std::fmt;
 
 /// How long a row of a column remains valid.
@@ -133,6 +135,10 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     const UNIT: &'static str;
     /// How long its rows remain valid.
     const LIFETIME: Lifetime;
+    /// The set whose stages begin it, where stages of later sets update it in place.
+    ///
+    /// None for a column that every stage which writes it writes as a whole.
+    const BEGUN: Option<TileSystems> = None;
 
     /// The number of rows.
     fn rows(&self) -> usize;
@@ -142,17 +148,42 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
 }
 
+/// Makes a type a component whose columns the plan knows as soon as bevy registers it in any world.
+///
+/// [`column!`](crate::column) uses it; columns that are written out by hand use it beside their type.
+#[macro_export]
+macro_rules! column_component {
+    ($column:ty) => {
+        impl bevy_ecs::component::Component for $column {
+            const STORAGE_TYPE: bevy_ecs::component::StorageType = bevy_ecs::component::StorageType::Table;
+            type Mutability = bevy_ecs::component::Mutable;
+
+            fn register_required_components(
+                _: bevy_ecs::component::ComponentId,
+                _: &mut bevy_ecs::component::RequiredComponentsRegistrator<'_, '_>,
+            ) {
+                $crate::plan::ColumnKind::of::<Self>().remember();
+            }
+        }
+    };
+}
+pub use column_component;
+
 /// Declares a column: its documentation, its name, space, unit and lifetime, and its components.
 ///
+/// The lifetime may be followed by `begun in` and the set whose stages begin the column; see
+/// [`Column::BEGUN`](crate::plan::Column::BEGUN).
 /// The struct gets one `Vec` per component, `slices` and `slices_mut` that give all components at one length, and an
 /// implementation of [`Column`](crate::plan::Column); a row is painted by the type's own `paint_row`.
 #[macro_export]
 macro_rules! column {
-    ($(#[$doc:meta])* pub struct $column:ident($name:literal, $space:literal, $unit:literal, $lifetime:ident) {
+    ($(#[$doc:meta])* pub struct $column:ident(
+        $name:literal, $space:literal, $unit:literal, $lifetime:ident $(, begun in $begun:ident)?
+    ) {
         $($(#[$component_doc:meta])* $component:ident: $number:ty,)+
     }) => {
         $(#[$doc])*
-        #[derive(bevy_ecs::prelude::Component, Clone, Debug, Default, PartialEq)]
+        #[derive(Clone, Debug, Default, PartialEq)]
         pub struct $column { $($(#[$component_doc])* pub $component: Vec<$number>,)+ }
 
         #[allow(dead_code, unused_parens)]
@@ -177,11 +208,14 @@ macro_rules! column {
             }
         }
 
+        $crate::column_component!($column);
+
         impl $crate::plan::Column for $column {
             const NAME: &'static str = $name;
             const SPACE: &'static str = $space;
             const UNIT: &'static str = $unit;
             const LIFETIME: $crate::plan::Lifetime = $crate::plan::Lifetime::$lifetime;
+            $(const BEGUN: Option<$crate::plan::TileSystems> = Some($crate::plan::TileSystems::$begun);)?
 
             fn rows(&self) -> usize {
                 [$(self.$component.len()),+][0]
@@ -207,6 +241,8 @@ pub use column;
 /// This one registry serves `trace`, `--view`, snapshots and statistics.
 #[derive(Clone, Copy)]
 pub struct ColumnKind {
+    /// The column's type, which identifies it.
+    pub id: TypeId,
     /// The name that `--view`, `trace` and the plan use.
     pub name: &'static str,
     /// The space of its rows.
@@ -215,6 +251,8 @@ pub struct ColumnKind {
     pub unit: &'static str,
     /// How long its rows remain valid.
     pub lifetime: Lifetime,
+    /// The set whose stages begin it, where those of later sets update it in place.
+    pub begun: Option<TileSystems>,
     /// Adds an empty column to a tile's entity.
     pub insert: fn(&mut EntityWorldMut<'_>),
     /// Whether a tile's entity has the column.
@@ -231,10 +269,12 @@ impl ColumnKind {
     /// The registry entry of a column type.
     pub fn of<C: Column>() -> Self {
         Self {
+            id: TypeId::of::<C>(),
             name: C::NAME,
             space: C::SPACE,
             unit: C::UNIT,
             lifetime: C::LIFETIME,
+            begun: C::BEGUN,
             insert: |tile| {
                 tile.insert(C::default());
             },
@@ -243,6 +283,11 @@ impl ColumnKind {
             components: |tile| tile.get::<C>().map_or_else(Vec::new, C::components),
             paint: |tile, row, size| tile.get::<C>().map_or([0.0; 3], |column| column.paint(row, size)),
         }
+    }
+
+    /// Whether it is the column of this type.
+    pub fn is<C: Column>(&self) -> bool {
+        self.id == TypeId::of::<C>()
     }
 
     /// Whether a view may show it: at the first bounce, a column of path lifetime has accumulated nothing yet.
@@ -272,9 +317,11 @@ impl ColumnKind {
 
 impl PartialEq for ColumnKind {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.id == other.id
     }
 }
+
+impl Eq for ColumnKind {}
 
 impl std::fmt::Debug for ColumnKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

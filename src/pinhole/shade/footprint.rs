@@ -8,7 +8,7 @@ use glam::DVec3;
 column! {
     /// The footprint of each pixel on the surface that it sees: the offsets from its ray's intersection with the
     /// tangent plane to those of its right and lower neighbours' rays; infinite where they do not intersect it.
-    pub struct Footprints("footprint", "world", "scene units", Ray) {
+    pub struct Footprints("footprint", "world", "scene units", Ray, begun in Footprint) {
         /// The offset to the right, x.
         rx: f64,
         /// The offset to the right, y.
@@ -88,14 +88,7 @@ pub fn measure_footprints(
 
 /// The stage that runs [`measure_footprints`].
 pub fn footprint_stage() -> Stage {
-    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .writes::<Footprints>()
-        .table::<PixelSteps>()
-        .when(filtered_evidence)
+    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints).when(filtered_evidence)
 }
 
 #[cfg(test)]

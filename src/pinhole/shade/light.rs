@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 column! {
     /// Shadow rays from surfaces to the lights that they face, light after light, with the irradiance that each carries
     /// if it is not blocked.
-    pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
+    pub struct LightRays("light", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
         path: u32,
         /// Origin, x: offset from the surface by its error bound.
@@ -281,23 +281,12 @@ pub fn add_light(
 /// The stage that clears the list.
 pub fn start_light_stage() -> Stage {
     Stage::new("Clear light rays", TileSystems::Start, start_light)
-        .writes::<LightRays>()
-        .writes::<LightPdfs>()
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that evaluates direct light on matte surfaces.
 pub fn light_stage() -> Stage {
-    Stage::new("Evaluate direct light", TileSystems::Shade, add_light)
-        .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<SurfaceColours>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .when(lit_evidence)
+    Stage::new("Evaluate direct light", TileSystems::Shade, add_light).kind(StageKind::Alternative).when(lit_evidence)
 }
 
 /// The first evidence where it is needed, or else the second.

@@ -71,44 +71,5 @@ pub use shadow::{
 pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
+pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
 pub use unintersected::check_shapes_are_intersected;
-pub use unlit::{shade_unlit, unlit_stage};
-
-use crate::plan::Stage;
-
-/// All stages of direct light, shadows and backgrounds.
-pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_stage(), start_light_stage()];
-    stages.extend(colour_stages());
-    stages.extend(background_stages());
-    stages.push(unlit_stage());
-    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
-    stages.extend([environment_light_stage(), start_shadow_stage()]);
-    stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
-    stages.extend([
-        plane_shadow_stage(),
-        disk_shadow_stage(),
-        rectangle_shadow_stage(),
-        cuboid_shadow_stage(),
-        triangle_shadow_stage(),
-        moving_shadow_stage(),
-    ]);
-    stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
-    stages.push(image_circle_stage());
-    stages
-}
-
-/// The stages that show surface colours without any light, and backgrounds.
-pub fn unlit_stages() -> Vec<Stage> {
-    vec![start_stage(), background_stage(), unlit_stage().when(unlit::shown_evidence)]
-}
-
-/// The stages of textures and the footprints that filter them.
-pub fn colour_stages() -> Vec<Stage> {
-    vec![footprint_stage(), colour_stage(), lay_stage(), checker_stage(), stripes_stage(), image_stage()]
-}
-
-/// The stages of backgrounds of every kind.
-pub fn background_stages() -> Vec<Stage> {
-    vec![background_stage(), gradient_stage(), environment_stage()]
-}
