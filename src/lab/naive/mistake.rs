@@ -10,7 +10,9 @@ use pinhole::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, sample_sky_with, cosine_pdf, frame_of};
+use pinhole::follow::{
+    GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, cosine_pdf, frame_of, sample_sky_with,
+};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{

@@ -22,7 +22,7 @@ impl CausticPaths {
 }
 
 /// Marks the camera rays that hit a non-specular surface.
-pub fn note_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
+pub fn mark_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
     for (rays, list, mut caustic) in &mut tiles {
         let spread = caustic.slices_mut(crate::plan::Column::rows(rays));
         spread.fill(0);
@@ -30,9 +30,9 @@ pub fn note_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut Caus
     }
 }
 
-/// The stage that runs [`note_caustic_paths`].
+/// The stage that runs [`mark_caustic_paths`].
 pub fn caustic_paths_stage() -> Stage {
-    Stage::new("Mark caustic paths", TileSystems::Classify, note_caustic_paths)
+    Stage::new("Mark caustic paths", TileSystems::Classify, mark_caustic_paths)
         .on_camera_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)

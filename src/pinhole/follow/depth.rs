@@ -22,9 +22,9 @@ pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
 }
 // ANCHOR_END: add_bounce
 
-// ANCHOR: step_on
+// ANCHOR: advance_to_next_bounce
 /// Turns the scattered rays into the rays of the next bounce, with no radiance yet; none at the maximum depth.
-pub fn step_on(
+pub fn advance_to_next_bounce(
     integrator: Res<Shared<IntegratorTable>>,
     mut kept: Local<Paths>,
     mut tiles: Query<(&mut Depth, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance)>,
@@ -48,10 +48,10 @@ pub fn step_on(
         [r, g, b].into_iter().for_each(|component| component.fill(0.0));
     }
 }
-// ANCHOR_END: step_on
+// ANCHOR_END: advance_to_next_bounce
 
 /// Gives the rays of the next bounce the times of the rays that they were scattered from.
-pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
+pub fn carry_times(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
     for (scattered, rays, mut times) in &mut tiles {
         let next = kept.slices_mut(rays.rows());
         next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
@@ -61,7 +61,7 @@ pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered,
 
 /// Clears the footprints of the rays of the next bounce: they are known for camera rays only, and later lookups are
 /// unfiltered.
-pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
+pub fn drop_footprints(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
     for (rays, mut footprints) in &mut tiles {
         let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
         [rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
@@ -87,7 +87,7 @@ pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, W
 // ANCHOR_END: trace_bounces
 
 /// Returns to the first bounce and gives its rows the light of their whole paths as radiance.
-pub fn gather_light(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
+pub fn sum_bounces(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
     for (mut depth, light, mut radiance) in &mut tiles {
         *depth = Depth(0);
         let (r, g, b) = radiance.slices_mut(light.rows());
@@ -103,25 +103,25 @@ pub fn add_bounce_stage() -> Stage {
 }
 
 /// The stage that advances to the next bounce.
-pub fn step_stage() -> Stage {
-    Stage::new("Advance to the next bounce", TileSystems::Step, step_on).when(followed_evidence)
+pub fn next_bounce_stage() -> Stage {
+    Stage::new("Advance to the next bounce", TileSystems::Step, advance_to_next_bounce).when(followed_evidence)
 }
 
 /// The stage that carries ray times over.
 pub fn times_stage() -> Stage {
-    Stage::new("Carry times to the next bounce", TileSystems::Step, take_times_along)
+    Stage::new("Carry times to the next bounce", TileSystems::Step, carry_times)
         .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that drops footprints.
 pub fn footprints_stage() -> Stage {
-    Stage::new("Drop footprints", TileSystems::Step, take_footprints_away)
+    Stage::new("Drop footprints", TileSystems::Step, drop_footprints)
         .on_camera_paths()
         .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that traces all later bounces.
-pub fn follow_stage() -> Stage {
+pub fn remaining_bounces_stage() -> Stage {
     Stage::new("Trace the remaining bounces", TileSystems::RemainingBounces, trace_bounces)
         .on_first_bounce()
         .reads::<WorldRays>()
@@ -136,8 +136,8 @@ pub fn follow_stage() -> Stage {
 }
 
 /// The stage that sums the light of all bounces.
-pub fn gather_stage() -> Stage {
-    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, gather_light)
+pub fn sum_bounces_stage() -> Stage {
+    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, sum_bounces)
         .on_first_bounce()
         .when(followed_evidence)
 }

@@ -115,7 +115,7 @@ impl GlassColumns<'_> {
 
 /// Samples reflection or refraction at every glass surface; a ray from a light keeps all of its power, where radiance
 /// would get its 1/η² (Veach 1997, 5.2).
-pub fn scatter_glass<const FROM_LIGHT: bool>(
+pub fn sample_glass<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
@@ -148,9 +148,9 @@ pub fn scatter_glass<const FROM_LIGHT: bool>(
 /// contribute next to nothing.
 const MIN_THROUGHPUT: f64 = 1.0 / 512.0;
 
-// ANCHOR: split_at_glass
+// ANCHOR: split_rays_at_glass
 /// Traces both rays at every glass surface (Whitted 1980), except for those with too little throughput to be seen.
-pub fn split_at_glass(
+pub fn split_rays_at_glass(
     glass: Res<Shared<GlassTable>>,
     mut tiles: Query<(
         (&WorldRays, &Paths, Option<&Media>, Option<&DeeperMedia>),
@@ -170,11 +170,11 @@ pub fn split_at_glass(
         }
     }
 }
-// ANCHOR_END: split_at_glass
+// ANCHOR_END: split_rays_at_glass
 
 /// The stage that traces both rays.
 pub fn glass_stage() -> Stage {
-    reading(Stage::new("Split rays at glass", TileSystems::SampleBsdfs, split_at_glass))
+    reading(Stage::new("Split rays at glass", TileSystems::SampleBsdfs, split_rays_at_glass))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| glass_evidence(scene).and(|| split_evidence(scene)))
@@ -182,7 +182,7 @@ pub fn glass_stage() -> Stage {
 
 /// The stage that samples one of them.
 pub fn glass_sample_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, scatter_glass::<false>))
+    reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, sample_glass::<false>))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| {
@@ -194,7 +194,7 @@ pub fn glass_sample_stage() -> Stage {
 
 /// The stage that samples one of them for paths from lights.
 pub fn glass_light_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, scatter_glass::<true>))
+    reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, sample_glass::<true>))
         .on_light_paths()
         .kind(StageKind::Alternative)
         .when(|scene| traced_evidence(scene).and(|| glass_evidence(scene)))

@@ -21,12 +21,12 @@ fn falls_by_shading(own: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
     if falls > 0.0 { (shading.dot(to_light) / falls).max(0.0) } else { 0.0 }
 }
 
-// ANCHOR: scatter_matte
+// ANCHOR: sample_matte
 /// Samples a cosine-weighted direction at every matte surface.
 ///
 /// The BRDF colour / π times the cosine, divided by the pdf cosine / π, leaves the colour as weight.
 /// A ray from a light leaves by the geometric normal, whatever normal the incident light was counted by.
-pub fn scatter_matte<const FROM_LIGHT: bool>(
+pub fn sample_matte<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut points: Local<Vec<[f64; 2]>>,
@@ -64,18 +64,18 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
         });
     }
 }
-// ANCHOR_END: scatter_matte
+// ANCHOR_END: sample_matte
 
 /// The stage for paths from the camera.
 pub fn matte_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: matte", TileSystems::SampleBsdfs, scatter_matte::<false>))
+    reading(Stage::new("Sample BSDFs: matte", TileSystems::SampleBsdfs, sample_matte::<false>))
         .on_camera_paths()
         .when(scattered_evidence)
 }
 
 /// The stage for paths from lights.
 pub fn matte_light_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: matte, from lights", TileSystems::SampleBsdfs, scatter_matte::<true>))
+    reading(Stage::new("Sample BSDFs: matte, from lights", TileSystems::SampleBsdfs, sample_matte::<true>))
         .on_light_paths()
         .when(|scene| traced_evidence(scene).and(|| scattered_evidence(scene)))
 }

@@ -72,7 +72,7 @@ impl RoughMetals<'_> {
 }
 
 /// Samples the BSDF of rough metal at every such surface, by visible microfacet normals.
-pub fn scatter_metal(
+pub fn sample_metal(
     sampling: Res<Shared<SamplingTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     (mut points, mut choices): (Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
@@ -144,7 +144,7 @@ pub fn add_metal(
 
 /// The stage that samples the BSDF.
 pub fn metal_stage() -> Stage {
-    Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, scatter_metal)
+    Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, sample_metal)
         .kind(StageKind::Estimator)
         .appends::<Scattered>()
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)

@@ -14,9 +14,9 @@ pub(super) fn mirroring_normal(shading: Option<&ShadingNormals>, row: usize, own
     if mirror_direction(direction, normal).dot(own) > 0.0 { normal } else { own }
 }
 
-// ANCHOR: scatter_mirror
+// ANCHOR: sample_mirror
 /// Reflects a ray from every mirror; the only direction of this specular BSDF.
-pub fn scatter_mirror(
+pub fn sample_mirror(
     mirrors: Res<Shared<MirrorTable>>,
     mut tiles: Query<((&WorldRays, &Paths), (&Surfaces, Option<&ShadingNormals>, &MirrorRows), &mut Scattered)>,
 ) {
@@ -34,11 +34,11 @@ pub fn scatter_mirror(
         });
     }
 }
-// ANCHOR_END: scatter_mirror
+// ANCHOR_END: sample_mirror
 
-/// The stage that runs [`scatter_mirror`].
+/// The stage that runs [`sample_mirror`].
 pub fn mirror_stage() -> Stage {
-    Stage::new("Sample BSDFs: mirror", TileSystems::SampleBsdfs, scatter_mirror)
+    Stage::new("Sample BSDFs: mirror", TileSystems::SampleBsdfs, sample_mirror)
         .appends::<Scattered>()
         .when(|scene| mirror_evidence(scene).and(|| followed_evidence(scene)))
 }

@@ -66,7 +66,7 @@ pub fn sample_sky_with(
 
 /// Shows white where a row's ray, or the ray from its surface, escapes from the scene, and black where something hides
 /// the sky.
-pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
+pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
     for (hits, rays, mut radiance) in &mut tiles {
         let rows = radiance.rows();
         let (r, g, b) = radiance.slices_mut(rows);
@@ -91,7 +91,7 @@ pub fn sky_rays_stage() -> Stage {
 
 /// The stage that shows ambient occlusion.
 pub fn sky_stage() -> Stage {
-    Stage::new("Show ambient occlusion", TileSystems::Shade, show_the_sky)
+    Stage::new("Show ambient occlusion", TileSystems::Shade, show_occlusion)
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(occlusion_evidence)

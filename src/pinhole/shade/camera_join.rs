@@ -32,7 +32,7 @@ impl JoinPoints {
 }
 
 /// Samples the points on the lens, a new one at every bounce.
-pub fn draw_join_points(
+pub fn sample_join_points(
     lens: Res<Shared<LensTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut points_of_square: Local<Vec<[f64; 2]>>,
@@ -50,7 +50,7 @@ pub fn draw_join_points(
 
 /// The stage that samples points on the lens.
 pub fn join_point_stage() -> Stage {
-    Stage::new("Sample the lens for connections", TileSystems::Join, draw_join_points)
+    Stage::new("Sample the lens for connections", TileSystems::Join, sample_join_points)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .when(|scene| traced_evidence(scene).and(|| lens_evidence(scene)))

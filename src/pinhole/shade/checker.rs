@@ -65,7 +65,7 @@ pub fn stripes_fraction(at: &TexturePoint) -> f64 {
 }
 
 /// Evaluates the colours of checkered materials.
-pub fn colour_checkers(
+pub fn evaluate_checkers(
     checkers: Res<Shared<CheckerTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
@@ -75,7 +75,7 @@ pub fn colour_checkers(
 }
 
 /// Evaluates the colours of striped materials.
-pub fn colour_stripes(
+pub fn evaluate_stripes(
     stripes: Res<Shared<StripesTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
@@ -109,13 +109,13 @@ fn colour_rows(
 
 /// The stage for checkers.
 pub fn checker_stage() -> Stage {
-    Stage::new("Evaluate textures: checkers", TileSystems::Texture, colour_checkers)
+    Stage::new("Evaluate textures: checkers", TileSystems::Texture, evaluate_checkers)
         .when(|scene| texture_of_kind::<Checker>(scene, "checkered material", |_| true))
 }
 
 /// The stage for stripes.
 pub fn stripes_stage() -> Stage {
-    Stage::new("Evaluate textures: stripes", TileSystems::Texture, colour_stripes)
+    Stage::new("Evaluate textures: stripes", TileSystems::Texture, evaluate_stripes)
         .when(|scene| texture_of_kind::<Stripes>(scene, "striped material", |_| true))
 }
 

@@ -59,7 +59,7 @@ pub fn step_on_surface(moved: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
 // ANCHOR_END: step_on_surface
 
 /// Computes the footprint of each pixel on the surface that it sees.
-pub fn measure_footprints(
+pub fn compute_footprints(
     steps: Res<Shared<PixelSteps>>,
     mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &MaterialRows, &mut Footprints)>,
 ) {
@@ -86,9 +86,9 @@ pub fn measure_footprints(
     }
 }
 
-/// The stage that runs [`measure_footprints`].
+/// The stage that runs [`compute_footprints`].
 pub fn footprint_stage() -> Stage {
-    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints).when(filtered_evidence)
+    Stage::new("Compute footprints", TileSystems::Footprint, compute_footprints).when(filtered_evidence)
 }
 
 #[cfg(test)]

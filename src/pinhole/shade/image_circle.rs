@@ -12,7 +12,7 @@ pub fn in_image_circle(screen: DVec2, circle: &ImageCircle) -> bool {
 }
 
 /// Blackens the samples outside a fisheye's image circle; they still count, so that its edge is antialiased.
-pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
+pub fn mask_image_circle(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
     for (screen, mut radiance) in &mut tiles {
         let (x, y) = screen.slices();
         let (r, g, b) = radiance.slices_mut(screen.rows());
@@ -24,9 +24,9 @@ pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&Scre
     }
 }
 
-/// The stage that runs [`blacken_outside`].
+/// The stage that runs [`mask_image_circle`].
 pub fn image_circle_stage() -> Stage {
-    Stage::new("Mask the image circle", TileSystems::Mask, blacken_outside)
+    Stage::new("Mask the image circle", TileSystems::Mask, mask_image_circle)
         .kind(StageKind::Alternative)
         .when(fisheye_evidence)
 }

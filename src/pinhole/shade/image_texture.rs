@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 /// Evaluates the colours of materials with an image texture.
-pub fn colour_images(
+pub fn evaluate_images(
     images: Res<Shared<ImageTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
@@ -43,8 +43,8 @@ fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     TexturePoint { point, steps: at.steps.map(stretched) }
 }
 
-/// The stage that runs [`colour_images`].
+/// The stage that runs [`evaluate_images`].
 pub fn image_stage() -> Stage {
-    Stage::new("Evaluate textures: images", TileSystems::Texture, colour_images)
+    Stage::new("Evaluate textures: images", TileSystems::Texture, evaluate_images)
         .when(|scene| texture_of_kind::<ImageTexture>(scene, "image texture", |_| true))
 }

@@ -97,7 +97,7 @@ pub fn face_from_space(normal: DVec3) -> DMat3 {
 }
 
 /// Computes each row's texture coordinates.
-pub fn lay_textures(
+pub fn compute_texture_points(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
     slopes: Option<Res<Shared<UvSlopes>>>,
@@ -161,9 +161,9 @@ fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
     TexturePoint { point: map.matrix * at.point + map.shift, steps: at.steps.map(|step| mapped(map.matrix, step)) }
 }
 
-/// The stage that runs [`lay_textures`].
-pub fn lay_stage() -> Stage {
-    Stage::new("Compute texture points", TileSystems::Colour, lay_textures)
+/// The stage that runs [`compute_texture_points`].
+pub fn texture_point_stage() -> Stage {
+    Stage::new("Compute texture points", TileSystems::Colour, compute_texture_points)
         .reads_where::<SurfaceUvs>(by_uv_evidence)
         .table_where::<UvSlopes>(filtered_by_uv_evidence)
         .when(texture_evidence)
