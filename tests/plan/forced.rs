@@ -2,6 +2,7 @@
 
 use super::*;
 use pinhole::film::{FilmLayers, FilmMoments};
+use pinhole::plan::Census;
 use pinhole::render::render;
 use scenes::followed::{INTEGRATORS, followed};
 
@@ -46,7 +47,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         // All pairs are forced together below, which finds all that one by one would.
         for &stage in dropped.iter().filter(|_| *alone) {
             let offer = forced(&offer, &[stage], true);
-            match pinhole::plan::plan(scene, &offer) {
+            match pinhole::plan::plan(&Census::of(scene), &offer) {
                 Ok(found) if !row(&found, stage).kept => {
                     assert_eq!(found.columns, plan.columns, "{name}: \"{stage}\" forced on, and read by nothing");
                     unread += 1;
@@ -68,7 +69,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         match film_by(scene, &offer, &one_world()) {
             Ok(film) => {
                 film.assert_is(&expected, &format!("{name}: all of {dropped:?} forced on"));
-                let plan = pinhole::plan::plan(scene, &offer).expect("plans");
+                let plan = pinhole::plan::plan(&Census::of(scene), &offer).expect("plans");
                 let kept: Vec<&str> = dropped.iter().copied().filter(|stage| row(&plan, stage).kept).collect();
                 together += kept.len();
                 tried.extend(kept);
@@ -114,7 +115,7 @@ fn what_is_written_in_the_same_set_is_not_read_there() {
         _ => stage,
     };
     let offer: Vec<Stage> = offer().into_iter().map(moved).collect();
-    let error = pinhole::plan::plan(&scene, &offer).expect_err("refused").to_string();
+    let error = pinhole::plan::plan(&Census::of(&scene), &offer).expect_err("refused").to_string();
     eprintln!("{error}");
     let words =
         ["\"Connect to the camera\"", "`join`", "\"Sample the lens for connections\"", "afterwards", "earlier set"];

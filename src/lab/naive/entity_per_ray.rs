@@ -13,7 +13,7 @@ use pinhole::extract::{
 };
 use pinhole::film::Film;
 use pinhole::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
-use pinhole::plan::{Sample, Shared, Table};
+use pinhole::plan::{Census, Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
 
@@ -66,13 +66,14 @@ impl EntityPerRay {
     ///
     /// Errors: what the kit refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
-        pinhole::extract::validate(scene)?;
-        let kinds = ShapeTable::extract(scene)?.kind;
+        let census = &Census::of(scene);
+        pinhole::extract::validate(census)?;
+        let kinds = ShapeTable::extract(census)?.kind;
         if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(SceneError::new("the scene", "shapes", "another kind of shape", accepted));
         }
-        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+        if ShapeTable::extract(census)?.material.contains(&NO_ROW) {
             let accepted = "one entity a ray knows shapes that reflect light only";
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }

@@ -1,9 +1,9 @@
-use super::material::reached_of;
+use super::material_kind::reached_of;
 use super::{
     Bounds, CuboidTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable,
     TriangleTable, shape_entities,
 };
-use crate::plan::{Evidence, Table};
+use crate::plan::{Census, Evidence};
 use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -22,32 +22,35 @@ struct Piece {
 }
 
 /// Evidence that a shape is made of glass such as this.
-pub fn glass_that(scene: &World, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
+pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
     reached_of::<Glass>(scene, noun, such)
 }
 
 /// Evidence that two shapes of glass may overlap, by the boxes about them.
 ///
 /// Triangles of one kind of glass are taken for parts of one surface.
-pub fn glass_overlaps(scene: &World) -> Evidence {
-    let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
-    // What cannot be extracted is refused before anything is rendered.
-    let Ok(pieces) = pieces(scene) else { return none() };
-    match first_overlap(pieces) {
-        None => none(),
-        Some(pair) => {
-            let entities = shape_entities(scene);
-            let [one, other] = pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
-            let reason = format!("shapes of glass may overlap: {one}, {other}");
-            Evidence { needed: true, reason, count: 2 }
+pub fn glass_overlaps(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
+        // What cannot be extracted is refused before anything is rendered.
+        let Ok(pieces) = pieces(scene) else { return none() };
+        match first_overlap(pieces) {
+            None => none(),
+            Some(pair) => {
+                let entities = shape_entities(scene);
+                let [one, other] =
+                    pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+                let reason = format!("shapes of glass may overlap: {one}, {other}");
+                Evidence { needed: true, reason, count: 2 }
+            }
         }
-    }
+    })
 }
 
 /// Evidence that more than so many shapes of glass may hold one point, by the boxes about them.
 ///
 /// It may be said of shapes that do not hold a point together, but is never missed of those that do.
-pub fn deep_glass(scene: &World, places: usize) -> Evidence {
+pub fn deep_glass(scene: &Census<'_>, places: usize) -> Evidence {
     let none = || Evidence { needed: false, reason: format!("no {} shapes of glass overlap", places + 1), count: 0 };
     // What cannot be extracted is refused before anything is rendered.
     let Ok(pieces) = pieces(scene) else { return none() };
@@ -127,16 +130,16 @@ fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
 }
 
 /// Every shape of glass.
-fn pieces(scene: &World) -> Result<Vec<Piece>, SceneError> {
-    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
+fn pieces(scene: &Census<'_>) -> Result<Vec<Piece>, SceneError> {
+    let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];
         material != NO_ROW && materials.kind[material as usize] == MaterialKind::Glass
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
-    let spheres = SphereTable::extract(scene)?;
-    let (ellipsoids, cuboids) = (EllipsoidTable::extract(scene)?, CuboidTable::extract(scene)?);
-    let triangles = TriangleTable::extract(scene)?;
+    let spheres = scene.table::<SphereTable>()?;
+    let (ellipsoids, cuboids) = (scene.table::<EllipsoidTable>()?, scene.table::<CuboidTable>()?);
+    let triangles = scene.table::<TriangleTable>()?;
     let pieces = glass.into_iter().map(|shape| {
         let row = shapes.row[shape] as usize;
         let bounds = match shapes.kind[shape] {

@@ -1,14 +1,8 @@
-use super::MaterialKind;
 use super::check::{kind_and_name, number, reflectance};
-use super::material::{material_entities, material_kind, reached_of};
-use crate::plan::{Evidence, Table};
+use super::material_kind::{MaterialKind, SMOOTHEST_METAL, material_entities, material_kind, reached_of};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Metal, SceneError};
 use bevy_ecs::prelude::*;
-
-/// The least α with which metal is rough; below it, it is a perfect mirror.
-///
-/// There its highlight falls to half within 0.07° of its middle.
-pub const SMOOTHEST_METAL: f64 = 1e-3;
 
 /// Rough metals, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,9 +16,9 @@ pub struct MetalTable {
 impl Table for MetalTable {
     const NAME: &'static str = "metals";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in material_entities(scene) {
+        for &entity in material_entities(scene).iter() {
             if material_kind(scene, entity) == Some(MaterialKind::Metal) {
                 let (colour, alpha) = metal_numbers(scene, entity)?;
                 table.colour.push(colour);
@@ -40,7 +34,7 @@ impl Table for MetalTable {
 }
 
 /// A metal's colour and roughness, checked.
-pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], f64), SceneError> {
+pub(super) fn metal_numbers(scene: &Census<'_>, entity: Entity) -> Result<([f64; 3], f64), SceneError> {
     let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
     let who = kind_and_name(scene, "metal", entity);
     let colour = reflectance(&who, "colour", metal.colour)?.to_array();
@@ -51,33 +45,26 @@ pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], 
     }
 }
 
-/// Checks a metal's numbers; equally in all directions it sends on nothing.
-pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
-    metal_numbers(scene, entity).map(|_| [0.0; 3])
-}
-
-/// Whether metal is a mirror of its own.
-pub(super) fn metal_kind(scene: &World, entity: Entity) -> MaterialKind {
-    let smooth = scene.get::<Metal>(entity).is_some_and(|metal| metal.roughness < SMOOTHEST_METAL);
-    if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
-}
-
 /// Of each row of [`MetalTable`], whether light that meets several of its tiny mirrors comes out too.
-pub fn metals_of_several_mirrors(scene: &World) -> Vec<bool> {
-    let rough = material_entities(scene).into_iter();
-    let rough = rough.filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
+pub fn metals_of_several_mirrors(scene: &Census<'_>) -> Vec<bool> {
+    let materials = material_entities(scene);
+    let rough = materials.iter().copied().filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
     rough.map(|entity| scene.get::<Metal>(entity).is_some_and(|metal| metal.multiple_scattering)).collect()
 }
 
 /// Evidence of light that meets several tiny mirrors.
-pub fn multiple_scattering_evidence(scene: &World) -> Evidence {
-    reached_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
-        metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
+pub fn multiple_scattering_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        reached_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
+            metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
+        })
     })
 }
 
 /// Evidence that a shape is made of rough metal.
-pub fn metal_evidence(scene: &World) -> Evidence {
-    // What is no number counts, so that it is refused and not overlooked.
-    reached_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+pub fn metal_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        // What is no number counts, so that it is refused and not overlooked.
+        reached_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+    })
 }

@@ -1,5 +1,6 @@
 use super::check::{finite_point, number, triple};
-use super::motion::way_before_opening;
+use super::velocity::way_before_opening;
+use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -8,6 +9,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 const UNIT_TOLERANCE: f64 = 1e-6;
 /// Sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
 const LEAST_SINE: f64 = 1e-6;
+/// How far the three scales of a sphere may differ, relative to the first, and still be rounding.
+const EVEN_TOLERANCE: f64 = 1e-9;
 const ONE_OF_THE_TWO: &str = "a LookAt already says where it stands and looks: give one of the two";
 
 /// Where an entity's own space lies in the world.
@@ -24,12 +27,12 @@ pub struct Pose {
 /// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
 ///
 /// `who` is how a refusal calls the entity, such as `sphere "ball"`.
-pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
+pub fn world_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
 /// The way an entity looks: its own −z in the world, a unit vector.
-pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
+pub fn ahead(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
     let along = world_from_entity(scene, who, entity)?.matrix3 * DVec3::NEG_Z;
     let accepted = "its −z must keep a direction";
     direction(along)
@@ -38,7 +41,7 @@ pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, SceneErr
 
 // ANCHOR: pose
 /// The same map with its inverse.
-pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
+pub fn pose(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
     let (mut child, mut seen) = (entity, vec![entity]);
     while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
@@ -66,7 +69,7 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError
 // ANCHOR_END: pose
 
 /// The same up to the entity's parent only.
-fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
+fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
     let look_at = scene.get::<LookAt>(entity);
     let position = finite_point(who, "position", placement.position)?;
@@ -104,6 +107,24 @@ fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, 
         world_from_entity: DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin },
         entity_from_world: DMat3::from_diagonal(1.0 / scale) * axes.transpose(),
     })
+}
+
+/// Whether the entity's placement and its parents' together scale unevenly, so that a sphere becomes an ellipsoid.
+///
+/// A placement that is refused counts as even: extraction will say what is wrong with it.
+pub fn unevenly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
+    let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
+    let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
+    !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
+}
+
+/// Whether a map stretches every direction by the same factor, mirrored or not.
+fn is_even(world_from_entity: DMat3) -> bool {
+    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
+    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    let uneven = (lengths - lengths.x).abs().max_element();
+    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
 }
 
 // ANCHOR: point_object_from_world

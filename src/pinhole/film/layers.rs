@@ -1,6 +1,6 @@
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
 use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems};
+use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems};
 use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
 use crate::scene::LayerKind;
 use crate::shade::SurfaceColours;
@@ -214,7 +214,7 @@ pub fn layers_stage() -> Stage {
         .when(|scene| layer_evidence(scene, "layer request", |_| true))
 }
 
-fn albedo_evidence(scene: &World) -> Evidence {
+fn albedo_evidence(scene: &Census<'_>) -> Evidence {
     layer_evidence(scene, "albedo layer", |kind| kind == LayerKind::Albedo)
 }
 

@@ -1,6 +1,6 @@
 use super::FilmTile;
 use crate::extract::layer_evidence;
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems};
+use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems};
 use crate::rays::{PixelSamples, sampling_evidence};
 use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
@@ -91,7 +91,7 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
 }
 
 /// Whether anyone asks how noisy the pixels are.
-pub fn variance_evidence(scene: &World) -> Evidence {
+pub fn variance_evidence(scene: &Census<'_>) -> Evidence {
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
     let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)

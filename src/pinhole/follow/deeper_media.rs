@@ -1,6 +1,6 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime};
+use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime};
 use bevy_ecs::prelude::*;
 
 /// What else each ray's origin lies in beyond the four kinds of glass that [`Media`] names, in order of rank; exists only
@@ -126,7 +126,7 @@ impl Column for DeeperMedia {
 }
 
 /// Evidence that a ray may lie in more than four shapes of glass at once.
-pub fn deeper_media_evidence(scene: &World) -> Evidence {
+pub fn deeper_media_evidence(scene: &Census<'_>) -> Evidence {
     glass_evidence(scene).and(|| followed_evidence(scene)).and(|| deep_glass(scene, Media::PLACES))
 }
 

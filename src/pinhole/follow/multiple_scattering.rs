@@ -1,6 +1,6 @@
 use super::{cosine_pdf, ggx_sample};
 use crate::extract::{MetalTable, metals_of_several_mirrors};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -73,8 +73,8 @@ pub fn found_again(colour: f64, lost: f64) -> f64 {
 impl Table for MultipleScatteringTable {
     const NAME: &'static str = "multiple scattering";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (metals, several) = (MetalTable::extract(scene)?, metals_of_several_mirrors(scene));
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (metals, several) = (scene.table::<MetalTable>()?, metals_of_several_mirrors(scene));
         let mut table = Self::default();
         for (metal, several) in several.into_iter().enumerate() {
             table.push(metals.colour[metal], several.then_some(metals.alpha[metal]));

@@ -1,7 +1,7 @@
 //! Matter that no stage on offer sends light on from.
 
-use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
-use crate::plan::{Stage, Table, TileSystems};
+use crate::extract::{GlassTable, MetalTable, MirrorTable, followed_evidence, shape_entities, shape_name};
+use crate::plan::{Census, Stage, Table, TileSystems};
 use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 /// offers the stages taught so far, and such matter would be black in its picture without a word.
 ///
 /// Errors: the first shape of such matter that no stage on offer sends light on from.
-pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
+pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
     let unmet = |word: &'static str, table: &str, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
         let scatters =
@@ -25,9 +25,8 @@ pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<()
         let Some(first) = shapes.iter().position(made).filter(|_| followed_evidence(scene).needed) else {
             return Ok(());
         };
-        let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
         let accepted = "no stage on offer sends light on from it; offer follow::stages(), which do";
-        Err(SceneError::new(name, word, "given", accepted))
+        Err(SceneError::new(shape_name(scene, first), word, "given", accepted))
     };
     unmet("mirror", MirrorTable::NAME, &|entity| entity.contains::<Mirror>())?;
     unmet("glass", GlassTable::NAME, &|entity| entity.contains::<Glass>())?;

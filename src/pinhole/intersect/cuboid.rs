@@ -6,7 +6,7 @@ use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, 
 use super::uv::cuboid_uv;
 use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Cuboid;
 use bevy_ecs::prelude::*;
@@ -261,6 +261,6 @@ pub fn cuboid_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a cuboid.
-pub fn cuboid_evidence(scene: &World) -> Evidence {
+pub fn cuboid_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Cuboid>(scene, "cuboid")
 }

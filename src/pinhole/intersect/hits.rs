@@ -1,6 +1,6 @@
 use super::cuboid::cuboid_evidence;
 use super::plane::plane_evidence;
-use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::scene::{Disk, Rectangle, Sphere, Triangle};
 use bevy_ecs::prelude::*;
@@ -85,7 +85,7 @@ pub fn start_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a shape of any kind.
-pub fn shape_evidence(scene: &World) -> Evidence {
+pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Sphere>(scene, "sphere")
         .or(plane_evidence(scene))
         .or(Evidence::of::<Disk>(scene, "disk"))

@@ -2,7 +2,7 @@ use super::classify::PlaneRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Plane;
 use bevy_ecs::prelude::*;
@@ -115,6 +115,6 @@ pub fn plane_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a plane.
-pub fn plane_evidence(scene: &World) -> Evidence {
+pub fn plane_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Plane>(scene, "plane")
 }

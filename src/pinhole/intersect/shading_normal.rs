@@ -2,7 +2,7 @@ use super::classify::TriangleRows;
 use super::triangle_surface::Meeting;
 use super::{Hits, Surfaces};
 use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
-use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
 use bevy_ecs::prelude::*;
@@ -99,7 +99,7 @@ pub fn shading_normal_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a triangle whose corners have normals.
-pub fn vertex_normal_evidence(scene: &World) -> Evidence {
+pub fn vertex_normal_evidence(scene: &Census<'_>) -> Evidence {
     let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
     Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)
 }

@@ -4,7 +4,7 @@ use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, 
 use super::uv::sphere_uv;
 use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
 use bevy_ecs::prelude::*;
@@ -267,7 +267,7 @@ pub fn sphere_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a sphere that stays one.
-pub fn sphere_evidence(scene: &World) -> Evidence {
+pub fn sphere_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere) && !moves(sphere))
 }

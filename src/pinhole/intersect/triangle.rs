@@ -2,7 +2,7 @@ use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vect
 use super::triangle_exact::exact_triangle_t;
 use super::{HitColumn, Hits, RayBlockMut, RayColumn};
 use crate::extract::{TriangleRow, TriangleTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
 use bevy_ecs::prelude::*;
@@ -273,7 +273,7 @@ pub fn triangle_stage() -> Stage {
 }
 
 /// Evidence that the scene holds a triangle.
-pub fn triangle_evidence(scene: &World) -> Evidence {
+pub fn triangle_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Triangle>(scene, "triangle")
 }
 

@@ -1,7 +1,7 @@
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Column, ExtractedTable, Plan, Stage, Table};
+use crate::plan::{Census, Column, ExtractedTable, Plan, Stage, Table};
 use crate::rays::{Depth, Tile};
 use crate::render::{Hook, look_at_pieces, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
@@ -64,8 +64,8 @@ struct Counted {
 /// time is up.
 ///
 /// Errors: an image without a shape.
-pub fn pilot(scene: &World, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
-    let image = ImageFrame::extract(scene)?;
+pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
+    let image = *scene.table::<ImageFrame>()?;
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
     let pieces = pieces(image, side);
     let mut pilot = Pilot { pieces: pieces.len(), ..Pilot::default() };

@@ -4,9 +4,10 @@ use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, traced_evidence,
+    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, shape_name,
+    traced_evidence,
 };
-use crate::plan::{Evidence, ExtractedTable, Plan, Table};
+use crate::plan::{Census, Evidence, ExtractedTable, Plan};
 use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
@@ -48,19 +49,19 @@ impl Preflight {
 /// That ends after about a second, whatever the scene: what is said then rests on the rays that have come to an end.
 /// `prepared` are the plan and the tables that the render has of the scene.
 /// Errors: what the render would be refused for.
-pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), asked: Preflight) -> Result<Vec<String>> {
+pub fn preflight(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), asked: Preflight) -> Result<Vec<String>> {
     if prepared.0.view.is_some() {
         return Ok(Vec::new());
     }
     let pilot = pilot(scene, prepared, asked.patience.unwrap_or(PATIENCE))?;
-    let shapes = ShapeTable::extract(scene).map_err(Error::from)?;
-    let (effort, max_depth) = (effort(scene, asked)?, IntegratorTable::extract(scene)?.max_depth);
+    let shapes = scene.table::<ShapeTable>().map_err(Error::from)?;
+    let (effort, max_depth) = (effort(scene, asked)?, scene.table::<IntegratorTable>()?.max_depth);
     let mut told = Vec::new();
     if pilot.rays > 0 {
         told.extend(by_pilot(scene, &pilot, &shapes));
         told.extend(many_bounces(&pilot, max_depth));
     } else {
-        told.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.name.len()), effort));
+        told.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.kind.len()), effort));
     }
     told.extend(shape_around_camera(scene, &shapes)?);
     told.extend(unseen(scene));
@@ -72,14 +73,14 @@ pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), asked: Pre
 }
 
 /// What a few rays tell of the picture.
-fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
+fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
     let share = |count: usize| count as f64 / pilot.rays.max(1) as f64;
     let mut told = Vec::new();
     // Light that is traced from lights is not among what the pilot brings.
     let traced = traced_evidence(scene).needed && point_evidence(scene).or(emissive_evidence(scene)).needed;
     if share(pilot.black) >= NEARLY_ALL && !traced {
-        told.push(format!("the picture is likely to be black: {}", why_black(scene, pilot, shapes)));
-    } else if pilot.met == 0 && !shapes.name.is_empty() {
+        told.push(format!("the picture is likely to be black: {}", why_black(scene, pilot)));
+    } else if pilot.met == 0 && !shapes.kind.is_empty() {
         told.push(format!("none of {} rays tried all over the picture meets a shape", pilot.rays));
     }
     let percent = 100.0 * share(pilot.beyond_white);
@@ -92,7 +93,7 @@ fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
     told
 }
 
-fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
+fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     let (points, areas) = (point_evidence(scene), emissive_evidence(scene).or(environment_evidence(scene)));
     let aimed = points.needed || light_sampling_evidence(scene).needed;
     let lit = points.or(areas);
@@ -125,28 +126,28 @@ fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
     }
     if blocked == pilot.to_lights {
         let most = pilot.blocked.iter().max_by_key(|(_, count)| **count);
-        let name = most.and_then(|(&shape, _)| shapes.name.get(shape as usize)).cloned().unwrap_or_default();
+        let name = most.map_or_else(String::new, |(&shape, _)| shape_name(scene, shape as usize));
         return format!("each of {blocked} rays to lights is blocked, most of them by the {name}");
     }
     format!("so little light arrives ({}) that nearly all of it is below what can be seen", lit.reason)
 }
 
-fn environment_evidence(scene: &World) -> Evidence {
+fn environment_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Environment>(scene, "environment")
 }
 
 /// How many samples there are to take, a way from a light being one; without an end by time.
-fn effort(scene: &World, asked: Preflight) -> Result<Effort> {
-    let image = ImageFrame::extract(scene)?;
+fn effort(scene: &Census<'_>, asked: Preflight) -> Result<Effort> {
+    let image = scene.table::<ImageFrame>()?;
     let pixels = f64::from(image.width) * f64::from(image.height);
-    let paths = if traced_evidence(scene).needed { LightTracingTable::extract(scene)?.paths } else { 0.0 };
-    let samples = f64::from(SamplingTable::extract(scene)?.samples) * (1.0 + paths);
+    let paths = if traced_evidence(scene).needed { scene.table::<LightTracingTable>()?.paths } else { 0.0 };
+    let samples = f64::from(scene.table::<SamplingTable>()?.samples) * (1.0 + paths);
     let threads = asked.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     Ok(Effort { samples: (!asked.ends_in_time).then_some(samples * pixels), threads })
 }
 
 /// What the integrator cannot find in this scene at all.
-fn out_of_reach(scene: &World) -> Vec<String> {
+fn out_of_reach(scene: &Census<'_>) -> Vec<String> {
     let (points, bends) = (point_evidence(scene), glass_evidence(scene).or(mirror_evidence(scene)));
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();

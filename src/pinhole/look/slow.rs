@@ -1,4 +1,5 @@
 use super::pilot::Pilot;
+use crate::plan::Census;
 use crate::shade::point_evidence;
 use bevy_ecs::prelude::*;
 
@@ -60,7 +61,7 @@ pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
 }
 
 /// What makes a ray slow in this scene.
-pub fn why_slow(scene: &World, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
+pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
     if f64::from(pilot.deepest) >= MANY_BOUNCES {
         return format!(
             "after {} bounces its path still went on, and the integrator allows {max_depth} max_depth; a smaller number, or surfaces \

@@ -1,4 +1,4 @@
-use super::{ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
+use super::{Census, ColumnKind, Lifetime, Stage, TableKind, TileSystems};
 use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
 use serde::Serialize;
@@ -102,7 +102,7 @@ pub struct Plan {
 /// Decides which of the stages on offer this scene needs.
 ///
 /// Pure and deterministic: the same scene and offer give the same plan.
-pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
+pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     // Where stages of one set add to the same sums, their order must not depend on who offered which first.
     let by_name = |stage: &Stage| if stage.set.order_free() { "" } else { stage.name };
@@ -144,7 +144,7 @@ pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     names
 }
 
-fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTreeSet<&'static str>) -> PlanRow {
+fn decide(scene: &Census<'_>, stage: &Stage, view: Option<ColumnKind>, wanted: &BTreeSet<&'static str>) -> PlanRow {
     let evidence = (stage.when)(scene);
     let is_film = stage.writes.iter().any(|column| column.lifetime == Lifetime::Film);
     let read: Vec<&'static str> = stage
@@ -237,7 +237,7 @@ fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     })
 }
 
-fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKind>) -> Plan {
+fn collect(scene: &Census<'_>, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKind>) -> Plan {
     let (mut columns, mut tables): (Vec<ColumnKind>, Vec<TableKind>) = (Vec::new(), Vec::new());
     let (mut stages, mut rows) = (Vec::new(), Vec::new());
     for (stage, row) in decided {
@@ -263,6 +263,6 @@ fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKi
     Plan { rows, stages, columns, tables, passes, view, statistics: requested::<Statistics>(scene).is_some() }
 }
 
-fn requested<R: Component>(scene: &World) -> Option<&R> {
-    entities::<With<R>>(scene).first().and_then(|&entity| scene.get::<R>(entity))
+fn requested<'s, R: Component>(scene: &'s Census<'_>) -> Option<&'s R> {
+    scene.entities::<With<R>>().first().and_then(|&entity| scene.get::<R>(entity))
 }

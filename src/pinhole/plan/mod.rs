@@ -7,6 +7,7 @@
 //! A stage is kept when the scene needs it *and* something that is kept, or a request, reads what it writes.
 //! What is dropped is never built, so it costs nothing.
 
+mod census;
 mod column;
 mod decide;
 mod evidence;
@@ -15,6 +16,7 @@ mod stage;
 mod systems;
 mod table;
 
+pub use census::Census;
 pub use column::{
     Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
 };

@@ -1,4 +1,4 @@
-use super::{Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
+use super::{Census, Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
@@ -33,7 +33,7 @@ pub struct Stage {
     /// Columns it reads where they exist.
     pub reads_if: Vec<ColumnKind>,
     /// Columns it reads where they exist, and for which the scene itself must give a reason.
-    pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
+    pub reads_where: Vec<(ColumnKind, fn(&Census<'_>) -> Evidence)>,
     /// Columns it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
     /// Whether it runs on every leg of light's way, or on the first one only.
@@ -45,13 +45,13 @@ pub struct Stage {
     /// Tables it reads.
     pub tables: Vec<TableKind>,
     /// Tables it reads where the scene gives a reason for them.
-    pub tables_where: Vec<(TableKind, fn(&World) -> Evidence)>,
+    pub tables_where: Vec<(TableKind, fn(&Census<'_>) -> Evidence)>,
     /// Tables it reads where a column that it writes is read.
     pub tables_with: Vec<(TableKind, ColumnKind)>,
     /// Whether it reads the column that a `View` asks for.
     pub reads_view: bool,
     /// Whether a scene needs it.
-    pub when: fn(&World) -> Evidence,
+    pub when: fn(&Census<'_>) -> Evidence,
     /// The system as a configuration, made anew for each schedule.
     pub system: Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>,
 }
@@ -119,7 +119,7 @@ impl Stage {
     }
 
     /// It reads this column where it exists, and it asks for it only where the scene gives a reason.
-    pub fn reads_where<C: Column>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn reads_where<C: Column>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.reads_where.push((ColumnKind::of::<C>(), predicate));
         self
     }
@@ -143,7 +143,7 @@ impl Stage {
     }
 
     /// It reads this table where the scene gives a reason for it.
-    pub fn table_where<T: Table>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn table_where<T: Table>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.tables_where.push((TableKind::of::<T>(), predicate));
         self
     }
@@ -155,7 +155,7 @@ impl Stage {
     }
 
     /// The tables it reads of this scene, where of the columns that it writes these are read.
-    pub fn tables_for(&self, scene: &World, columns: &[&'static str]) -> Vec<TableKind> {
+    pub fn tables_for(&self, scene: &Census<'_>, columns: &[&'static str]) -> Vec<TableKind> {
         let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
         let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(&column.name));
         let more = asked.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
@@ -169,7 +169,7 @@ impl Stage {
     }
 
     /// The scene's say.
-    pub fn when(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn when(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.when = predicate;
         self
     }

@@ -1,3 +1,4 @@
+use super::Census;
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use std::ops::Deref;
@@ -7,8 +8,9 @@ use std::sync::Arc;
 pub trait Table: Sized + Send + Sync + 'static {
     /// The word that the plan uses.
     const NAME: &'static str;
-    /// Reads the table off the scene, in spawn order, relative to the eye.
-    fn extract(scene: &World) -> Result<Self, SceneError>;
+    /// Reads the table off the scene, in spawn order, relative to the eye; other tables that it builds on come from the
+    /// [census](Census::table), and whoever wants this one asks there too.
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError>;
     /// Bytes that its arrays take.
     fn bytes(&self) -> usize;
 }
@@ -37,7 +39,7 @@ pub struct TableKind {
     /// The word that the plan uses.
     pub name: &'static str,
     /// Reads it off the scene.
-    pub extract: fn(&World) -> Result<ExtractedTable, SceneError>,
+    pub extract: fn(&Census<'_>) -> Result<ExtractedTable, SceneError>,
     /// Whether a render world holds it.
     pub present: fn(&World) -> bool,
 }
@@ -58,7 +60,7 @@ impl TableKind {
         Self {
             name: T::NAME,
             extract: |scene| {
-                let table = Arc::new(T::extract(scene)?);
+                let table = scene.table::<T>()?;
                 let bytes = table.bytes();
                 let insert = Box::new(move |world: &mut World| world.insert_resource(Shared(Arc::clone(&table))));
                 Ok(ExtractedTable { name: T::NAME, bytes, insert })

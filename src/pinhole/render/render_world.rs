@@ -5,7 +5,9 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::{Stop, check_materials_are_followed, is_whole};
-use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
+use crate::plan::{
+    Bounce, Census, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan,
+};
 use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_intersected;
 use bevy_ecs::prelude::*;
@@ -24,7 +26,7 @@ struct HookTurn(usize, usize);
 /// Checks a scene, plans it, and reads its tables.
 ///
 /// Errors: what the scene is refused for, or why there is no plan.
-pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
+pub fn prepare(scene: &Census<'_>, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
     check_shapes_are_intersected(scene, offer, &plan)?;

@@ -2,7 +2,7 @@ use super::clock::Lap;
 use super::{Execution, Limits, RenderInProgress, Watch, render_in_passes};
 use crate::extract::adaptive_of;
 use crate::film::{Curve, Film};
-use crate::plan::{Plan, Stage};
+use crate::plan::{Census, Plan, Stage};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::time::Duration;
@@ -34,6 +34,7 @@ impl Rendered {
 ///
 /// Errors: a refused scene, no plan, or a stop by the one who watches.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
+    let scene = &Census::of(scene);
     let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;
     match adaptive_of(scene)? {
         None => in_progress.advance(in_progress.steps(), watch)?,

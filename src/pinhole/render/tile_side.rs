@@ -1,5 +1,5 @@
 use crate::extract::shape_entities;
-use crate::plan::{Column, Plan};
+use crate::plan::{Census, Column, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
 use bevy_ecs::prelude::*;
 
@@ -16,7 +16,7 @@ const LEAST: u32 = 2;
 ///
 /// From every pixel a ray goes to each light without an area, and all of a tile's are held at once.
 /// No bit of a picture depends on the side.
-pub(super) fn tile_side(scene: &World, plan: &Plan, most: u32) -> u32 {
+pub(super) fn tile_side(scene: &Census<'_>, plan: &Plan, most: u32) -> u32 {
     let of_light = |name: &str| [LightRays::NAME, LightPdfs::NAME, ShadowHits::NAME].contains(&name);
     let columns = plan.columns.iter().filter(|column| of_light(column.name));
     let bytes: usize = columns.map(|column| column.bytes_a_row()).sum();

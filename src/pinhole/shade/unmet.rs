@@ -1,9 +1,9 @@
 //! Shapes that no stage on offer meets.
 
 use super::shadow::ShadowHits;
-use crate::extract::ShapeTable;
+use crate::extract::{ShapeTable, shape_name};
 use crate::intersect::{Hits, Surfaces};
-use crate::plan::{Column, Plan, Stage, Table};
+use crate::plan::{Census, Column, Plan, Stage, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 
@@ -12,7 +12,7 @@ use bevy_ecs::prelude::*;
 /// be missing from its picture without a word.
 ///
 /// Errors: the first shape that no stage on offer looks for.
-pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
+pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
     let meets = |column: &str, table: &str| {
         let writes = |stage: &Stage| stage.writes.iter().any(|written| written.name == column);
         offer.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
@@ -26,11 +26,11 @@ pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan)
         if !plan.columns.iter().any(|kept| kept.name == column) {
             continue;
         }
-        let shapes = ShapeTable::extract(scene)?;
-        let unmet = shapes.kind.iter().zip(&shapes.name).find(|(kind, _)| !meets(column, kind.table()));
-        if let Some((kind, name)) = unmet {
+        let shapes = scene.table::<ShapeTable>()?;
+        let unmet = shapes.kind.iter().enumerate().find(|(_, kind)| !meets(column, kind.table()));
+        if let Some((shape, kind)) = unmet {
             let value = format!("in the table of {}", kind.table());
-            return Err(SceneError::new(name.clone(), "shape", value, accepted));
+            return Err(SceneError::new(shape_name(scene, shape), "shape", value, accepted));
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::extract::camera_entity;
-use pinhole::plan::entities;
+use pinhole::plan::{Census, entities};
 use pinhole::scene::*;
 
 /// Everything 2ᵏ times as large and as far away, every light 4ᵏ times as strong: the same picture in other units.
@@ -176,16 +176,17 @@ mod tests {
             assert_eq!(place(&moved), DVec3::new(1.5, 2.0, 3.0));
             assert_eq!(pinhole::extract::eye(&moved), Ok(DVec3::new(1.0, 2.0, 7.0)));
             // From the eye nothing has moved, also not what hangs on a parent.
-            let of = |world: &World| SphereTable::extract(world).expect("spheres");
+            let of = |world: &World| SphereTable::extract(&Census::of(world)).expect("spheres");
             assert_eq!(of(&moved).x, of(&scene(with_child)).x);
 
             let mut turned = scene(with_child);
             let half = std::f64::consts::FRAC_1_SQRT_2;
             turn(&mut turned, DQuat::from_xyzw(0.0, 0.0, half, half));
             assert!((place(&turned) - DVec3::Y * 0.5).length() < 1e-15);
-            let axes = CameraAxes::extract(&turned).expect("axes").world_from_camera;
+            let census = &Census::of(&turned);
+            let axes = CameraAxes::extract(census).expect("axes").world_from_camera;
             assert!((axes.y_axis + DVec3::X).length() < 1e-15);
-            let normal = PlaneTable::extract(&turned).expect("planes").normal[0];
+            let normal = PlaneTable::extract(census).expect("planes").normal[0];
             assert!((normal + DVec3::X).length() < 1e-7);
 
             let mut large = scene(with_child);

@@ -1,0 +1,152 @@
+//! Which entities are a material, of which kind, and which of them shapes are made of.
+
+use super::check::kind_and_name;
+use super::shape_kind::shape_entities;
+use crate::plan::{Census, Evidence};
+use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, SceneError, UsesMaterial};
+use bevy_ecs::prelude::*;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// The least α with which metal is rough; below it, it is a perfect mirror.
+///
+/// There its highlight falls to half within 0.07° of its middle.
+pub const SMOOTHEST_METAL: f64 = 1e-3;
+
+/// In the place of a row of a table: none.
+pub const NO_ROW: u32 = u32::MAX;
+
+/// The kinds of material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaterialKind {
+    /// It sends the light it gets equally in all directions.
+    Matte,
+    /// A row of the table of Phong highlights.
+    Phong,
+    /// A row of the table of Blinn–Phong highlights.
+    BlinnPhong,
+    /// A row of the table of mirrors.
+    Mirror,
+    /// A row of the table of glass.
+    Glass,
+    /// A row of the table of metals.
+    Metal,
+}
+
+impl MaterialKind {
+    /// How many kinds there are.
+    pub(super) const COUNT: usize = 6;
+
+    /// Whether it spreads the light of a lamp over many directions, so that light aimed at it from there is seen.
+    pub const fn spreads(self) -> bool {
+        !matches!(self, Self::Mirror | Self::Glass)
+    }
+}
+
+/// A kind of material as an author writes it.
+pub(super) struct Written {
+    /// The component's name.
+    component: &'static str,
+    /// What messages call it.
+    pub(super) word: &'static str,
+    pub(super) kind: fn(&Census<'_>, Entity) -> MaterialKind,
+    entities: fn(&Census<'_>) -> Arc<[Entity]>,
+    carries: fn(&Census<'_>, Entity) -> bool,
+}
+
+impl Written {
+    const fn of<C: Component>(
+        component: &'static str,
+        word: &'static str,
+        kind: fn(&Census<'_>, Entity) -> MaterialKind,
+    ) -> Self {
+        let carries = |scene: &Census<'_>, entity: Entity| scene.get::<C>(entity).is_some();
+        Self { component, word, kind, entities: |scene| scene.entities::<With<C>>(), carries }
+    }
+}
+
+/// Every component that is a material; a new one joins with a line.
+const WRITTEN: &[Written] = &[
+    Written::of::<Matte>("Matte", "matte", |_, _| MaterialKind::Matte),
+    Written::of::<Phong>("Phong", "phong", |_, _| MaterialKind::Phong),
+    Written::of::<BlinnPhong>("BlinnPhong", "blinn_phong", |_, _| MaterialKind::BlinnPhong),
+    Written::of::<Mirror>("Mirror", "mirror", |_, _| MaterialKind::Mirror),
+    Written::of::<Glass>("Glass", "glass", |_, _| MaterialKind::Glass),
+    Written::of::<Metal>("Metal", "metal", |scene, entity| {
+        let smooth = scene.get::<Metal>(entity).is_some_and(|metal| metal.roughness < SMOOTHEST_METAL);
+        if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
+    }),
+];
+
+/// The enabled entities that carry a material, in spawn order; a row of the table is an entity here.
+pub fn material_entities(scene: &Census<'_>) -> Arc<[Entity]> {
+    scene.once(|scene| {
+        let lists: Vec<Arc<[Entity]>> = WRITTEN.iter().map(|written| (written.entities)(scene)).collect();
+        let mut materials: Vec<Entity> = lists.iter().flat_map(|list| list.iter().copied()).collect();
+        materials.sort_by_key(|material| material.index());
+        materials.dedup();
+        materials.into()
+    })
+}
+
+/// The kind of an entity's material; none where it carries none.
+pub(super) fn material_kind(scene: &Census<'_>, entity: Entity) -> Option<MaterialKind> {
+    let written = WRITTEN.iter().find(|written| (written.carries)(scene, entity));
+    written.map(|written| (written.kind)(scene, entity))
+}
+
+/// The enabled entity whose material a shape is made of: itself, or the one that it uses.
+pub(super) fn used_material(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
+    let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
+    let is_there = |entity: &Entity| is_material(scene, *entity) && scene.get::<Disabled>(*entity).is_none();
+    [Some(shape), used].into_iter().flatten().find(is_there)
+}
+
+/// Whether an entity, enabled or not, carries a material.
+pub(super) fn is_material(scene: &Census<'_>, entity: Entity) -> bool {
+    WRITTEN.iter().any(|written| (written.carries)(scene, entity))
+}
+
+/// The components that are a material, in words: `Matte, Phong … or Metal`.
+pub(super) fn materials_in_words() -> String {
+    let names: Vec<&str> = WRITTEN.iter().map(|written| written.component).collect();
+    let (last, others) = names.split_last().unwrap_or((&"", &[]));
+    format!("{} or {last}", others.join(", "))
+}
+
+/// The one material that an entity is.
+pub(super) fn one_material(scene: &Census<'_>, entity: Entity) -> Result<&'static Written, SceneError> {
+    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match carried[..] {
+        [one] => Ok(one),
+        _ => {
+            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let value = format!("{} at once", names.join(" and "));
+            let who = kind_and_name(scene, "material", entity);
+            Err(SceneError::new(who, "material", value, "an entity may be one material only"))
+        }
+    }
+}
+
+/// The entities that shapes are, or use for their material.
+pub(super) fn reached(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
+    scene.once(|scene| {
+        let shapes = shape_entities(scene);
+        let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
+        Arc::new(used.chain(shapes.iter().copied()).collect())
+    })
+}
+
+/// Evidence that a shape is made of such a material of one kind; those of the kind that are not such count for nothing.
+pub(super) fn reached_of<C: Component>(scene: &Census<'_>, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
+    let reached = reached(scene);
+    Evidence::of_kind::<With<C>>(scene, noun, |entity| {
+        reached.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
+    })
+}
+
+/// Evidence that a shape carries this component, or uses a material that does.
+pub fn material_kind_evidence<C: Component>(scene: &Census<'_>, noun: &str) -> Evidence {
+    let reached = reached(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| reached.contains(&entity.id()))
+}
