@@ -57,7 +57,7 @@ fn bad_scenes() {
         (Eye::Orthographic, ORTHOGRAPHIC),
     ];
     for (eye, cases) in groups {
-        prepare(&good(eye), &offer()).map(|_| ()).expect("the good scene is good");
+        prepare(&Census::of(&good(eye)), &offer()).map(|_| ()).expect("the good scene is good");
         for (what, words, spoil) in cases {
             let mut scene = good(eye);
             spoil(&mut scene);
@@ -75,7 +75,7 @@ fn bad_scenes() {
 #[test]
 fn bad_textures() {
     let mut lines = Vec::new();
-    prepare(&textures::good_textures(), &offer()).map(|_| ()).expect("the good scene is good");
+    prepare(&Census::of(&textures::good_textures()), &offer()).map(|_| ()).expect("the good scene is good");
     for (what, words, spoil) in textures::TEXTURES {
         let mut scene = textures::good_textures();
         spoil(&mut scene);
@@ -193,12 +193,12 @@ fn bad_views_and_pixels() {
         lines.push(message);
     }
     for [x, y] in [[16, 0], [0, 9], [u32::MAX, u32::MAX]] {
-        let traced = look::trace(&good(Eye::Perspective), &offer(), TracePixel { x, y });
+        let traced = look::trace(&Census::of(&good(Eye::Perspective)), &offer(), TracePixel { x, y });
         let message = sentence(&traced.expect_err("outside"), "a pixel outside");
         assert!(message.contains(&format!("{x},{y}")) && message.contains("15,8"), "{message}");
         lines.push(message);
     }
-    look::trace(&good(Eye::Perspective), &offer(), TracePixel { x: 15, y: 8 }).expect("the last pixel");
+    look::trace(&Census::of(&good(Eye::Perspective)), &offer(), TracePixel { x: 15, y: 8 }).expect("the last pixel");
     kept("bad_views", &lines);
     eprintln!("bad views and pixels: {} refused", lines.len());
 }

@@ -226,7 +226,7 @@ fn what_stands_still_is_left_alone() {
         assert_eq!(names(&world), stages, "{shutter:?} {motion:?}");
         film(&world).assert_is(&expected, &format!("{shutter:?} {motion:?}"));
     }
-    let told = plan(&with((moment, Some(fast))), &offer()).expect("plans");
+    let told = plan(&Census::of(&with((moment, Some(fast)))), &offer()).expect("plans");
     let row = told.rows.iter().find(|row| row.stage == "Sample times").expect("on offer");
     assert!(!row.kept && row.reason.contains("the shutter is open for no time"), "{row:?}");
     // At another moment it is elsewhere, and still nothing is drawn at random.

@@ -180,7 +180,7 @@ fn stages_declare_what_their_systems_touch() {
     }
     for table in &tables {
         let known: Vec<ComponentId> = world.components().iter_registered().map(|(id, _)| id).collect();
-        ((table.extract)(&scene).expect("extracts").insert)(&mut world);
+        ((table.extract)(&Census::of(&scene)).expect("extracts").insert)(&mut world);
         let new = world.components().iter_registered().find(|(id, _)| !known.contains(id));
         let new = new.map(|(id, _)| id).expect("a table is a new resource");
         words.push((new, format!("table {}", table.name)));

@@ -255,7 +255,7 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
 
 /// The subject's paths with another way to find lights.
 fn paths_with(subject: &Subject<'_>, word: &str, lights: LightStrategy) -> Result<Integrator> {
-    match integrator_of(&subject.world(&Overrides::default())).integrator {
+    match integrator_of(&Census::of(&subject.world(&Overrides::default()))).integrator {
         Integrator::Path { max_depth, roulette, .. } => Ok(Integrator::Path { max_depth, lights, roulette }),
         _ => Err(Error::usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
     }
@@ -270,7 +270,7 @@ fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) 
         rivals.iter().any(|rival| matches!(rival, Rival::Filter(..))),
     ];
     if !samplers && !filters && rivals.iter().any(|rival| matches!(rival, Rival::Lights(..))) {
-        let own = integrator_of(&subject.world(&Overrides::default())).integrator;
+        let own = integrator_of(&Census::of(&subject.world(&Overrides::default()))).integrator;
         let named = |(_, it): &&(&str, LightStrategy)| matches!(own, Integrator::Path { lights, .. } if lights == *it);
         return LightStrategy::ALL.iter().find(named).map_or_else(|| subject.stem(), |(word, _)| (*word).into());
     }

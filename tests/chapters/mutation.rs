@@ -1,6 +1,7 @@
 //! Every bug planted on purpose is found, and the message names the very stage it was planted at.
 
 use crate::message::{mismatch, what_to_do};
+use pinhole::plan::Census;
 use pinhole::{Chapter, Overrides, intersect, rays, shade};
 use pinhole_lab::review::mutation::{MUTATIONS, Mutation};
 use pinhole_lab::review::{DEVELOP, Snapshots};
@@ -32,7 +33,8 @@ fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
     let kit = Chapter::new("kit", "all that the kit offers", |_| ()).offer(offered).stages();
     let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
     for chapter in chapters::all() {
-        let plan = pinhole::plan::plan(&chapter.world(&Overrides::default()), &chapter.stages()).expect("a plan");
+        let plan =
+            pinhole::plan::plan(&Census::of(&chapter.world(&Overrides::default())), &chapter.stages()).expect("a plan");
         let names = plan.stages.iter().map(|stage| stage.name);
         stages.extend(names.filter(|name| kit.iter().any(|stage| stage.name == *name)).map(String::from));
     }

@@ -22,7 +22,7 @@ use pinhole_lab::measure::ray_aim::Draws;
 const ROWS: u32 = 1024;
 
 fn share<T: Table>(world: &mut World, scene: &World) {
-    world.insert_resource(Shared::new(T::extract(scene).expect("a table")));
+    world.insert_resource(Shared::new(T::extract(&Census::of(scene)).expect("a table")));
 }
 
 /// A world with the stages' tables and one tile.

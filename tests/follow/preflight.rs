@@ -197,6 +197,6 @@ fn matter_that_no_stage_follows_is_refused() {
         // Who asks for ray casting gets it.
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Integrator::RayCasting);
-        assert!(prepare(census, &chapter(false).stages()).is_ok(), "{word}, by ray casting");
+        assert!(prepare(&Census::of(&world), &chapter(false).stages()).is_ok(), "{word}, by ray casting");
     }
 }

@@ -3,7 +3,7 @@
 use super::*;
 use exr::prelude::{AnyChannels, AttributeValue, FlatSamples, Layer, Text, read_first_flat_layer_from_file};
 use glam::DVec3;
-use pinhole::extract::{CameraAxes, ShapeTable, eye};
+use pinhole::extract::{CameraAxes, eye, shape_names};
 use pinhole::film::{ENTITY_NAMES, write_layered_exr};
 use pinhole::plan::{Census, Table};
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ fn channels(layer: &Layer<AnyChannels<FlatSamples>>) -> BTreeMap<String, Vec<f64
 
 fn written(scene: &World, path: &Path) -> (Film, Layer<AnyChannels<FlatSamples>>) {
     let film = render(scene, &offer(), &Execution::default(), &()).expect("renders").film;
-    let names = ShapeTable::extract(&Census::of(scene)).expect("shapes").name;
+    let names = shape_names(&Census::of(scene));
     write_layered_exr(&film, &names, path).expect("written");
     let layer = read_first_flat_layer_from_file(path).expect("an EXR").layer_data;
     (film, layer)

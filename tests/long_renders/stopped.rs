@@ -123,7 +123,8 @@ fn stopped_at_any_moment_it_goes_on_to_the_same_bits() {
     let took = began.elapsed();
     let (mut stops, mut midway) = (0, 0);
     for part in 1..8 {
-        let mut render = RenderInProgress::begin(&scene(), &offer(), &Execution::default()).expect("begins");
+        let mut render =
+            RenderInProgress::begin(&Census::of(&scene()), &offer(), &Execution::default()).expect("begins");
         let (flag, steps) = (Flag::default(), render.steps());
         let set = Arc::clone(&flag.0);
         let timer = thread::spawn(move || {

@@ -8,8 +8,8 @@ use scenes::followed::{INTEGRATORS, followed};
 
 /// The offer with one stage's say replaced.
 fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
-    let always: fn(&World) -> Evidence = |_| Evidence::always("forced on");
-    let never: fn(&World) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
+    let always: fn(&Census<'_>) -> Evidence = |_| Evidence::always("forced on");
+    let never: fn(&Census<'_>) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
     let mut offer = offer.to_vec();
     for stage in offer.iter_mut().filter(|stage| names.contains(&stage.name)) {
         stage.when = if needed { always } else { never };

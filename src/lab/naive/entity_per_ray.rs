@@ -68,24 +68,24 @@ impl EntityPerRay {
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
         let census = &Census::of(scene);
         pinhole::extract::validate(census)?;
-        let kinds = ShapeTable::extract(census)?.kind;
-        if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
+        let shapes = census.table::<ShapeTable>()?;
+        if shapes.kind.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(SceneError::new("the scene", "shapes", "another kind of shape", accepted));
         }
-        if ShapeTable::extract(census)?.material.contains(&NO_ROW) {
+        if shapes.material.contains(&NO_ROW) {
             let accepted = "one entity a ray knows shapes that reflect light only";
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        share::<PerspectiveProjection>(&mut world, scene)?;
-        share::<CameraAxes>(&mut world, scene)?;
-        share::<SphereTable>(&mut world, scene)?;
-        share::<PlaneTable>(&mut world, scene)?;
-        share::<ShapeTable>(&mut world, scene)?;
-        share::<MaterialTable>(&mut world, scene)?;
-        share::<BackgroundTable>(&mut world, scene)?;
-        let image = share::<ImageFrame>(&mut world, scene)?;
+        share::<PerspectiveProjection>(&mut world, census)?;
+        share::<CameraAxes>(&mut world, census)?;
+        share::<SphereTable>(&mut world, census)?;
+        share::<PlaneTable>(&mut world, census)?;
+        share::<ShapeTable>(&mut world, census)?;
+        share::<MaterialTable>(&mut world, census)?;
+        share::<BackgroundTable>(&mut world, census)?;
+        let image = share::<ImageFrame>(&mut world, census)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -120,8 +120,8 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
-    let table = T::extract(scene)?;
+fn share<T: Table + Clone>(world: &mut World, scene: &Census<'_>) -> Result<T, SceneError> {
+    let table = T::clone(&*scene.table::<T>()?);
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
 }

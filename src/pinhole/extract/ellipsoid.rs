@@ -130,7 +130,8 @@ mod tests {
         assert_eq!(ellipsoids.shape, [0, 1, 2]);
         assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
         for (number, &sphere) in spheres.iter().enumerate() {
-            let kind = if unevenly_scaled(&world, sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            let kind =
+                if unevenly_scaled(&Census::of(&world), sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
             assert_eq!(shapes.kind[number], kind, "sphere {number}");
         }
     }
@@ -140,7 +141,7 @@ mod tests {
         let scale = DVec3::new(-1e-3, 3.0, 1e3);
         let (world, spheres) = scene(&[scale]);
         let table = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids");
-        let pose = pose(&world, "", spheres[0]).expect("a pose");
+        let pose = pose(&Census::of(&world), "", spheres[0]).expect("a pose");
         let Ellipsoid { centre, unit_from_world, reach, .. } = table.ellipsoid[0];
         assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -156,7 +157,7 @@ mod tests {
         let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
         let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
         world.entity_mut(spheres[0]).insert(ChildOf(parent));
-        let map = pose(&world, "", spheres[0]).expect("a pose").world_from_entity.matrix3;
+        let map = pose(&Census::of(&world), "", spheres[0]).expect("a pose").world_from_entity.matrix3;
         let reach = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids").ellipsoid[0].reach;
         let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
         let point = |angle: f64| {
@@ -169,7 +170,7 @@ mod tests {
 
     #[test]
     fn what_is_longer_one_way_than_ten_million_times_another_is_refused() {
-        let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
+        let table = |ratio: f64| EllipsoidTable::extract(&Census::of(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0));
         assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
         for ratio in [2e7, 1e-8] {
             let scene_error = table(ratio).expect_err("refused").to_string();

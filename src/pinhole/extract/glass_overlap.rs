@@ -183,26 +183,27 @@ mod tests {
     #[test]
     fn overlaps_are_found_and_named() {
         let apart = [(0.0, 1.0), (2.5, 1.0), (-3.0, 0.5), (10.0, 1.0)];
-        assert!(!glass_overlaps(&world(&apart)).needed);
+        assert!(!glass_overlaps(&Census::of(&world(&apart))).needed);
         let mut touching = world(&apart);
         touching.spawn((Name::new("bubble"), Sphere { radius: 0.2 }, Glass::default(), Placement::at(2.5, 0.0, 0.0)));
-        let found = glass_overlaps(&touching);
+        let found = glass_overlaps(&Census::of(&touching));
         assert!(
             found.needed && found.reason.contains("\"ball at 2.5\"") && found.reason.contains("\"bubble\""),
             "{found:?}"
         );
         let mut pond = world(&apart[..1]);
-        assert!(!glass_overlaps(&pond).needed);
+        assert!(!glass_overlaps(&Census::of(&pond)).needed);
         pond.spawn((Plane::default(), Glass::default()));
-        assert!(glass_overlaps(&pond).needed, "a plane reaches everywhere");
+        assert!(glass_overlaps(&Census::of(&pond)).needed, "a plane reaches everywhere");
         let mut stone = world(&apart[..1]);
         stone.spawn((Sphere { radius: 0.5 }, Matte::default()));
-        assert!(!glass_overlaps(&stone).needed, "matter that is no glass");
+        assert!(!glass_overlaps(&Census::of(&stone)).needed, "matter that is no glass");
     }
 
     #[test]
     fn as_deep_as_boxes_share_a_point() {
-        let depth = |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&world(balls), places).needed);
+        let depth =
+            |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&Census::of(&world(balls)), places).needed);
         assert_eq!(depth(&[]), Some(0));
         assert_eq!(depth(&[(0.0, 1.0), (5.0, 1.0)]), Some(1));
         assert_eq!(depth(&[(0.0, 1.0), (0.0, 0.9), (0.0, 0.8), (0.0, 0.7), (0.0, 0.6)]), Some(5));
@@ -218,8 +219,8 @@ mod tests {
         for at in 0..4 {
             mesh.spawn((Triangle::default(), UsesMaterial(glass), Placement::at(0.1 * f64::from(at), 0.0, 0.0)));
         }
-        assert!(!glass_overlaps(&mesh).needed);
+        assert!(!glass_overlaps(&Census::of(&mesh)).needed);
         mesh.spawn((Sphere { radius: 0.1 }, UsesMaterial(glass)));
-        assert!(glass_overlaps(&mesh).needed);
+        assert!(glass_overlaps(&Census::of(&mesh)).needed);
     }
 }

@@ -202,7 +202,7 @@ mod tests {
         let parent = world.spawn(Placement { position, orientation: tilt, scale: planar }).id();
         let own = Placement { position, orientation: tilt, scale: DVec3::new(-1.0, 3.0, 0.5) };
         let entity = world.spawn((own, ChildOf(parent))).id();
-        pose(&world, "", entity).expect("a pose")
+        pose(&Census::of(&world), "", entity).expect("a pose")
     }
 
     #[test]

@@ -1,8 +1,6 @@
-use super::cuboid::cuboid_evidence;
-use super::plane::plane_evidence;
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
 use crate::rays::WorldRays;
-use crate::scene::{Disk, Rectangle, Sphere, Triangle};
+use crate::scene::{Cuboid, Disk, Plane, Rectangle, Sphere, Triangle};
 use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that met nothing.
@@ -87,9 +85,9 @@ pub fn start_stage() -> Stage {
 /// Evidence that the scene holds a shape of any kind.
 pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Sphere>(scene, "sphere")
-        .or(plane_evidence(scene))
+        .or(Evidence::of::<Plane>(scene, "plane"))
         .or(Evidence::of::<Disk>(scene, "disk"))
         .or(Evidence::of::<Rectangle>(scene, "rectangle"))
-        .or(cuboid_evidence(scene))
+        .or(Evidence::of::<Cuboid>(scene, "cuboid"))
         .or(Evidence::of::<Triangle>(scene, "triangle"))
 }

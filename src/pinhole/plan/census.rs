@@ -1,4 +1,4 @@
-use super::{Table, entities};
+use super::Table;
 use crate::scene::SceneError;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
@@ -73,6 +73,14 @@ impl Deref for Census<'_> {
     fn deref(&self) -> &World {
         self.scene
     }
+}
+
+/// Enabled entities that pass the filter, in spawn order.
+pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
+    let found = scene.try_query_filtered::<Entity, F>().map(|mut query| query.iter(scene).collect());
+    let mut entities: Vec<Entity> = found.unwrap_or_default();
+    entities.sort_by_key(|entity| entity.index());
+    entities
 }
 
 #[cfg(test)]

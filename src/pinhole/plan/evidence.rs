@@ -122,14 +122,6 @@ impl ComponentKind {
     }
 }
 
-/// Enabled entities that pass the filter, in spawn order.
-pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
-    let found = scene.try_query_filtered::<Entity, F>().map(|mut query| query.iter(scene).collect());
-    let mut entities: Vec<Entity> = found.unwrap_or_default();
-    entities.sort_by_key(|entity| entity.index());
-    entities
-}
-
 /// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`.
 pub fn counted(count: usize, noun: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };

@@ -16,12 +16,12 @@ mod stage;
 mod systems;
 mod table;
 
-pub use census::Census;
+pub use census::{Census, entities};
 pub use column::{
     Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
 };
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
-pub use evidence::{ComponentKind, Evidence, counted, entities};
+pub use evidence::{ComponentKind, Evidence, counted};
 pub use stage::{Slot, Stage, StageKind};
 pub use systems::{Bounce, Sample, TileSystems};
 pub use table::{ExtractedTable, Shared, Table, TableKind};

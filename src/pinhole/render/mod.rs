@@ -28,7 +28,7 @@ pub use inspect::{
 };
 pub use key::film_key;
 pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};
-pub use passes::{Limits, Outcome, render_in_passes};
+pub use passes::{Limits, Outcome, render, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
-pub use rendered::{Rendered, render};
+pub use rendered::Rendered;
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::extract::camera_entity;
-use pinhole::plan::{Census, entities};
+use pinhole::plan::entities;
 use pinhole::scene::*;
 
 /// Everything 2ᵏ times as large and as far away, every light 4ᵏ times as strong: the same picture in other units.
@@ -174,7 +174,7 @@ mod tests {
             let mut moved = scene(with_child);
             shift(&mut moved, DVec3::new(1.0, 2.0, 3.0));
             assert_eq!(place(&moved), DVec3::new(1.5, 2.0, 3.0));
-            assert_eq!(pinhole::extract::eye(&moved), Ok(DVec3::new(1.0, 2.0, 7.0)));
+            assert_eq!(pinhole::extract::eye(&Census::of(&moved)), Ok(DVec3::new(1.0, 2.0, 7.0)));
             // From the eye nothing has moved, also not what hangs on a parent.
             let of = |world: &World| SphereTable::extract(&Census::of(world)).expect("spheres");
             assert_eq!(of(&moved).x, of(&scene(with_child)).x);
