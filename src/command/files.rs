@@ -1,7 +1,6 @@
 use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
-use bevy_ecs::prelude::*;
 use pinhole::extract::shape_names;
 use pinhole::film::{Curve, Film, FilmLayers, png_bytes, write_exr, write_layered_exr, write_png};
 use pinhole::plan::{Census, Column, Plan};

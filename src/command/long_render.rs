@@ -2,7 +2,6 @@ use super::error::Result;
 use super::files::Files;
 use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
-use bevy_ecs::prelude::*;
 use pinhole::extract::adaptive_of;
 use pinhole::film::{Film, check_place, read_checkpoint, write_checkpoint};
 use pinhole::plan::Census;

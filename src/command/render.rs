@@ -11,7 +11,6 @@ use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
 use super::warnings::warnings;
-use bevy_ecs::prelude::*;
 use pinhole::Chapter;
 use pinhole::extract::{LayerTable, adaptive_of, camera_entity, validate};
 use pinhole::film::check_place;

@@ -3,7 +3,6 @@ use crate::extract::{CuboidTable, EllipsoidTable, ShapeTable, SphereTable, Trian
 use crate::plan::Census;
 use crate::scene::{Glass, Rgb, UsesMaterial};
 use crate::shade::emitter::triangle_solid_angle;
-use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

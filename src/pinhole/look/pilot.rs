@@ -1,7 +1,7 @@
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Census, Column, ExtractedTable, Plan, Stage, Table};
+use crate::plan::{Census, Column, ExtractedTable, Plan, Stage};
 use crate::rays::{Depth, Tile};
 use crate::render::{Hook, look_at_pieces, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};

@@ -11,7 +11,6 @@ use crate::plan::{Census, Evidence, ExtractedTable, Plan};
 use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
-use bevy_ecs::prelude::*;
 use std::time::{Duration, Instant};
 
 /// From this share of the rays on a picture counts as black or white.

@@ -1,7 +1,6 @@
 use super::pilot::Pilot;
 use crate::plan::Census;
 use crate::shade::point_evidence;
-use bevy_ecs::prelude::*;
 
 /// From so many seconds on it is said before a render how long it is likely to take.
 const LONG: f64 = 600.0;

@@ -1,7 +1,7 @@
 use crate::extract::{FilterTable, ImageFrame, LayerTable, adaptive_of};
 use crate::film::{FilmLayers, FilmMoments};
 use crate::follow::Splats;
-use crate::plan::{Census, Column, Plan, Table};
+use crate::plan::{Census, Column, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
 

@@ -1,7 +1,6 @@
 use crate::extract::shape_entities;
 use crate::plan::{Census, Column, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
-use bevy_ecs::prelude::*;
 
 /// The most bytes that the rays to lights take in a worker's tile, before the lists' own spare room.
 const MOST_BYTES: f64 = (16_u32 << 20) as f64;

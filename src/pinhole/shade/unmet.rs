@@ -3,7 +3,7 @@
 use super::shadow::ShadowHits;
 use crate::extract::{ShapeTable, shape_name};
 use crate::intersect::{Hits, Surfaces};
-use crate::plan::{Census, Column, Plan, Stage, Table};
+use crate::plan::{Census, Column, Plan, Stage};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 

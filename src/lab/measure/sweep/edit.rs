@@ -148,7 +148,7 @@ pub fn has_children(scene: &World) -> bool {
 mod tests {
     use super::*;
     use pinhole::extract::{CameraAxes, PlaneTable, SphereTable};
-    use pinhole::plan::Table;
+    use pinhole::plan::{Census, Table};
 
     /// A camera that looks at a ball on a floor, and another ball that hangs on the first.
     fn scene(with_child: bool) -> World {
