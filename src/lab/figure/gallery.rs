@@ -182,6 +182,4 @@ fn aimed_with(tangent: f64) -> Stage {
         }
     };
     Stage::new("Aim rays with another tangent", TileSystems::Camera, fill)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
 }

@@ -6,22 +6,22 @@ use super::velocity::moves_while_open;
 use super::{
     CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
 };
-use crate::plan::{Census, Table};
+use crate::plan::{Census, Table, TableKind};
 use crate::scene::{SceneError, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 
 impl ShapeKind {
-    /// The name of the table that it is laid in.
-    pub const fn table(self) -> &'static str {
+    /// The table that it is laid in.
+    pub fn table(self) -> TableKind {
         match self {
-            Self::Sphere => SphereTable::NAME,
-            Self::Plane => PlaneTable::NAME,
-            Self::Ellipsoid => EllipsoidTable::NAME,
-            Self::Disk => DiskTable::NAME,
-            Self::Rectangle => RectangleTable::NAME,
-            Self::Cuboid => CuboidTable::NAME,
-            Self::Triangle => TriangleTable::NAME,
-            Self::Moving => MovingTable::NAME,
+            Self::Sphere => TableKind::of::<SphereTable>(),
+            Self::Plane => TableKind::of::<PlaneTable>(),
+            Self::Ellipsoid => TableKind::of::<EllipsoidTable>(),
+            Self::Disk => TableKind::of::<DiskTable>(),
+            Self::Rectangle => TableKind::of::<RectangleTable>(),
+            Self::Cuboid => TableKind::of::<CuboidTable>(),
+            Self::Triangle => TableKind::of::<TriangleTable>(),
+            Self::Moving => TableKind::of::<MovingTable>(),
         }
     }
 }

@@ -47,9 +47,7 @@ pub fn keep_specular_stage() -> Stage {
         .on_light_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .reads::<MaterialRows>()
-        .writes::<MaterialRows>()
-        .writes::<MetalRows>()
+        .changes::<MaterialRows>()
         .when(traced_evidence)
 }
 
@@ -70,7 +68,7 @@ pub fn splat_light(
             let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
-            let (first, share) = (paths.first[row] as usize, paths.share(row));
+            let (first, share) = (paths.first[row] as usize, paths.throughput(row));
             splats.x.push(joined.raster.x);
             splats.y.push(joined.raster.y);
             splats.r.push(power.r[first] * share[0] * f64::from(sent[0]));
@@ -86,12 +84,6 @@ pub fn splat_stage() -> Stage {
     Stage::new("Splat to the film", TileSystems::AddBounce, splat_light)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads::<Paths>()
-        .reads::<LightRays>()
         .reads_where::<JoinPoints>(lens_evidence)
-        .reads::<Radiance>()
-        .reads::<LightPower>()
-        .writes::<Splats>()
-        .table::<CameraJoinTable>()
         .when(traced_evidence)
 }

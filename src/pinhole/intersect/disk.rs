@@ -1,10 +1,9 @@
-use super::classify::DiskRows;
 use super::double_double_planar::double_double_disk_t;
-use super::keep_closest::keep_closest;
-use super::planar::{crossing, describe_planar};
-use super::sphere::{Intersection, LANES, RayBlock};
+use super::planar::{crossing, fill_planar_surfaces};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
+use super::rows::DiskRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -14,9 +13,11 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 // ANCHOR: disk_intersection
-/// Where O + tR meets a disk, in f64: where it crosses the plane, if the squares of the coordinates there sum to 1 at most.
+/// Intersects O + tR with a disk, in f64: at the disk's plane, if the squares of the coordinates there sum to at most
+/// 1.
 ///
-/// A point that rounding moved by e each way has |p|² off by 2√2|p|e + 2e² at most, and 2|p| ≤ 1 + |p|².
+/// If rounding moved the point p by at most e along each axis, |p|² is off by at most 2√2|p|e + 2e², and 2|p| ≤ 1 +
+/// |p|².
 #[inline(always)]
 pub fn disk_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
     let crossing = crossing(origin, direction, planar);
@@ -31,7 +32,7 @@ pub fn disk_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> In
     }
 }
 
-/// The t > 0 at which O + tR meets a disk, or infinity; right also where f64 alone would leave a doubt.
+/// The t > 0 at which O + tR hits a disk, or infinity; uncertain cases are decided in double-double.
 #[inline(always)]
 pub fn disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let intersection = disk_intersection(origin, direction, planar);
@@ -39,7 +40,7 @@ pub fn disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
 }
 // ANCHOR_END: disk_intersection
 
-/// Narrows hits by all disks, for any column of rays.
+/// Intersects any column of rays with all disks and keeps the closest hits.
 pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>, mut tiles: Query<(&R, &mut H)>) {
     for (rays, mut hits) in &mut tiles {
         let (t, shape) = hits.hit_components();
@@ -47,9 +48,9 @@ pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>
     }
 }
 
-/// A disk at a time over all rays, so that the arithmetic of many rays is done at once.
+/// Tests one disk at a time against all rays, so that the arithmetic is vectorised over rays.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn disk_rows(rays: RayBlockMut<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
+fn disk_rows(rays: RaySlices<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -73,36 +74,21 @@ pub fn fill_disk_surfaces(
     for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         let planar_of = |shape: u32| &disks.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
 /// The stage that intersects camera rays.
 pub fn disk_stage() -> Stage {
-    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<DiskTable>()
-        .when(disk_evidence)
+    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>).when(disk_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn disk_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<DiskRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<DiskTable>()
-        .table::<ShapeTable>()
-        .when(disk_evidence)
+    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces).when(disk_evidence)
 }
 
-/// Evidence that the scene holds a disk.
+/// Evidence that the scene contains a disk.
 pub fn disk_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Disk>>(scene, "disk", |disk| !moves(disk))

@@ -7,6 +7,7 @@
 //! A stage is kept when the scene needs it *and* something that is kept, or a request, reads what it writes.
 //! What is dropped is never built, so it costs nothing.
 
+mod access;
 mod census;
 mod column;
 mod decide;
@@ -19,9 +20,10 @@ mod table;
 pub use census::{Census, entities};
 pub use column::{
     Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
+    column_component,
 };
-pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
+pub use decide::{Pass, Plan, PlanError, PlanRow, plan, view_names};
 pub use evidence::{ComponentKind, Evidence, counted};
 pub use stage::{Slot, Stage, StageKind};
-pub use systems::{Bounce, Sample, TileSystems};
+pub use systems::{Bounce, RowKind, Sample, TileSystems};
 pub use table::{ExtractedTable, Shared, Table, TableKind};

@@ -1,6 +1,16 @@
-use super::RowKind;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleLabel;
+use serde::Serialize;
+
+/// What one row of a batch stands for in a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RowKind {
+    /// A pixel, seen from the camera.
+    Pixel,
+    /// A path that starts on a light.
+    LightPath,
+}
 
 /// The schedule that carries one sample of every pixel of a tile from raster to film.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]

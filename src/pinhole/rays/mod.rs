@@ -1,8 +1,8 @@
-//! Raster → NDC → screen → camera → world: a ray for every pixel, one file a space.
+//! Raster → NDC → screen → camera → world: a ray for every sample, with one file per space.
 //!
-//! Reads: the tile's rectangle, the image's shape, the camera's pinhole, lens and axes.
+//! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
-//! Each file holds the pure function of one row and the system that fills the column with it.
+//! Each file holds a pure function for one row, and the system that fills a column with it.
 
 mod camera;
 mod depth;
@@ -45,14 +45,3 @@ pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stag
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
 pub use times::{RayTimes, draw_times, time_stage};
 pub use world::{WorldRays, fill_world, world_stage};
-
-use crate::plan::Stage;
-
-/// All of ray generation as one closed box, for chapters that have not opened it yet.
-pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
-    stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
-    stages.extend([lens_point_stage(), lens_stage(), fisheye_stage(), equirectangular_stage()]);
-    stages.push(time_stage());
-    stages
-}

@@ -1,12 +1,9 @@
 use super::adaptive::{Achieved, achieved, planned_samples};
 use super::steps::{WHOLE, samples_after, steps_of};
-use super::{Execution, RenderInProgress, Rendered, Watch};
-use crate::extract::adaptive_of;
+use super::{RenderInProgress, Watch};
 use crate::film::Film;
-use crate::plan::{Census, Stage};
 use crate::scene::Adaptive;
 use crate::{Error, Result};
-use bevy_ecs::prelude::*;
 use std::time::{Duration, Instant};
 
 /// Nobody sees a picture that is written again sooner than this.
@@ -218,22 +215,4 @@ impl Film {
         };
         of_first(to) - of_first(from) + of_pixels(to) - of_pixels(from)
     }
-}
-
-/// Renders a scene by the stages on offer that it needs.
-///
-/// Errors: a refused scene, no plan, or a stop by the one who watches.
-pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
-    let scene = &Census::of(scene);
-    let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;
-    match adaptive_of(scene)? {
-        None => in_progress.advance(in_progress.steps(), watch)?,
-        adaptive => {
-            let limits = Limits { adaptive, ..Limits::default() };
-            if render_in_passes(&mut in_progress, &limits, watch, &mut |_| Ok(()))?.stopped {
-                return Err(Error::Interrupted);
-            }
-        }
-    }
-    Ok(in_progress.finish())
 }

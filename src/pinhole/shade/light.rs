@@ -4,7 +4,7 @@ use crate::extract::{
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
-    NO_SHAPE, RayBlockMut, RayColumn, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+    NO_SHAPE, RayColumn, RaySlices, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
 use crate::plan::{Census, Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 column! {
     /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if nothing is
     /// in the way.
-    pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
+    pub struct LightRays("light", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
         path: u32,
         /// Origin, x: off the surface by its bound.
@@ -85,8 +85,8 @@ impl LightRays {
 }
 
 impl RayColumn for LightRays {
-    fn ray_components(&self) -> RayBlockMut<'_> {
-        RayBlockMut { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    fn ray_components(&self) -> RaySlices<'_> {
+        RaySlices { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
     }
 
     fn path_component(&self) -> Option<&[u32]> {
@@ -280,23 +280,12 @@ pub fn add_light(
 /// The stage that starts.
 pub fn start_light_stage() -> Stage {
     Stage::new("Clear light rays", TileSystems::Start, start_light)
-        .writes::<LightRays>()
-        .writes::<LightPdfs>()
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
 pub fn light_stage() -> Stage {
-    Stage::new("Evaluate direct light", TileSystems::Shade, add_light)
-        .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<SurfaceColours>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .when(lit_evidence)
+    Stage::new("Evaluate direct light", TileSystems::Shade, add_light).kind(StageKind::Alternative).when(lit_evidence)
 }
 
 /// Evidence of the one where it is needed, or else the other.

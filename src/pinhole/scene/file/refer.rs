@@ -1,16 +1,16 @@
-//! Names → the entities that are meant.
+//! Names → the entities that they refer to.
 
 use super::found::shown;
 use super::mistake::{Mistake, place_of};
 use super::nearest::nearest;
-use super::read::{FileEntity, FilePart, quoted, read_simply};
+use super::read::{FileEntity, FilePart, quoted, read_value};
 use super::scan::Part;
 use std::collections::HashMap;
 
-/// The most parents above one another.
+/// The greatest depth of the hierarchy.
 const MOST_PARENTS: usize = 64;
 
-/// Finds every parent and every material by name, and follows parents to the root.
+/// Looks up every parent and every material by name, and checks that the hierarchy has no cycle.
 pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Mistake> {
     let mut named: HashMap<String, Vec<usize>> = HashMap::new();
     for (number, entity) in entities.iter().enumerate() {
@@ -44,13 +44,12 @@ fn find(
     part: &FilePart,
 ) -> Result<usize, Mistake> {
     let who = who(&entities[number]);
-    let name: String = read_simply(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
+    let name: String = read_value(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
     let what = match named.get(&name).map_or([].as_slice(), |found| found) {
         [one] => return Ok(*one),
         [first, .., last] => {
             let [first, last] = [first, last].map(|&number| place_of(text, entities[number].at).line);
-            let is_called =
-                format!("more than one entity is called that, the first on line {first}, the last on {last}");
+            let is_called = format!("several entities have that name, the first on line {first}, the last on {last}");
             format!("{who}: {} is {}, but {is_called}", part.word, shown(&format!("\"{name}\"")))
         }
         [] => {
@@ -72,11 +71,11 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Mistake> {
             let circle = above.contains(&parent);
             if circle || steps > MOST_PARENTS {
                 let found = if circle {
-                    format!("leads in a circle through {}", who(&entities[parent]))
+                    format!("forms a cycle through {}", who(&entities[parent]))
                 } else {
-                    format!("has more than {MOST_PARENTS} others above it")
+                    format!("has more than {MOST_PARENTS} ancestors")
                 };
-                let accepted = format!("parents must lead to an entity without one in at most {MOST_PARENTS} steps");
+                let accepted = format!("parents must lead to a root entity in at most {MOST_PARENTS} steps");
                 let place = entity.parts.iter().find(|part| part.word == "parent");
                 let place = place.map_or(entity.at, |part| part.value.start);
                 return Err(Mistake::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));
