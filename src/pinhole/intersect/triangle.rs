@@ -3,7 +3,7 @@ use super::sphere::nearness;
 use super::triangle_exact::exact_triangle_t;
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{TriangleRow, TriangleTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
 use bevy_ecs::prelude::*;
@@ -270,7 +270,7 @@ pub fn triangle_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a triangle.
-pub fn triangle_evidence(scene: &World) -> Evidence {
+pub fn triangle_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Triangle>(scene, "triangle")
 }
 
