@@ -1,4 +1,4 @@
-//! The exercise of chapter 03; `cargo run --release -- check 3` compares it with the kit.
+//! The exercise of chapter 03; `cargo run --release -- check 3` compares it with pinhole's.
 
 // ANCHOR: nearest_sphere_t
 /// The smallest t above 0 at which origin + t · direction lies on the sphere, or `None` where there is no such t.

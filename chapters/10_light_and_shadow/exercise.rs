@@ -1,4 +1,4 @@
-//! The exercise of chapter 10; `cargo run --release -- check 10` compares it with the kit.
+//! The exercise of chapter 10; `cargo run --release -- check 10` compares it with pinhole's.
 
 // ANCHOR: reflected_radiance
 /// The radiance that a matte surface sends towards the eye of the light of one lamp that nothing blocks.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 11; `cargo run --release -- check 11` compares it with the kit.
+//! The exercise of chapter 11; `cargo run --release -- check 11` compares it with pinhole's.
 
 // ANCHOR: pinhole_from_theirs
 /// A direction that is given in another camera's axes, in ours: x right, y up, z back.

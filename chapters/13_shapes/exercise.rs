@@ -1,4 +1,4 @@
-//! The exercise of chapter 13; `cargo run --release -- check 13` compares it with the kit.
+//! The exercise of chapter 13; `cargo run --release -- check 13` compares it with pinhole's.
 
 // ANCHOR: nearest_box_t
 /// The smallest t above 0 at which origin + t · direction lies on a face of the box between two corners, `None` where

@@ -1,4 +1,4 @@
-//! The exercise of chapter 14; `cargo run --release -- check 14` compares it with the kit.
+//! The exercise of chapter 14; `cargo run --release -- check 14` compares it with pinhole's.
 
 // ANCHOR: falling_cosine
 /// The cosine of the angle at which light falls on a triangle whose corners have normals, and 0 where none does.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 15; `cargo run --release -- check 15` compares it with the kit.
+//! The exercise of chapter 15; `cargo run --release -- check 15` compares it with pinhole's.
 
 // ANCHOR: phong_radiance
 /// The radiance that a Phong surface sends towards the eye of parallel light that nothing blocks.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 16; `cargo run --release -- check 16` compares it with the kit.
+//! The exercise of chapter 16; `cargo run --release -- check 16` compares it with pinhole's.
 
 // ANCHOR: mean_of_stripes
 /// The mean of stripes over what a pixel covers.

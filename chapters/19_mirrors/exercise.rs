@@ -1,4 +1,4 @@
-//! The exercise of chapter 19; `cargo run --release -- check 19` compares it with the kit.
+//! The exercise of chapter 19; `cargo run --release -- check 19` compares it with pinhole's.
 
 // ANCHOR: mirrored
 /// The direction in which light goes on that comes along `direction` and meets a mirror.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 21; `cargo run --release -- check 21` compares it with the kit.
+//! The exercise of chapter 21; `cargo run --release -- check 21` compares it with pinhole's.
 
 // ANCHOR: solid_angle_pdf
 /// How likely a direction is, per unit of solid angle at `from`, where a point of a flat light of this area is chosen evenly

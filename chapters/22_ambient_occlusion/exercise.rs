@@ -1,4 +1,4 @@
-//! The exercise of chapter 22; `cargo run --release -- check 22` compares it with the kit.
+//! The exercise of chapter 22; `cargo run --release -- check 22` compares it with pinhole's.
 
 // ANCHOR: cosine_direction
 /// The direction about +z that two numbers from 0 to below 1 stand for, a unit vector.

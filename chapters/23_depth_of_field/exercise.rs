@@ -1,4 +1,4 @@
-//! The exercise of chapter 23; `cargo run --release -- check 23` compares it with the kit.
+//! The exercise of chapter 23; `cargo run --release -- check 23` compares it with pinhole's.
 
 // ANCHOR: lens_direction
 /// The unit direction of a ray that starts at a point of the lens, in camera space.

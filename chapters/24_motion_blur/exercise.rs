@@ -1,4 +1,4 @@
-//! The exercise of chapter 24; `cargo run --release -- check 24` compares it with the kit.
+//! The exercise of chapter 24; `cargo run --release -- check 24` compares it with pinhole's.
 
 // ANCHOR: moving_sphere_t
 /// The smallest t above 0 at which origin + t · direction meets a moving sphere, or `None` where there is no such t.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 25; `cargo run --release -- check 25` compares it with the kit.
+//! The exercise of chapter 25; `cargo run --release -- check 25` compares it with pinhole's.
 
 // ANCHOR: after_roulette
 /// What a way's share of red, green and blue becomes in Russian roulette, by a number from 0 to below 1.

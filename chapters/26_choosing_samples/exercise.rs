@@ -1,4 +1,4 @@
-//! The exercise of chapter 26; `cargo run --release -- check 26` compares it with the kit.
+//! The exercise of chapter 26; `cargo run --release -- check 26` compares it with pinhole's.
 
 // ANCHOR: power_heuristic
 /// How much a way counts that was found by the chance of density `own`, where another of density `other` could have found

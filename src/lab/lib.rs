@@ -21,8 +21,6 @@ pub mod report;
 
 pub mod exercise;
 
-mod attempt;
 mod repository;
 
-pub use attempt::{Attempt, StageWords};
 pub use repository::repository;

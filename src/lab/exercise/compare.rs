@@ -17,7 +17,7 @@ pub struct Report {
     pub outcome: Outcome,
     /// What may be said to whoever is stuck, each telling more than the one before.
     pub hints: &'static [&'static str],
-    /// Where the kit does the same: a file, and a name in it.
+    /// Where pinhole does the same: a file, and a name in it.
     pub pinhole_has: (&'static str, &'static str),
 }
 
@@ -67,7 +67,12 @@ pub struct Mismatch {
 }
 
 /// Asks the function every input and compares.
-pub fn compare<I, A>(question: Question<I, A>, yours: impl Fn(&I) -> A + Send + 'static, patience: Duration) -> Report
+pub fn compare<I, A>(
+    function: &'static str,
+    question: Question<I, A>,
+    yours: impl Fn(&I) -> A + Send + 'static,
+    patience: Duration,
+) -> Report
 where
     I: Clone + Send + Sync + 'static,
     A: Shown + Send + 'static,
@@ -80,14 +85,14 @@ where
     };
     let mut given = Vec::with_capacity(inputs.len());
     let mut ended = None;
-    for answer in answers(question.function, &inputs, yours, patience) {
+    for answer in answers(function, &inputs, yours, patience) {
         match answer {
             Answer::Given(answer) => given.push(answer),
             Answer::Panicked(words) => ended = Some(Outcome::Panicked(asked(given.len()), words)),
             Answer::Late => ended = Some(Outcome::Late(asked(given.len()), patience)),
         }
     }
-    let right: Vec<A> = inputs[..given.len()].iter().map(question.kit).collect();
+    let right: Vec<A> = inputs[..given.len()].iter().map(question.right).collect();
     let wrong: Vec<usize> = (0..given.len()).filter(|&at| !question.same(&given[at], &right[at])).collect();
     let apart = |at: usize| (question.apart)(&given[at], &right[at]);
     let outcome = match (wrong.first(), ended) {
@@ -105,7 +110,7 @@ where
         (None, None) => Outcome::Right((0..given.len()).map(apart).fold(0.0, f64::max)),
     };
     Report {
-        function: question.function,
+        function,
         inputs: inputs.len(),
         allowed: (question.allowed, question.measured),
         outcome,

@@ -1,0 +1,120 @@
+//! Chapter 27: what a pixel gets of a point's light.
+
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+use glam::{DMat3, DVec2, DVec3};
+use pinhole::extract::CameraJoinTable;
+use pinhole::rays::join_camera;
+
+type Input = ([f64; 3], f64, f64);
+
+/// What the reader writes.
+pub type Yours = fn([f64; 3], f64, f64) -> f64;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::pixel_fraction)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    Exercise::unseen("pixel_fraction", question, move |&(point, tan_half, height)| yours(point, tan_half, height), "no picture shows it yet")
+}
+
+fn question() -> Question<Input, f64> {
+    Question {
+        pinhole_has: ("src/pinhole/rays/project.rs", "join_camera"),
+        probes: asked(),
+        tell: |(point, tan_half, height)| {
+            format!("point {}, tan_half {}, height {}", point.shown(), tan_half.shown(), height.shown())
+        },
+        right: |&(point, tan_half, height)| {
+            let join = CameraJoinTable {
+                camera_from_world: DMat3::IDENTITY,
+                is_perspective: true,
+                half_height: tan_half,
+                focus_distance: f64::INFINITY,
+                size: DVec2::splat(height),
+                // Every pixel that there could be.
+                margin: f64::INFINITY,
+            };
+            join_camera(&join, DVec2::ZERO, DVec3::from(point)).map_or(0.0, |joined| joined.importance)
+        },
+        apart: |yours, right| relative(&[*yours], &[*right]),
+        allowed: 1e-10,
+        measured: "of the share",
+        mistakes: vec![
+            Mistake::new("what lies behind the eye reaches no pixel; there the share is 0", |&input| {
+                share(input, 3, 1.0).abs()
+            }),
+            Mistake::new("what lies behind the eye reaches no pixel; there the share is 0", |&input| {
+                share(input, 3, 1.0)
+            }),
+            Mistake::new(
+                "cos³, not cos⁴: the fourth belongs to an opening, which is seen at a slant too, and an eye is a point",
+                |&input| ahead(input, share(input, 4, 1.0)),
+            ),
+            Mistake::new("cos³, not cos: 1/d² is not yet all that the slant does", |&input| {
+                ahead(input, share(input, 1, 1.0))
+            }),
+            Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {
+                ahead(input, share(input, 0, 1.0))
+            }),
+            Mistake::new("A is the area of a pixel, its side squared", |&input| {
+                ahead(input, share(input, 3, side(input)))
+            }),
+            Mistake::new("the pixel's area A is missing: a smaller pixel gathers from fewer directions", |&input| {
+                ahead(input, share(input, 3, side(input) * side(input)))
+            }),
+            Mistake::new("the plane at distance 1 is 2 tan_half high, not tan_half", |&input| {
+                ahead(input, share(input, 3, 4.0).abs())
+            }),
+            Mistake::new("1/d² is missing: light thins out with the distance", |&input| {
+                let distance = DVec3::from(input.0).length_squared();
+                ahead(input, share(input, 3, distance))
+            }),
+        ],
+        hints: &[
+            "on the axis θ is 0, and the share is 1 / (A d²)",
+            "the pixel's side on the plane at distance 1 is 2 tan_half / height, and A is its square",
+            "cos θ is the depth, −z, over d; so the share is d / (A (−z)³), and 0 where −z is not above 0",
+        ],
+    }
+}
+
+fn side((_, tan_half, height): Input) -> f64 {
+    2.0 * tan_half / height
+}
+
+/// With so many cosines, and another factor.
+fn share(input: Input, cosines: i32, factor: f64) -> f64 {
+    let (point, ..) = input;
+    let distance = DVec3::from(point).length();
+    let cosine = -point[2] / distance;
+    let power = (0..cosines).fold(1.0, |power, _| power * cosine);
+    factor / (side(input) * side(input) * distance * distance * power)
+}
+
+fn ahead((point, ..): Input, share: f64) -> f64 {
+    if point[2] < 0.0 { share } else { 0.0 }
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    let mut asked: Vec<_> =
+        probes("straight ahead", [([0.0, 0.0, -1.0], 1.0, 2.0), ([0.0, 0.0, -2.0], 0.5, 100.0)]).collect();
+    let of = |seed, count: u64, slant: f64, size: f64| {
+        (0..count).map(move |at| {
+            let mut draws = Draws::new(seed, at);
+            let depth = draws.power_of_ten(-size, size);
+            let (x, y) = (draws.between(-slant, slant) * depth, draws.between(-slant, slant) * depth);
+            ([x, y, -depth], draws.power_of_ten(-1.5, 0.5), draws.between(2.0, 2000.0).floor())
+        })
+    };
+    asked.extend(probes("before the camera", of(2741, 40, 0.8, 1.0)));
+    asked.extend(probes("far off the axis", of(2742, 30, 6.0, 1.0)));
+    asked.extend(probes("very near and very far", of(2743, 30, 1.0, 8.0)));
+    let behind = of(2744, 10, 1.0, 1.0).map(|([x, y, z], tan_half, height)| ([x, y, -z], tan_half, height));
+    asked.extend(probes("behind the camera", behind));
+    asked
+}

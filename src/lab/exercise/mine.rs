@@ -1,0 +1,114 @@
+use super::Exercise;
+use super::ask::Complaint;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::ScheduleConfigs;
+use bevy_ecs::system::ScheduleSystem;
+use pinhole::plan::Stage;
+use pinhole::{Chapter, Error, Result};
+use std::sync::Arc;
+
+/// What a stand-in may look at before the render: the chapter, and its scene with what the reader asks of it.
+pub struct Setting<'s> {
+    /// The chapter.
+    pub chapter: &'s Chapter,
+    /// Its scene.
+    pub scene: &'s World,
+}
+
+/// How a function takes its place in a chapter, and where it is told what went wrong.
+pub type Render = dyn Fn(&Setting<'_>) -> (StandIn, Complaint) + Send + Sync;
+
+type Make = Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
+
+/// A stage with a reader's function in it, which takes the place of one of pinhole's.
+pub struct StandIn {
+    stage: &'static str,
+    place: Place,
+}
+
+enum Place {
+    Instead(Make),
+    After(Make),
+    Keep(Vec<String>),
+}
+
+impl StandIn {
+    /// A system that runs in place of the stage of this name.
+    pub fn instead<M: 'static>(
+        stage: &'static str,
+        system: impl IntoScheduleConfigs<ScheduleSystem, M> + Clone + Send + Sync + 'static,
+    ) -> Self {
+        Self { stage, place: Place::Instead(Arc::new(move || system.clone().into_configs())) }
+    }
+
+    /// A system that runs after the stage of this name, and puts the reader's numbers over pinhole's.
+    pub fn after<M: 'static>(
+        stage: &'static str,
+        system: impl IntoScheduleConfigs<ScheduleSystem, M> + Clone + Send + Sync + 'static,
+    ) -> Self {
+        Self { stage, place: Place::After(Arc::new(move || system.clone().into_configs())) }
+    }
+
+    /// Only the stages of these names are offered, beside what every chapter has.
+    pub fn keeping(stages: Vec<String>) -> Self {
+        Self { stage: "", place: Place::Keep(stages) }
+    }
+
+    /// The chapter with the stand-in.
+    ///
+    /// Errors: the chapter has no stage of the name.
+    fn put_in(self, chapter: &Chapter) -> Result<Chapter> {
+        let mut chapter = chapter.clone();
+        if let Place::Keep(names) = &self.place {
+            chapter.offer.retain(|stage| names.iter().any(|name| name == stage.name));
+            return Ok(chapter);
+        }
+        if !chapter.offer.iter().any(|stage| stage.name == self.stage) {
+            // What every chapter has may be offered by name.
+            chapter.offer.extend(chapter.stages().into_iter().filter(|stage| stage.name == self.stage));
+        }
+        let name = chapter.name;
+        let missing = || Error::Usage(format!("{name} has no stage \"{}\" for your function to stand in", self.stage));
+        let stage = chapter.offer.iter_mut().find(|stage| stage.name == self.stage).ok_or_else(missing)?;
+        self.place.take(stage);
+        Ok(chapter)
+    }
+}
+
+impl Place {
+    fn take(self, stage: &mut Stage) {
+        match self {
+            Self::Instead(mine) => stage.system = mine,
+            Self::After(mine) => {
+                let pinhole = Arc::clone(&stage.system);
+                stage.system = Arc::new(move || (pinhole(), mine()).chain());
+            }
+            Self::Keep(_) => {}
+        }
+    }
+}
+
+/// A chapter with a reader's function in place of one of pinhole's stages.
+pub struct Mine {
+    /// The chapter, to be rendered as any other.
+    pub chapter: Chapter,
+    complaint: Complaint,
+}
+
+impl Mine {
+    /// The chapter with this exercise's function in it.
+    ///
+    /// Errors: why no picture shows the function; the chapter lacks the stage in which it would stand.
+    pub fn of(exercise: &Exercise, chapter: &Chapter, scene: &World) -> Result<Self> {
+        let render = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
+        let (stand_in, complaint) = render(&Setting { chapter, scene });
+        Ok(Self { chapter: stand_in.put_in(chapter)?, complaint })
+    }
+
+    /// What the render has to say against the function, in one sentence.
+    ///
+    /// Errors: a panic or an answer that no picture can hold: at which pixel, for what, and what came back.
+    pub fn answers(&self) -> Result {
+        self.complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))
+    }
+}
