@@ -21,7 +21,9 @@ fn exercises(chapters: &Path, stems: &[String]) -> String {
     let mut text = String::new();
     for stem in stems {
         let (stub, question) = (file(chapters, stem, "exercise"), file(chapters, stem, "question"));
-        let _ = writeln!(text, "/// What chapter {stem} asks.\npub mod chapter_{stem} {{\n    {stub}\n    {question}\n}}\n");
+        let mine = chapters.join(stem).join("mine.rs").exists().then(|| file(chapters, stem, "mine"));
+        let modules = format!("{stub}\n    {question}\n    {}", mine.unwrap_or_default());
+        let _ = writeln!(text, "/// What chapter {stem} asks.\npub mod chapter_{stem} {{\n    {modules}\n}}\n");
     }
     let each = stems.iter().map(|stem| format!("({stem:?}, chapter_{stem}::question::yours())")).collect::<Vec<_>>();
     let _ = writeln!(text, "/// Each chapter that asks something, with the function as the reader has it now.");

@@ -1,11 +1,12 @@
 //! Chapter 01: from the running index of a pixel to its centre in raster space.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::rays::raster_from_pixel;
 
-type Input = (u64, u32);
+pub(super) type Input = (u64, u32);
 
 /// What the reader writes.
 pub type Yours = fn(u64, u32) -> [f64; 2];
@@ -17,7 +18,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("raster_from_index", question, move |&(index, width)| yours(index, width), "no picture shows it yet")
+    Exercise::rendered("raster_from_index", question, move |&(index, width)| yours(index, width), mine)
 }
 
 fn question() -> Question<Input, [f64; 2]> {

@@ -1,12 +1,13 @@
 //! Chapter 02: a vector brought to length 1, whatever its size.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 
 /// What the reader writes.
 pub type Yours = fn(Vector) -> Option<Vector>;
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("unit", question, move |&v| yours(v), "no picture shows it yet")
+    Exercise::rendered("unit", question, move |&v| yours(v), mine)
 }
 
 fn question() -> Question<Vector, Option<Vector>> {

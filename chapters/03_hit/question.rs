@@ -1,5 +1,6 @@
 //! Chapter 03: where a ray first meets a sphere, judged by exact arithmetic.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_roots, sphere_hit};
@@ -9,8 +10,8 @@ use glam::{DVec3, Vec3};
 use pinhole::intersect::sphere_intersection;
 
 /// Origin, direction, centre, radius; origin and direction have few digits, as f32 numbers.
-type Input = ([f64; 3], [f64; 3], [f64; 3], f64);
-type Answer = Option<f64>;
+pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], f64);
+pub(super) type Answer = Option<f64>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64) -> Answer;
@@ -22,7 +23,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("nearest_sphere_t", question, move |&(o, d, c, r)| yours(o, d, c, r), "no picture shows it yet")
+    Exercise::rendered("nearest_sphere_t", question, move |&(o, d, c, r)| yours(o, d, c, r), mine)
 }
 
 fn question() -> Question<Input, Answer> {

@@ -1,12 +1,13 @@
 //! Chapter 04: the ray that starts at a point of the view rectangle.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::rays::camera_ray_orthographic;
 
-type Input = ([f64; 2], f64);
-type Ray = ([f64; 3], [f64; 3]);
+pub(super) type Input = ([f64; 2], f64);
+pub(super) type Ray = ([f64; 3], [f64; 3]);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 2], f64) -> Ray;
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("orthographic_ray", question, move |&(screen, view_height)| yours(screen, view_height), "no picture shows it yet")
+    Exercise::rendered("orthographic_ray", question, move |&(screen, view_height)| yours(screen, view_height), mine)
 }
 
 fn question() -> Question<Input, Ray> {

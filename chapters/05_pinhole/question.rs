@@ -1,5 +1,6 @@
 //! Chapter 05: the direction from the eye through a screen point.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -7,7 +8,7 @@ use pinhole::extract::tan_half;
 use pinhole::rays::camera_ray_perspective;
 use pinhole::scene::Degrees;
 
-type Input = ([f64; 2], f64);
+pub(super) type Input = ([f64; 2], f64);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 2], f64) -> [f64; 3];
@@ -19,7 +20,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("perspective_direction", question, move |&(screen, tangent)| yours(screen, tangent), "no picture shows it yet")
+    Exercise::rendered("perspective_direction", question, move |&(screen, tangent)| yours(screen, tangent), mine)
 }
 
 fn question() -> Question<Input, [f64; 3]> {

@@ -1,5 +1,6 @@
 //! Chapter 06: which pixel holds an NDC point, judged by exact arithmetic.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
@@ -7,8 +8,8 @@ use pinhole_lab::measure::ray_aim::Draws;
 use glam::DVec2;
 use pinhole::rays::{ndc_from_raster, raster_from_pixel};
 
-type Input = ([f64; 2], u32, u32);
-type Pixel = Option<[u32; 2]>;
+pub(super) type Input = ([f64; 2], u32, u32);
+pub(super) type Pixel = Option<[u32; 2]>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 2], u32, u32) -> Pixel;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("pixel_from_ndc", question, move |&(ndc, width, height)| yours(ndc, width, height), "no picture shows it yet")
+    Exercise::rendered("pixel_from_ndc", question, move |&(ndc, width, height)| yours(ndc, width, height), mine)
 }
 
 fn question() -> Question<Input, Pixel> {

@@ -1,12 +1,13 @@
 //! Chapter 07: from the screen back to NDC, judged by exact arithmetic.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::rays::screen_from_ndc;
 
-type Input = ([f64; 2], u32, u32);
+pub(super) type Input = ([f64; 2], u32, u32);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 2], u32, u32) -> [f64; 2];
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("ndc_from_screen", question, move |&(screen, width, height)| yours(screen, width, height), "no picture shows it yet")
+    Exercise::rendered("ndc_from_screen", question, move |&(screen, width, height)| yours(screen, width, height), mine)
 }
 
 fn question() -> Question<Input, [f64; 2]> {

@@ -1,5 +1,6 @@
 //! Chapter 08: the vertical angle of a field of view that is measured across something else.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
 use pinhole_lab::measure::oracle_camera::ExactCamera;
@@ -9,7 +10,7 @@ use pinhole::extract::tan_half;
 use pinhole::scene::{Degrees, FovAxis};
 use std::f64::consts::PI;
 
-type Input = (f64, FovAxis, u32, u32);
+pub(super) type Input = (f64, FovAxis, u32, u32);
 
 /// Across what an angle can be measured.
 const AXES: [FovAxis; 5] =
@@ -25,7 +26,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("vertical_fov", question, move |&(angle, axis, width, height)| yours(angle, axis, width, height), "no picture shows it yet")
+    Exercise::rendered("vertical_fov", question, move |&(angle, axis, width, height)| yours(angle, axis, width, height), mine)
 }
 
 fn question() -> Question<Input, f64> {

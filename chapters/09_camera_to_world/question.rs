@@ -1,5 +1,6 @@
 //! Chapter 09: a normal, turned, stretched, mirrored and sheared with its surface, judged by exact arithmetic.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
@@ -7,9 +8,9 @@ use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
 use glam::{DMat3, DQuat, DVec3};
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 /// The columns of the map, and the normal in object space.
-type Input = ([Vector; 3], Vector);
+pub(super) type Input = ([Vector; 3], Vector);
 
 /// What the reader writes.
 pub type Yours = fn([Vector; 3], Vector) -> Vector;
@@ -21,7 +22,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("normal_world_from_object", question, move |&(columns, normal)| yours(columns, normal), "no picture shows it yet")
+    Exercise::rendered("normal_world_from_object", question, move |&(columns, normal)| yours(columns, normal), mine)
 }
 
 fn question() -> Question<Input, Vector> {

@@ -1,5 +1,6 @@
 //! Chapter 10: what a matte surface sends on of a lamp's light.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -9,7 +10,7 @@ use std::f64::consts::PI;
 
 type Vector = [f64; 3];
 /// Colour, intensity, position, normal, light.
-type Input = (f64, f64, Vector, Vector, Vector);
+pub(super) type Input = (f64, f64, Vector, Vector, Vector);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64, Vector, Vector, Vector) -> f64;
@@ -21,7 +22,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("reflected_radiance", question, move |&(c, i, position, normal, light)| yours(c, i, position, normal, light), "no picture shows it yet")
+    Exercise::rendered("reflected_radiance", question, move |&(c, i, position, normal, light)| yours(c, i, position, normal, light), mine)
 }
 
 fn question() -> Question<Input, f64> {

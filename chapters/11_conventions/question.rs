@@ -1,12 +1,13 @@
 //! Chapter 11: a direction of a camera with other axes, in ours.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 /// The direction, and whether their x points right, their y up, their z ahead.
-type Input = (Vector, bool, bool, bool);
+pub(super) type Input = (Vector, bool, bool, bool);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, bool, bool, bool) -> Vector;
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("pinhole_from_theirs", question, move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead), "no picture shows it yet")
+    Exercise::rendered("pinhole_from_theirs", question, move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead), mine)
 }
 
 fn question() -> Question<Input, Vector> {

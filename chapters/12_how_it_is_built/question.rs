@@ -1,5 +1,6 @@
 //! Chapter 12: which stages are kept, beside pinhole's own plan.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -7,7 +8,7 @@ use bevy_ecs::prelude::World;
 use pinhole::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
 use pinhole::rays::RasterPoints;
 
-type Input = (Vec<StageWords>, String);
+pub(super) type Input = (Vec<StageWords>, String);
 
 /// The names that made-up stages and columns have.
 const STAGES: [&str; 8] = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
@@ -40,7 +41,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("kept", question, move |(stages, asked)| yours(stages, asked), "no picture shows it yet")
+    Exercise::rendered("kept", question, move |(stages, asked)| yours(stages, asked), mine)
 }
 
 fn question() -> Question<Input, Vec<String>> {

@@ -1,5 +1,6 @@
 //! Chapter 13: where a ray first meets a box, judged by exact arithmetic.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
@@ -8,8 +9,8 @@ use glam::{DVec3, Vec3};
 use pinhole::extract::Slabs;
 
 /// Origin, direction, least and most; all with few digits, so that quotients that are equal come out equal.
-type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);
-type Answer = Option<f64>;
+pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);
+pub(super) type Answer = Option<f64>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], [f64; 3]) -> Answer;
@@ -21,7 +22,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("nearest_box_t", question, move |&(o, d, least, most)| yours(o, d, least, most), "no picture shows it yet")
+    Exercise::rendered("nearest_box_t", question, move |&(o, d, least, most)| yours(o, d, least, most), mine)
 }
 
 fn question() -> Question<Input, Answer> {

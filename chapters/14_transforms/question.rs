@@ -1,5 +1,6 @@
 //! Chapter 14: the slant at which light falls on a triangle whose corners have normals.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -8,7 +9,7 @@ use pinhole::intersect;
 
 type Vector = [f64; 3];
 /// The triangle's own normal, its corners' normals, their shares, the way to the eye, the way to the light.
-type Input = (Vector, [Vector; 3], Vector, Vector, Vector);
+pub(super) type Input = (Vector, [Vector; 3], Vector, Vector, Vector);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, [Vector; 3], Vector, Vector, Vector) -> f64;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("falling_cosine", question, move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light), "no picture shows it yet")
+    Exercise::rendered("falling_cosine", question, move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light), mine)
 }
 
 fn question() -> Question<Input, f64> {

@@ -1,5 +1,6 @@
 //! Chapter 15: what a Phong surface sends on of parallel light.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -10,7 +11,7 @@ use std::f64::consts::PI;
 
 type Vector = [f64; 3];
 /// Colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
-type Input = (Vector, f64, Vector, Vector, Vector);
+pub(super) type Input = (Vector, f64, Vector, Vector, Vector);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, f64, Vector, Vector, Vector) -> f64;
@@ -22,7 +23,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("phong_radiance", question, move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye), "no picture shows it yet")
+    Exercise::rendered("phong_radiance", question, move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye), mine)
 }
 
 fn question() -> Question<Input, f64> {

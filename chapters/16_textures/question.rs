@@ -1,12 +1,13 @@
 //! Chapter 16: the mean of stripes over what a pixel covers.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::shade::{wave, wave_mean};
 
 /// The middle of a range, its width.
-type Input = (f64, f64);
+pub(super) type Input = (f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64) -> f64;
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("mean_of_stripes", question, move |&(x, width)| yours(x, width), "no picture shows it yet")
+    Exercise::rendered("mean_of_stripes", question, move |&(x, width)| yours(x, width), mine)
 }
 
 fn question() -> Question<Input, f64> {

@@ -1,11 +1,12 @@
 //! Chapter 17: where a tent filter puts a sample.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::sample::{tent_offset, unit};
 
-type Input = (f64, f64);
+pub(super) type Input = (f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64) -> f64;
@@ -17,7 +18,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("tent_offset", question, move |&(u, radius)| yours(u, radius), "no picture shows it yet")
+    Exercise::rendered("tent_offset", question, move |&(u, radius)| yours(u, radius), mine)
 }
 
 fn question() -> Question<Input, f64> {

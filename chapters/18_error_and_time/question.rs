@@ -8,6 +8,10 @@ use pinhole_lab::measure::ray_aim::Draws;
 type Input = (Vec<f64>, f64);
 type Answer = Option<[f64; 2]>;
 
+/// Why `render 18 --mine` makes no picture.
+const NOT_SEEN: &str =
+    "variance_and_bias_squared stands in no stage: it compares many renders, where a picture is one; `report 18` shows both";
+
 /// What the reader writes.
 pub type Yours = fn(&[f64], f64) -> Answer;
 
@@ -18,7 +22,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("variance_and_bias_squared", question, move |(runs, truth)| yours(runs, *truth), "no picture shows it yet")
+    Exercise::unseen("variance_and_bias_squared", question, move |(runs, truth)| yours(runs, *truth), NOT_SEEN)
 }
 
 fn question() -> Question<Input, Answer> {

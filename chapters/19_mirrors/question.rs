@@ -1,14 +1,15 @@
 //! Chapter 19: a direction off a mirror whose normal may be of any length.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use glam::DVec3;
 use pinhole::follow::mirror_direction;
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 /// A direction and a normal.
-type Input = (Vector, Vector);
+pub(super) type Input = (Vector, Vector);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector) -> Vector;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("mirrored", question, move |&(direction, normal)| yours(direction, normal), "no picture shows it yet")
+    Exercise::rendered("mirrored", question, move |&(direction, normal)| yours(direction, normal), mine)
 }
 
 fn question() -> Question<Input, Vector> {

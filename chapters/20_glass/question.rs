@@ -1,14 +1,15 @@
 //! Chapter 20: a direction through a surface of glass, where there is one.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use glam::DVec3;
 use pinhole::follow::refract;
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 /// A direction, a normal, and how many times as dense the far side is.
-type Input = (Vector, Vector, f64);
+pub(super) type Input = (Vector, Vector, f64);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector, f64) -> Option<Vector>;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("refracted", question, move |&(direction, normal, eta)| yours(direction, normal, eta), "no picture shows it yet")
+    Exercise::rendered("refracted", question, move |&(direction, normal, eta)| yours(direction, normal, eta), mine)
 }
 
 fn question() -> Question<Input, Option<Vector>> {

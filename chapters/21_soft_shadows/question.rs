@@ -1,5 +1,6 @@
 //! Chapter 21: how likely a direction is when a point of an area is chosen evenly.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -8,7 +9,7 @@ use pinhole::shade::emitter::pdf_from_area;
 
 type Vector = [f64; 3];
 /// The lit point, the light's point, its normal, its area.
-type Input = (Vector, Vector, Vector, f64);
+pub(super) type Input = (Vector, Vector, Vector, f64);
 
 /// What the reader writes.
 pub type Yours = fn(Vector, Vector, Vector, f64) -> f64;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("solid_angle_pdf", question, move |&(from, at, normal, area)| yours(from, at, normal, area), "no picture shows it yet")
+    Exercise::rendered("solid_angle_pdf", question, move |&(from, at, normal, area)| yours(from, at, normal, area), mine)
 }
 
 fn question() -> Question<Input, f64> {

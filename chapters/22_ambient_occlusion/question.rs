@@ -1,12 +1,13 @@
 //! Chapter 22: a direction as frequent as its cosine is large.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::follow::cosine_direction;
 use std::f64::consts::{PI, TAU};
 
-type Input = (f64, f64);
+pub(super) type Input = (f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn(f64, f64) -> [f64; 3];
@@ -18,7 +19,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("cosine_direction", question, move |&(u, v)| yours(u, v), "no picture shows it yet")
+    Exercise::rendered("cosine_direction", question, move |&(u, v)| yours(u, v), mine)
 }
 
 /// A direction by its radius in the disk, its turn and its height.

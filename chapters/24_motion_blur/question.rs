@@ -1,5 +1,6 @@
 //! Chapter 24: where a ray meets a sphere that moves.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -7,8 +8,8 @@ use glam::DVec3;
 use pinhole::intersect::{at_rest, sphere_intersection, sphere_t};
 
 /// Origin, direction, centre, radius, velocity, time.
-type Input = ([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64);
-type Answer = Option<f64>;
+pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64);
+pub(super) type Answer = Option<f64>;
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Answer;
@@ -20,7 +21,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("moving_sphere_t", question, move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), "no picture shows it yet")
+    Exercise::rendered("moving_sphere_t", question, move |&(o, d, c, r, v, time)| yours(o, d, c, r, v, time), mine)
 }
 
 fn question() -> Question<Input, Answer> {

@@ -1,11 +1,12 @@
 //! Chapter 25: what a way is worth after Russian roulette.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::follow::survival_probability;
 
-type Input = ([f64; 3], f64);
+pub(super) type Input = ([f64; 3], f64);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], f64) -> [f64; 3];
@@ -17,7 +18,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("after_roulette", question, move |&(share, u)| yours(share, u), "no picture shows it yet")
+    Exercise::rendered("after_roulette", question, move |&(share, u)| yours(share, u), mine)
 }
 
 /// Plays with a chance, and makes what goes on worth so much more.

@@ -1,5 +1,6 @@
 //! Chapter 27: what a pixel gets of a point's light.
 
+use super::mine::mine;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -7,7 +8,7 @@ use glam::{DMat3, DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
 use pinhole::rays::join_camera;
 
-type Input = ([f64; 3], f64, f64);
+pub(super) type Input = ([f64; 3], f64, f64);
 
 /// What the reader writes.
 pub type Yours = fn([f64; 3], f64, f64) -> f64;
@@ -19,7 +20,7 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::unseen("pixel_fraction", question, move |&(point, tan_half, height)| yours(point, tan_half, height), "no picture shows it yet")
+    Exercise::rendered("pixel_fraction", question, move |&(point, tan_half, height)| yours(point, tan_half, height), mine)
 }
 
 fn question() -> Question<Input, f64> {

@@ -42,13 +42,19 @@ impl<I, A: Shown> Ask<I, A> {
 
     /// The function's answer for a row; none once it has panicked, or answered what is not a finite number.
     pub fn at(&self, place: RowPlace<'_>, row: usize, input: I) -> Option<A> {
+        self.answer(input, || pixel_of(place, row).map_or_else(String::new, |[x, y]| format!("at pixel ({x}, {y}), ")))
+    }
+
+    /// The same for the picture as a whole.
+    pub fn once(&self, input: I) -> Option<A> {
+        self.answer(input, String::new)
+    }
+
+    fn answer(&self, input: I, pixel: impl FnOnce() -> String) -> Option<A> {
         if self.complaint.get().is_some() {
             return None;
         }
-        let place = || {
-            let pixel = pixel_of(place, row).map_or_else(String::new, |[x, y]| format!("at pixel ({x}, {y}), "));
-            format!("{pixel}asked {}", (self.question)().tell_on_one_line(&input))
-        };
+        let place = || format!("{}asked {}", pixel(), (self.question)().tell_on_one_line(&input));
         match catch_unwind(AssertUnwindSafe(|| (self.written)(&input))) {
             // A picture's numbers are f32 in the end.
             Ok(answer) if answer.numbers().iter().all(|number| (*number as f32).is_finite()) => Some(answer),

@@ -3,7 +3,9 @@ use super::ask::Complaint;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
-use pinhole::plan::Stage;
+use pinhole::extract::camera_entity;
+use pinhole::plan::{Stage, plan};
+use pinhole::scene::Resolution;
 use pinhole::{Chapter, Error, Result};
 use std::sync::Arc;
 
@@ -13,6 +15,18 @@ pub struct Setting<'s> {
     pub chapter: &'s Chapter,
     /// Its scene.
     pub scene: &'s World,
+}
+
+impl Setting<'_> {
+    /// How many pixels the picture has.
+    pub fn resolution(&self) -> Resolution {
+        self.camera::<Resolution>().copied().unwrap_or_default()
+    }
+
+    /// A component of the camera.
+    pub fn camera<C: Component>(&self) -> Option<&C> {
+        camera_entity(self.scene).ok().and_then(|camera| self.scene.get::<C>(camera))
+    }
 }
 
 /// How a function takes its place in a chapter, and where it is told what went wrong.
@@ -98,11 +112,18 @@ pub struct Mine {
 impl Mine {
     /// The chapter with this exercise's function in it.
     ///
-    /// Errors: why no picture shows the function; the chapter lacks the stage in which it would stand.
+    /// Errors: why no picture shows the function; the stage in which it would stand does not run.
     pub fn of(exercise: &Exercise, chapter: &Chapter, scene: &World) -> Result<Self> {
         let render = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
         let (stand_in, complaint) = render(&Setting { chapter, scene });
-        Ok(Self { chapter: stand_in.put_in(chapter)?, complaint })
+        let stage = stand_in.stage;
+        let chapter = stand_in.put_in(chapter)?;
+        let runs = plan(scene, &chapter.stages())?.stages.iter().any(|own| own.name == stage);
+        if !runs && !stage.is_empty() {
+            let function = exercise.function;
+            return Err(Error::Usage(format!("{function} stands in \"{stage}\", which this render does not run")));
+        }
+        Ok(Self { chapter, complaint })
     }
 
     /// What the render has to say against the function, in one sentence.

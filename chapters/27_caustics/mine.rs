@@ -1,0 +1,31 @@
+//! The reader's function in the picture of chapter 27: light that is connected to the camera.
+
+use bevy_ecs::prelude::*;
+use glam::{DVec2, DVec3};
+use pinhole::extract::CameraJoinTable;
+use pinhole::plan::{Column, Shared};
+use pinhole::rays::join_camera;
+use pinhole::shade::LightRays;
+use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
+use super::question::Input;
+
+/// What pixels get of the light that reaches a surface from a lamp.
+pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
+    StandIn::after(
+        "Connect to the camera",
+        move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<(RowPlaces, &mut LightRays)>| {
+            for (place, mut rays) in &mut tiles {
+                for ray in 0..rays.rows() {
+                    let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
+                    let Some(joined) = join_camera(&camera, DVec2::ZERO, from) else { continue };
+                    let point = (camera.camera_from_world * from).into();
+                    let asked = (point, camera.half_height, camera.size.y);
+                    let Some(fraction) = ask.at(place, rays.path[ray] as usize, asked) else { continue };
+                    let more = (fraction / joined.importance) as f32;
+                    let rays = &mut *rays;
+                    [&mut rays.r, &mut rays.g, &mut rays.b].into_iter().for_each(|part| part[ray] *= more);
+                }
+            }
+        },
+    )
+}
