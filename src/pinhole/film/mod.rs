@@ -1,9 +1,9 @@
-//! Light → pixels → files.
+//! Radiance → pixels → files.
 //!
-//! Reads: [`Radiance`](crate::shade::Radiance), what layers show, light from lights that lands on pixels.
-//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; then, once, an image of 8-bit sRGB (PNG) or of linear floats
+//! Reads: [`Radiance`](crate::shade::Radiance), the columns that layers are made of, and the splats of light tracing.
+//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit sRGB (PNG) or linear floats
 //! (EXR).
-//! Nothing is written to disk anywhere else in the kit's renderer, and no file is ever left half written.
+//! The renderer writes to disk nowhere else, and never leaves a partial file behind.
 
 mod accumulate;
 mod checkpoint;

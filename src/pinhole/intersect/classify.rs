@@ -61,7 +61,7 @@ column! {
 }
 
 column! {
-    /// The rows whose surface spreads light that falls on it, ascending: all matter but mirrors and glass.
+    /// The rows whose surface has a non-specular material, which is every material but mirrors and glass; ascending.
     pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
@@ -73,14 +73,14 @@ column! {
     pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
         /// A row of the hits.
         row: u32,
-        /// The row of the table of emissive surfaces.
+        /// A row of the table of emissive surfaces.
         emissive: u32,
     }
 }
 
-/// Lists the rows of each kind of shape and matter, and blanks the surfaces of rows that met nothing.
+/// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
-/// After this each kind visits its own rows only.
+/// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
 pub fn classify_hits(
     shapes: Res<Shared<ShapeTable>>,
     mut tiles: Query<(
@@ -146,7 +146,7 @@ pub fn classify_hits(
             list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
         if let Some(mut surfaces) = surfaces {
-            blank_misses(hits, &mut surfaces);
+            clear_misses(hits, &mut surfaces);
         }
         if let Some(mut uvs) = uvs {
             let (u, v) = uvs.slices_mut(hits.rows());
@@ -159,7 +159,7 @@ pub fn classify_hits(
     }
 }
 
-/// Writes every row and keeps those that count, so that no branch depends on what was hit.
+/// Writes every row and keeps those of the kind (stream compaction), so that no branch depends on what was hit.
 fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
     list.resize(hits.rows(), 0);
     let mut length = 0;
@@ -170,7 +170,7 @@ fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) 
     list.truncate(length);
 }
 
-fn blank_misses(hits: &Hits, surfaces: &mut Surfaces) {
+fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
     let rows = hits.rows();
     let (px, py, pz, nx, ny, nz, bound, material) = surfaces.slices_mut(rows);
     for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
@@ -234,7 +234,7 @@ impl MaterialRows {
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn classify_stage() -> Stage {
     Stage::new("Classify hits", TileSystems::Classify, classify_hits)
         .reads::<Hits>()

@@ -2,9 +2,10 @@ use super::sphere::{Intersection, LANES, RayBlock, vector};
 use glam::DVec3;
 
 // ANCHOR: keep_closest
-/// Narrows the hits of a block of rays by one shape: all by the quick verdict, and those in doubt by the wide one.
+/// Intersects a block of rays with one shape and keeps the closest hits: all rays in f64, and the uncertain ones again
+/// in double-double.
 ///
-/// Among equal distances the lower shape number stays.
+/// At equal distances the lower shape number wins.
 #[inline(always)]
 pub fn keep_closest(
     rays: &RayBlock,
@@ -15,16 +16,16 @@ pub fn keep_closest(
     shape: &mut [u32],
 ) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
-    for component in 0..LANES {
-        let intersection = intersection(vector(&rays.o, component), vector(&rays.d, component));
-        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
+    for lane in 0..LANES {
+        let intersection = intersection(vector(&rays.o, lane), vector(&rays.d, lane));
+        (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
-    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if uncertain[component] {
-            found[component] = double_double(vector(&rays.o, component), vector(&rays.d, component));
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[lane] {
+            found[lane] = double_double(vector(&rays.o, lane), vector(&rays.d, lane));
         }
-        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
-            (*t, *shape) = (found[component], number);
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
         }
     }
 }
