@@ -27,21 +27,19 @@ const ORDER: &[(&str, &[&str])] = &[
             "prelude",
         ],
     ),
-    ("lab", &["repository", "naive", "attempt", "figure", "review", "measure", "report", "exercise"]),
-    ("", &["exercises", "command"]),
+    ("lab", &["repository", "naive", "figure", "review", "measure", "report", "exercise"]),
+    ("", &["exercises", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
 const ROOT: [&str; 3] = ["Error", "Result", "repository"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 7] = [
+const REEXPORTED: [(&str, &str); 5] = [
     ("Chapter", "chapter"),
     ("Asked", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
-    ("Attempt", "attempt"),
-    ("StageWords", "attempt"),
     ("run", "example"),
 ];
 

@@ -1,10 +1,10 @@
 //! The reader's function in the picture of chapter 01: raster points from the numbers of pixels.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::plan::Column;
 use pinhole::rays::RasterPoints;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Every pixel's centre by its number in the image.
 pub fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {

@@ -1,10 +1,10 @@
 //! Chapter 01: from the running index of a pixel to its centre in raster space.
 
 use super::mine::mine;
+use pinhole::rays::raster_from_pixel;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::rays::raster_from_pixel;
 
 pub(super) type Input = (u64, u32);
 

@@ -4,12 +4,5 @@ use pinhole_lab::figure::{Figure, ray};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "02_ray",
-            chapter,
-            about: "a ray: a point, a unit vector, and t",
-            draw: ray::draw,
-        },
-    ]
+    vec![Figure { name: "02_ray", chapter, about: "a ray: a point, a unit vector, and t", draw: ray::draw }]
 }

@@ -1,11 +1,11 @@
 //! The reader's function in the picture of chapter 02: camera rays of length 1.
 
+use super::question::Vector;
 use bevy_ecs::prelude::*;
 use pinhole::extract::PerspectiveProjection;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Vector;
 
 /// The vector from the eye to a point of the image plane, brought to length 1 by the reader's function.
 pub fn mine(ask: Ask<Vector, Option<Vector>>, _: &Setting<'_>) -> StandIn {

@@ -4,12 +4,5 @@ use pinhole_lab::figure::{Figure, hit};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "03_hit",
-            chapter,
-            about: "where a ray hits a sphere",
-            draw: hit::draw,
-        },
-    ]
+    vec![Figure { name: "03_hit", chapter, about: "where a ray hits a sphere", draw: hit::draw }]
 }

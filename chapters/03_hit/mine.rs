@@ -1,12 +1,12 @@
 //! The reader's function in the picture of chapter 03: rays with spheres.
 
+use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use pinhole::extract::SphereTable;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Answer, Input};
 
 /// The nearest sphere of each ray.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {

@@ -1,13 +1,13 @@
 //! Chapter 03: where a ray first meets a sphere, judged by exact arithmetic.
 
 use super::mine::mine;
+use glam::{DVec3, Vec3};
+use pinhole::intersect::sphere_intersection;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_roots, sphere_hit};
 use pinhole_lab::measure::ray_aim::{self, AimedRay, Draws};
 use pinhole_lab::naive::sphere::hit_f64_plain;
-use glam::{DVec3, Vec3};
-use pinhole::intersect::sphere_intersection;
 
 /// Origin, direction, centre, radius; origin and direction have few digits, as f32 numbers.
 pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], f64);

@@ -1,11 +1,11 @@
 //! The reader's function in the picture of chapter 04: the rays of an orthographic camera.
 
+use super::question::{Input, Ray};
 use bevy_ecs::prelude::*;
 use pinhole::extract::OrthographicWindow;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Input, Ray};
 
 /// Origins and directions of camera rays.
 pub fn mine(ask: Ask<Input, Ray>, _: &Setting<'_>) -> StandIn {

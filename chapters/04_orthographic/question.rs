@@ -1,10 +1,10 @@
 //! Chapter 04: the ray that starts at a point of the view rectangle.
 
 use super::mine::mine;
+use pinhole::rays::camera_ray_orthographic;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::rays::camera_ray_orthographic;
 
 pub(super) type Input = ([f64; 2], f64);
 pub(super) type Ray = ([f64; 3], [f64; 3]);

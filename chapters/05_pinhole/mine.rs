@@ -1,11 +1,11 @@
 //! The reader's function in the picture of chapter 05: the rays of a pinhole camera.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::PerspectiveProjection;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Directions of camera rays.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {

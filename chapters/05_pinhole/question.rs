@@ -1,12 +1,12 @@
 //! Chapter 05: the direction from the eye through a screen point.
 
 use super::mine::mine;
-use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
-use pinhole_lab::measure::ray_aim::Draws;
 use pinhole::extract::tan_half;
 use pinhole::rays::camera_ray_perspective;
 use pinhole::scene::Degrees;
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = ([f64; 2], f64);
 

@@ -4,12 +4,5 @@ use pinhole_lab::figure::{Figure, ndc};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "06_ndc",
-            chapter,
-            about: "one point of the image, in two resolutions",
-            draw: ndc::draw,
-        },
-    ]
+    vec![Figure { name: "06_ndc", chapter, about: "one point of the image, in two resolutions", draw: ndc::draw }]
 }

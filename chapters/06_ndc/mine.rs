@@ -1,12 +1,12 @@
 //! The reader's function in the picture of chapter 06: NDC points and back to pixels.
 
+use super::question::{Input, Pixel};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::extract::ImageFrame;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{NdcPoints, ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Input, Pixel};
 
 /// Every NDC point moved to the centre of the pixel that the reader's function finds it in; outside, it is (0, 0).
 pub fn mine(ask: Ask<Input, Pixel>, setting: &Setting<'_>) -> StandIn {

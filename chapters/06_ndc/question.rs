@@ -1,12 +1,12 @@
 //! Chapter 06: which pixel holds an NDC point, judged by exact arithmetic.
 
 use super::mine::mine;
+use glam::DVec2;
+use pinhole::rays::{ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec2;
-use pinhole::rays::{ndc_from_raster, raster_from_pixel};
 
 pub(super) type Input = ([f64; 2], u32, u32);
 pub(super) type Pixel = Option<[u32; 2]>;

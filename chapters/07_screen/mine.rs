@@ -1,11 +1,11 @@
 //! The reader's function in the picture of chapter 07: screen points and back.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::ImageFrame;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{ScreenPoints, screen_from_ndc};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Every screen point taken to NDC by the reader's function, and back by pinhole's: what undoes it leaves it in place.
 pub fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {

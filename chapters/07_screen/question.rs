@@ -1,11 +1,11 @@
 //! Chapter 07: from the screen back to NDC, judged by exact arithmetic.
 
 use super::mine::mine;
+use pinhole::rays::screen_from_ndc;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::rays::screen_from_ndc;
 
 pub(super) type Input = ([f64; 2], u32, u32);
 

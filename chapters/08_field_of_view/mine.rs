@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 08: how wide the camera sees.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::extract::tan_half;
@@ -7,7 +8,6 @@ use pinhole::plan::Column;
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, PerspectiveCamera};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Directions of camera rays, by the vertical angle that the reader's function makes of the scene's.
 pub fn mine(ask: Ask<Input, f64>, setting: &Setting<'_>) -> StandIn {

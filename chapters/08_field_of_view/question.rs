@@ -1,13 +1,13 @@
 //! Chapter 08: the vertical angle of a field of view that is measured across something else.
 
 use super::mine::mine;
+use glam::DMat3;
+use pinhole::extract::tan_half;
+use pinhole::scene::{Degrees, FovAxis};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
 use pinhole_lab::measure::oracle_camera::ExactCamera;
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DMat3;
-use pinhole::extract::tan_half;
-use pinhole::scene::{Degrees, FovAxis};
 use std::f64::consts::PI;
 
 pub(super) type Input = (f64, FovAxis, u32, u32);
@@ -26,7 +26,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("vertical_fov", question, move |&(angle, axis, width, height)| yours(angle, axis, width, height), mine)
+    Exercise::rendered(
+        "vertical_fov",
+        question,
+        move |&(angle, axis, width, height)| yours(angle, axis, width, height),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 09: the normals of scaled spheres.
 
+use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{EllipsoidTable, ShapeTable};
@@ -7,7 +8,6 @@ use pinhole::intersect::{EllipsoidRows, Hits, Surfaces};
 use pinhole::plan::Shared;
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Input, Vector};
 
 /// Normals of ellipsoids, from those of the unit spheres that they are in object space.
 pub fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {

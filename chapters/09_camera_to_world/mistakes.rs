@@ -11,10 +11,7 @@ pub fn solved() -> Exercise {
 
 /// The wrong solutions.
 pub fn all() -> Vec<(Exercise, &'static str)> {
-    vec![
-        (exercise(as_a_direction), "as a direction"),
-        (exercise(cofactors), "sign of the determinant"),
-    ]
+    vec![(exercise(as_a_direction), "as a direction"), (exercise(cofactors), "sign of the determinant")]
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

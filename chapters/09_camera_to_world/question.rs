@@ -1,12 +1,12 @@
 //! Chapter 09: a normal, turned, stretched, mirrored and sheared with its surface, judged by exact arithmetic.
 
 use super::mine::mine;
+use glam::{DMat3, DQuat, DVec3};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::exact::Dyadic;
 use pinhole_lab::measure::exact_vector::ExactVector;
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::{DMat3, DQuat, DVec3};
 
 pub(super) type Vector = [f64; 3];
 /// The columns of the map, and the normal in object space.

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 10: the light of lamps on matte surfaces.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{MaterialTable, PointLightTable};
@@ -7,7 +8,6 @@ use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::shade::{LightRays, Radiance, ShadowHits};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Radiance of matte surfaces from the point lights that nothing hides from them.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

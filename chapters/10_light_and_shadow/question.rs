@@ -1,11 +1,11 @@
 //! Chapter 10: what a matte surface sends on of a lamp's light.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::shade;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::shade;
 use std::f64::consts::PI;
 
 type Vector = [f64; 3];
@@ -22,7 +22,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("reflected_radiance", question, move |&(c, i, position, normal, light)| yours(c, i, position, normal, light), mine)
+    Exercise::rendered(
+        "reflected_radiance",
+        question,
+        move |&(c, i, position, normal, light)| yours(c, i, position, normal, light),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

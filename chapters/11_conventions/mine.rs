@@ -1,10 +1,10 @@
 //! The reader's function in the picture of chapter 11: directions that were told in another program's axes.
 
+use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use pinhole::plan::Column;
 use pinhole::rays::CameraRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Input, Vector};
 
 /// Every camera ray's direction, told with x left, y down and z ahead, and turned back by the reader's function.
 pub fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {

@@ -19,7 +19,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("pinhole_from_theirs", question, move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead), mine)
+    Exercise::rendered(
+        "pinhole_from_theirs",
+        question,
+        move |&(v, x_right, y_up, z_ahead)| yours(v, x_right, y_up, z_ahead),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, Vector> {

@@ -1,12 +1,12 @@
 //! Chapter 12: which stages are kept, beside pinhole's own plan.
 
 use super::mine::mine;
-use pinhole_lab::exercise::apart::exact;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
-use pinhole_lab::measure::ray_aim::Draws;
 use bevy_ecs::prelude::World;
 use pinhole::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
 use pinhole::rays::RasterPoints;
+use pinhole_lab::exercise::apart::exact;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
+use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = (Vec<StageWords>, String);
 

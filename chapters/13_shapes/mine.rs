@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 13: rays with cuboids.
 
+use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::CuboidTable;
@@ -7,7 +8,6 @@ use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Answer, Input};
 
 /// The nearest cuboid of each ray, each asked in its own axes about its own centre.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
@@ -18,7 +18,8 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
                 for row in 0..rays.rows() {
                     for (slabs, &shape) in cuboids.slabs.iter().zip(&cuboids.shape) {
                         let own = |v: DVec3| slabs.normal.map(|normal| normal.dot(v));
-                        let (origin, direction) = (own(rays.origin_of(row) - slabs.centre), own(rays.direction_of(row)));
+                        let (origin, direction) =
+                            (own(rays.origin_of(row) - slabs.centre), own(rays.direction_of(row)));
                         let asked = (origin, direction, slabs.half.map(|half| -half), slabs.half);
                         let t = ask.at(place, row, asked).flatten();
                         if let Some(t) = t.filter(|t| *t > 0.0 && *t < hits.t[row]) {

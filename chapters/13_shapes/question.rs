@@ -1,12 +1,12 @@
 //! Chapter 13: where a ray first meets a box, judged by exact arithmetic.
 
 use super::mine::mine;
+use glam::{DVec3, Vec3};
+use pinhole::extract::Slabs;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::oracle_cuboid::cuboid_hit;
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::{DVec3, Vec3};
-use pinhole::extract::Slabs;
 
 /// Origin, direction, least and most; all with few digits, so that quotients that are equal come out equal.
 pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], [f64; 3]);

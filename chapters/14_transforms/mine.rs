@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 14: light on triangles with shading normals.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{ShapeKind, ShapeTable, TriangleTable, VertexNormalTable};
@@ -8,7 +9,6 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Irradiance from lamps on triangles whose corners have normals, by the cosine that the reader's function finds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

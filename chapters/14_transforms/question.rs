@@ -1,11 +1,11 @@
 //! Chapter 14: the slant at which light falls on a triangle whose corners have normals.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::intersect;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::intersect;
 
 type Vector = [f64; 3];
 /// The triangle's own normal, its corners' normals, their shares, the way to the eye, the way to the light.
@@ -21,7 +21,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("falling_cosine", question, move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light), mine)
+    Exercise::rendered(
+        "falling_cosine",
+        question,
+        move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

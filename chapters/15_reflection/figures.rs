@@ -4,12 +4,10 @@ use pinhole_lab::figure::{Figure, lobes};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "15_reflection",
-            chapter,
-            about: "how much each reflection model sends which way",
-            draw: lobes::draw,
-        },
-    ]
+    vec![Figure {
+        name: "15_reflection",
+        chapter,
+        about: "how much each reflection model sends which way",
+        draw: lobes::draw,
+    }]
 }

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 15: the highlights of Phong surfaces.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{MaterialKind, MaterialTable, PhongTable};
 use pinhole::intersect::{NO_SHAPE, Surfaces};
@@ -7,7 +8,6 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Radiance of Phong surfaces, less the matte part that "Evaluate direct light" adds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

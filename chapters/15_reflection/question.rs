@@ -1,12 +1,12 @@
 //! Chapter 15: what a Phong surface sends on of parallel light.
 
 use super::mine::mine;
-use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
-use pinhole_lab::measure::ray_aim::Draws;
 use glam::DVec3;
 use pinhole::extract::phong_peak;
 use pinhole::shade::{half_vector_cosine, highlight, matte_radiance, mirror_cosine};
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::PI;
 
 type Vector = [f64; 3];
@@ -23,7 +23,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("phong_radiance", question, move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye), mine)
+    Exercise::rendered(
+        "phong_radiance",
+        question,
+        move |&(m, e, normal, light, eye)| yours(m, e, normal, light, eye),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

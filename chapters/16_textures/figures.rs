@@ -4,12 +4,10 @@ use pinhole_lab::figure::{Figure, aliasing};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "16_aliasing",
-            chapter,
-            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
-            draw: aliasing::draw,
-        },
-    ]
+    vec![Figure {
+        name: "16_aliasing",
+        chapter,
+        about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+        draw: aliasing::draw,
+    }]
 }

@@ -1,12 +1,12 @@
 //! The reader's function in the picture of chapter 16: checkers, each of three stripes.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{CheckerTable, NO_TEXTURE};
 use pinhole::intersect::{MaterialRows, Surfaces};
 use pinhole::plan::Shared;
 use pinhole::shade::{SurfaceColours, TexturePoints, box_width};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Colours of checkers: a checker is the product of stripes along its three axes.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

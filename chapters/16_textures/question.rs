@@ -1,10 +1,10 @@
 //! Chapter 16: the mean of stripes over what a pixel covers.
 
 use super::mine::mine;
+use pinhole::shade::{wave, wave_mean};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::shade::{wave, wave_mean};
 
 /// The middle of a range, its width.
 pub(super) type Input = (f64, f64);

@@ -1,12 +1,12 @@
 //! The reader's function in the picture of chapter 17: samples through a tent filter.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{FilterTable, SamplingTable, radius_of};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{Depth, Draws, PixelSamples, RasterPoints, SampleNumber, Tile, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
-use super::question::Input;
 
 /// Samples placed by the tent, with the radius of the filter that the camera has.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

@@ -1,10 +1,10 @@
 //! Chapter 17: where a tent filter puts a sample.
 
 use super::mine::mine;
+use pinhole::sample::{tent_offset, unit};
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::sample::{tent_offset, unit};
 
 pub(super) type Input = (f64, f64);
 

@@ -4,12 +4,10 @@ use pinhole_lab::figure::{Figure, path_mistakes};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "19_broken",
-            chapter,
-            about: "rough metal, and rough metal by the pdf of something else",
-            draw: path_mistakes::draw_metal,
-        },
-    ]
+    vec![Figure {
+        name: "19_broken",
+        chapter,
+        about: "rough metal, and rough metal by the pdf of something else",
+        draw: path_mistakes::draw_metal,
+    }]
 }

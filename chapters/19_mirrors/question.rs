@@ -1,11 +1,11 @@
 //! Chapter 19: a direction off a mirror whose normal may be of any length.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::follow::mirror_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::follow::mirror_direction;
 
 pub(super) type Vector = [f64; 3];
 /// A direction and a normal.

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 20: the rays that glass lets through.
 
+use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::GlassTable;
@@ -8,7 +9,6 @@ use pinhole::intersect::Surfaces;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Input, Vector};
 
 /// Below this sine of the angle to the normal a ray is hardly bent, and does not tell by which index.
 const TELLS: f64 = 1e-3;
@@ -17,8 +17,7 @@ const TELLS: f64 = 1e-3;
 pub fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
         "Split rays at glass",
-        move |glass: Res<Shared<GlassTable>>,
-              mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
+        move |glass: Res<Shared<GlassTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
             for (place, rays, surfaces, mut scattered) in &mut tiles {
                 for ray in 0..scattered.rows() {
                     let row = scattered.path[ray] as usize;

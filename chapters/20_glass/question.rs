@@ -1,11 +1,11 @@
 //! Chapter 20: a direction through a surface of glass, where there is one.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::follow::refract;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::follow::refract;
 
 pub(super) type Vector = [f64; 3];
 /// A direction, a normal, and how many times as dense the far side is.

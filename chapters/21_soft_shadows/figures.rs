@@ -4,12 +4,10 @@ use pinhole_lab::figure::{Figure, jacobian};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "21_jacobian",
-            chapter,
-            about: "area lights by the right pdf, without its cosine, and without its distance too",
-            draw: jacobian::draw,
-        },
-    ]
+    vec![Figure {
+        name: "21_jacobian",
+        chapter,
+        about: "area lights by the right pdf, without its cosine, and without its distance too",
+        draw: jacobian::draw,
+    }]
 }

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 21: area lights sampled evenly over their area.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{AreaLightTable, Emitter, Parallelogram, SamplingTable};
@@ -9,7 +10,6 @@ use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole::shade::{LightRays, emitter::parallelogram_area_point, irradiance_from_area, shadow_t_max};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Shadow rays to rectangles by points chosen evenly over their area, with the pdf that the reader's function gives.
 ///
@@ -29,7 +29,8 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
                     let aimed = rays.direction_of(ray);
                     let rectangles = lights.emitter.iter().enumerate().filter_map(rectangle);
-                    let Some((light, shape)) = rectangles.into_iter().find(|(_, shape)| seen(shape, from, aimed)) else {
+                    let Some((light, shape)) = rectangles.into_iter().find(|(_, shape)| seen(shape, from, aimed))
+                    else {
                         continue;
                     };
                     let to = parallelogram_area_point(shape, from, u).to;

@@ -1,11 +1,11 @@
 //! Chapter 21: how likely a direction is when a point of an area is chosen evenly.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::shade::emitter::pdf_from_area;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::shade::emitter::pdf_from_area;
 
 type Vector = [f64; 3];
 /// The lit point, the light's point, its normal, its area.
@@ -21,7 +21,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("solid_angle_pdf", question, move |&(from, at, normal, area)| yours(from, at, normal, area), mine)
+    Exercise::rendered(
+        "solid_angle_pdf",
+        question,
+        move |&(from, at, normal, area)| yours(from, at, normal, area),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 22: the directions of the open sky.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::SamplingTable;
@@ -10,7 +11,6 @@ use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Directions about the normal, in which the open sky is looked for.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {

@@ -1,10 +1,10 @@
 //! Chapter 22: a direction as frequent as its cosine is large.
 
 use super::mine::mine;
+use pinhole::follow::cosine_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::follow::cosine_direction;
 use std::f64::consts::{PI, TAU};
 
 pub(super) type Input = (f64, f64);

@@ -1,11 +1,11 @@
 //! The reader's function in the picture of chapter 23: the rays of a thin lens.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{LensTable, PerspectiveProjection};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{CameraRays, LensPoints, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// Directions of rays from points of the lens.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {

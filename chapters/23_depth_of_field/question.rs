@@ -1,11 +1,11 @@
 //! Chapter 23: the direction from a point of the lens through the point in focus.
 
 use super::mine::mine;
+use pinhole::rays::{camera_ray_lens, camera_ray_perspective};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 use pinhole_lab::naive::lens::focus_along_the_ray;
-use pinhole::rays::{camera_ray_lens, camera_ray_perspective};
 
 pub(super) type Input = ([f64; 2], f64, [f64; 2], f64);
 
@@ -19,7 +19,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("lens_direction", question, move |&(screen, tangent, lens, focus)| yours(screen, tangent, lens, focus), mine)
+    Exercise::rendered(
+        "lens_direction",
+        question,
+        move |&(screen, tangent, lens, focus)| yours(screen, tangent, lens, focus),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, [f64; 3]> {

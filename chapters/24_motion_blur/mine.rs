@@ -1,12 +1,12 @@
 //! The reader's function in the picture of chapter 24: rays with moving spheres.
 
+use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use pinhole::extract::{Body, MovingTable};
 use pinhole::intersect::{Hits, at_rest, disk_t, rectangle_t};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{RayTimes, WorldRays};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::{Answer, Input};
 
 /// The nearest moving shape of each ray; spheres by the reader's function.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {

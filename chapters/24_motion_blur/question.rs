@@ -1,11 +1,11 @@
 //! Chapter 24: where a ray meets a sphere that moves.
 
 use super::mine::mine;
+use glam::DVec3;
+use pinhole::intersect::{at_rest, sphere_intersection, sphere_t};
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use glam::DVec3;
-use pinhole::intersect::{at_rest, sphere_intersection, sphere_t};
 
 /// Origin, direction, centre, radius, velocity, time.
 pub(super) type Input = ([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64);

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 25: paths that Russian roulette ends.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{IntegratorTable, SamplingTable};
 use pinhole::follow::Scattered;
@@ -7,7 +8,6 @@ use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
 use pinhole::sample::Purpose;
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
-use super::question::Input;
 
 /// The throughput of paths after roulette; a path that ends keeps its row, with nothing left of its light.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {

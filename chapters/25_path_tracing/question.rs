@@ -1,10 +1,10 @@
 //! Chapter 25: what a way is worth after Russian roulette.
 
 use super::mine::mine;
+use pinhole::follow::survival_probability;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::follow::survival_probability;
 
 pub(super) type Input = ([f64; 3], f64);
 

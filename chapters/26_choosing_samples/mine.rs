@@ -1,13 +1,13 @@
 //! The reader's function in the picture of chapter 26: what is found by BSDF sampling, with its weight.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{AreaLightTable, EmissiveTable, NO_ROW};
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
 use pinhole::plan::Shared;
-use pinhole::rays::{PixelSamples, Paths, Tile, WorldRays};
+use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
 use pinhole::shade::{Radiance, area_light_pdf};
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
-use super::question::Input;
 
 /// The light of emitters that a path hits, weighted against light sampling, which could have found them too.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

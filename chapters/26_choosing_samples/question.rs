@@ -1,10 +1,10 @@
 //! Chapter 26: the power heuristic, for densities of any size.
 
 use super::mine::mine;
+use pinhole::follow::power_heuristic;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
-use pinhole::follow::power_heuristic;
 
 pub(super) type Input = (f64, f64);
 

@@ -1,5 +1,6 @@
 //! The reader's function in the picture of chapter 27: light that is connected to the camera.
 
+use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
@@ -7,7 +8,6 @@ use pinhole::plan::{Column, Shared};
 use pinhole::rays::join_camera;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
-use super::question::Input;
 
 /// What pixels get of the light that reaches a surface from a lamp.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {

@@ -18,10 +18,13 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|point, t, h| shared(point, 2.0 * t / h, 1, 3)), "its side squared"),
         (exercise(|point, t, h| shared(point, 2.0 * t / h, 0, 3)), "area A is missing"),
         (exercise(|point, t, h| shared(point, t / h, 2, 3)), "not tan_half"),
-        (exercise(|[x, y, z], t, h| {
-            let side = 2.0 * t / h;
-            (x * x + y * y + z * z).sqrt() / (side * side * -z * z * z)
-        }), "behind the eye"),
+        (
+            exercise(|[x, y, z], t, h| {
+                let side = 2.0 * t / h;
+                (x * x + y * y + z * z).sqrt() / (side * side * -z * z * z)
+            }),
+            "behind the eye",
+        ),
         (exercise(|point, t, h| dot(point, point) * shared(point, 2.0 * t / h, 2, 3)), "1/d² is missing"),
     ]
 }

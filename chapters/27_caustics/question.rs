@@ -1,12 +1,12 @@
 //! Chapter 27: what a pixel gets of a point's light.
 
 use super::mine::mine;
-use pinhole_lab::exercise::apart::relative;
-use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
-use pinhole_lab::measure::ray_aim::Draws;
 use glam::{DMat3, DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
 use pinhole::rays::join_camera;
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Input = ([f64; 3], f64, f64);
 
@@ -20,7 +20,12 @@ pub fn yours() -> Exercise {
 
 /// The exercise with this function in it.
 pub fn exercise(yours: Yours) -> Exercise {
-    Exercise::rendered("pixel_fraction", question, move |&(point, tan_half, height)| yours(point, tan_half, height), mine)
+    Exercise::rendered(
+        "pixel_fraction",
+        question,
+        move |&(point, tan_half, height)| yours(point, tan_half, height),
+        mine,
+    )
 }
 
 fn question() -> Question<Input, f64> {

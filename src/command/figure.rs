@@ -15,7 +15,10 @@ pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, format: Format, out
         if format.is_json() {
             let told =
                 |Figure { name, chapter, about, .. }| json!({ "name": name, "chapter": chapter, "about": about });
-            return print_json(&json!({ "figures": figures::all().into_iter().map(told).collect::<Vec<Value>>() }), out);
+            return print_json(
+                &json!({ "figures": figures::all().into_iter().map(told).collect::<Vec<Value>>() }),
+                out,
+            );
         }
         for figure in figures::all() {
             writeln!(out, "{:<18} {}", figure.name, figure.about)?;

@@ -116,6 +116,7 @@ impl Mine {
     pub fn of(exercise: &Exercise, chapter: &Chapter, scene: &World) -> Result<Self> {
         let render = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
         let (stand_in, complaint) = render(&Setting { chapter, scene });
+        complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))?;
         let stage = stand_in.stage;
         let chapter = stand_in.put_in(chapter)?;
         let runs = plan(scene, &chapter.stages())?.stages.iter().any(|own| own.name == stage);
