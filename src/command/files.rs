@@ -104,11 +104,12 @@ impl Files {
     /// Writes one of them.
     pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
         self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
-        Ok(match (is(picture, "exr"), film.layers.is_empty()) {
+        match (is(picture, "exr"), film.layers.is_empty()) {
             (false, _) => write_png(film, self.curve, picture)?,
             (true, true) => write_exr(film, picture)?,
             (true, false) => write_layered_exr(film, &self.names, picture)?,
-        })
+        }
+        Ok(())
     }
 
     /// Sends the picture to standard output, where that is asked for.

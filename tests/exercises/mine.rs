@@ -3,7 +3,7 @@
 use super::solutions::{ALL, chapter_05_pinhole};
 use super::{pinhole as perspective, right, run, untouched};
 use ::pinhole::film::Film;
-use ::pinhole::render::{Execution, Unwatched, render};
+use ::pinhole::render::{Execution, render};
 use ::pinhole::scene::{Filter, Resolution, Sampling};
 use ::pinhole::{Chapter, Overrides, SamplingOverrides};
 use chapters::all;
@@ -46,7 +46,7 @@ fn asked(chapter: &Chapter) -> Overrides {
 }
 
 fn film(chapter: &Chapter, asked: &Overrides) -> ::pinhole::Result<Film> {
-    Ok(render(&chapter.world(asked), &chapter.stages(), &Execution::default(), &Unwatched)?.film)
+    Ok(render(&chapter.world(asked), &chapter.stages(), &Execution::default(), &())?.film)
 }
 
 /// The picture with a function in it.

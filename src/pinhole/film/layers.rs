@@ -66,7 +66,7 @@ impl FilmLayers {
     pub fn mean(&self, kind: LayerKind, channel: usize, row: usize) -> f64 {
         match kind {
             LayerKind::Coverage => f64::from(self.hits[row]) / f64::from(self.taken[row].max(1)),
-            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.met[row].max(1)),
+            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.hits[row].max(1)),
         }
     }
 
