@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 02; look here when you have done yours.
+//! A solution of the exercise of chapter 02; look here when you have done yours.
 
 pub fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let largest = v[0].abs().max(v[1].abs()).max(v[2].abs());

@@ -50,7 +50,3 @@ fn unit_assumed(o: [f64; 3], d: [f64; 3], centre: [f64; 3], radius: f64) -> Opti
     let h = (h >= 0.0).then(|| h.sqrt())?;
     [s - h, s + h].into_iter().find(|&t| t > 0.0)
 }
-
-fn s(keep: bool, part: f64) -> f64 {
-    if keep { part } else { -part }
-}

@@ -1,4 +1,4 @@
-//! Chapter 03: where a ray first meets a sphere, judged by exact arithmetic.
+//! Chapter 03: where a ray first hits a sphere, compared with exact arithmetic.
 
 use super::mine::mine;
 use glam::{DVec3, Vec3};
@@ -39,11 +39,11 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-7,
         measured: "of t",
         mistakes: vec![
-            Mistake::new("what lies behind the origin is met too: only t above 0 counts", |&(o, d, c, r)| {
+            Mistake::new("what lies behind the origin is hit too: only t above 0 counts", |&(o, d, c, r)| {
                 line_roots(single(o), single(d), sphere(c, r)).map(|roots| roots.near.to_f64())
             }),
             Mistake::new(
-                "from inside, nothing is met: the nearer root is behind, but the farther one is ahead",
+                "from inside, nothing is hit: the nearer root is behind, but the farther one is ahead",
                 |input| {
                     let &(o, d, c, r) = input;
                     let roots = line_roots(single(o), single(d), sphere(c, r))?;
@@ -72,7 +72,7 @@ fn question() -> Question<Input, Answer> {
         hints: &[
             "put O + tR into |x − C| = r: a quadratic equation in t; its smallest root above 0 is asked for",
             "with f = C − O the ray is nearest to the centre at s = f·R / R·R; what is left across it, f − sR, decides \
-             whether it meets the sphere, and nothing of the size of the distance is squared",
+             whether it hits the sphere, and nothing of the size of the distance is squared",
             "with h = √((r² − |f − sR|²) / R·R) the roots are s − h and s + h; there are none where the number under the \
              root is below 0",
             "so: s − h if that is above 0, else s + h if that is, else None; f is the difference of the two points, and \
@@ -90,19 +90,18 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("from inside", [(ball, ahead, ball, 2.0), ([0.5, 0.0, -2.5], [0.0, 1.0, 0.0], ball, 1.0)]));
     asked.extend(probes("a direction of length 2", [([0.0; 3], [0.0, 0.0, -2.0], ball, 1.0)]));
     asked.extend(probes("a direction of length 0.5", [([0.5, 0.0, 0.0], [0.0, 0.0, -0.5], ball, 1.0)]));
-    let aimed = |aim: fn(u64) -> (AimedRay, Sphere), count: u64| {
-        (0..count).map(aim).map(|(ray, sphere)| input(ray.origin, ray.direction, sphere)).filter(decidable)
+    let rays = |ray: fn(u64) -> (AimedRay, Sphere), count: u64| {
+        (0..count).map(ray).map(|(ray, sphere)| input(ray.origin, ray.direction, sphere)).filter(decidable)
     };
-    asked.extend(probes("any size and place", aimed(|at| ray_aim::seen_sphere_of_any_size(301, at), 60)));
-    asked.extend(probes("close to the tangent at 1.5 radii", aimed(|at| ray_aim::tangent(302, at, 1.0, 1.5), 40)));
+    asked.extend(probes("any size and place", rays(|at| ray_aim::seen_sphere_of_any_size(301, at), 60)));
+    asked.extend(probes("close to the tangent at 1.5 radii", rays(|at| ray_aim::tangent(302, at, 1.0, 1.5), 40)));
     asked.extend(probes("touching the sphere in one point", [([1.0, 0.0, 0.0], ahead, ball, 1.0)]));
     asked.extend(probes("from a point of the sphere, outward", [([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], ball, 1.0)]));
     asked.extend(probes("from a point of the sphere, inward", [([0.0, 0.0, -2.0], ahead, ball, 1.0)]));
-    asked.extend(probes("the centre, 1e5 radii away", aimed(|at| ray_aim::centre(303, at, 1.0, 1e5), 20)));
-    asked.extend(probes("a silhouette 1e3 radii away", aimed(|at| ray_aim::silhouette(304, at, 1e3), 60)));
-    asked.extend(probes("a silhouette 1e7 radii away", aimed(|at| ray_aim::silhouette(305, at, 1e7), 300)));
-    asked
-        .extend(probes("the ground of a planet, 1e8 in radius, from 0.01 above", aimed(|at| below(at, 1e8, 1e-2), 30)));
+    asked.extend(probes("the centre, 1e5 radii away", rays(|at| ray_aim::centre(303, at, 1.0, 1e5), 20)));
+    asked.extend(probes("a silhouette 1e3 radii away", rays(|at| ray_aim::silhouette(304, at, 1e3), 60)));
+    asked.extend(probes("a silhouette 1e7 radii away", rays(|at| ray_aim::silhouette(305, at, 1e7), 300)));
+    asked.extend(probes("the ground of a planet, 1e8 in radius, from 0.01 above", rays(|at| below(at, 1e8, 1e-2), 30)));
     asked
 }
 

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 03; look here when you have done yours.
+//! A solution of the exercise of chapter 03; look here when you have done yours.
 
 pub fn nearest_sphere_t(origin: [f64; 3], direction: [f64; 3], centre: [f64; 3], radius: f64) -> Option<f64> {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

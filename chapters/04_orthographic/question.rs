@@ -23,10 +23,10 @@ pub fn exercise(yours: Yours) -> Exercise {
 }
 
 fn question() -> Question<Input, Ray> {
-    let at = |seed, reach: f64, low, high| {
+    let at = |seed, widest: f64, low, high| {
         (0..30).map(move |index| {
             let mut draws = Draws::new(seed, index);
-            let screen = [draws.between(-reach, reach), draws.between(-1.0, 1.0)];
+            let screen = [draws.between(-widest, widest), draws.between(-1.0, 1.0)];
             (screen, draws.power_of_ten(low, high))
         })
     };

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 04; look here when you have done yours.
+//! A solution of the exercise of chapter 04; look here when you have done yours.
 
 pub fn orthographic_ray(screen: [f64; 2], view_height: f64) -> ([f64; 3], [f64; 3]) {
     let half = view_height / 2.0;

@@ -8,7 +8,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "two_classes",
             chapter,
-            about: "two ways to a picture: from the object to the pixel, and from the pixel to the light",
+            about: "object-order and image-order rendering: from the object to the pixel, and from the pixel to the light",
             draw: two_classes::draw,
         },
         Figure {

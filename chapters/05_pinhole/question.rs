@@ -24,10 +24,10 @@ pub fn exercise(yours: Yours) -> Exercise {
 }
 
 fn question() -> Question<Input, [f64; 3]> {
-    let at = |seed, reach: f64, low: f64, high: f64| {
+    let at = |seed, widest: f64, low: f64, high: f64| {
         (0..30).map(move |index| {
             let mut draws = Draws::new(seed, index);
-            let screen = [draws.between(-reach, reach), draws.between(-1.0, 1.0)];
+            let screen = [draws.between(-widest, widest), draws.between(-1.0, 1.0)];
             (screen, tan_half(Degrees(draws.between(low, high))))
         })
     };

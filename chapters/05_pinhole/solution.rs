@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 05; look here when you have done yours.
+//! A solution of the exercise of chapter 05; look here when you have done yours.
 
 pub fn perspective_direction(screen: [f64; 2], tan_half_vertical: f64) -> [f64; 3] {
     let (x, y) = (screen[0] * tan_half_vertical, screen[1] * tan_half_vertical);

@@ -1,4 +1,4 @@
-//! Chapter 06: which pixel holds an NDC point, judged by exact arithmetic.
+//! Chapter 06: which pixel holds an NDC point, compared with exact arithmetic.
 
 use super::mine::mine;
 use glam::DVec2;
@@ -111,7 +111,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked
 }
 
-/// The kit's own NDC point of a pixel's centre.
+/// Pinhole's own NDC point of a pixel's centre.
 fn centre(x: u32, y: u32, width: u32, height: u32) -> Input {
     let size = DVec2::new(f64::from(width), f64::from(height));
     (ndc_from_raster(raster_from_pixel(x, y), size).into(), width, height)

@@ -1,4 +1,4 @@
-//! Chapter 07: from the screen back to NDC, judged by exact arithmetic.
+//! Chapter 07: from the screen back to NDC, compared with exact arithmetic.
 
 use super::mine::mine;
 use pinhole::rays::screen_from_ndc;
@@ -86,7 +86,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked
 }
 
-/// The kit's own screen point of an NDC point.
+/// Pinhole's own screen point of an NDC point.
 fn on(ndc: [f64; 2], width: u32, height: u32) -> Input {
     (screen_from_ndc(ndc.into(), aspect(width, height)).into(), width, height)
 }

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 07; look here when you have done yours.
+//! A solution of the exercise of chapter 07; look here when you have done yours.
 
 pub fn ndc_from_screen(screen: [f64; 2], width: u32, height: u32) -> [f64; 2] {
     let aspect = f64::from(width) / f64::from(height);

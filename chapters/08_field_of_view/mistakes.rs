@@ -51,7 +51,3 @@ fn in_degrees(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
 fn full_angle(angle: f64, axis: FovAxis, width: u32, height: u32) -> f64 {
     fov(angle, axis, width, height, |angle, heights| (angle.to_radians().tan() / heights).atan().to_degrees())
 }
-
-fn s(keep: bool, part: f64) -> f64 {
-    if keep { part } else { -part }
-}

@@ -1,4 +1,4 @@
-//! Chapter 09: a normal, turned, stretched, mirrored and sheared with its surface, judged by exact arithmetic.
+//! Chapter 09: a normal, turned, stretched, mirrored and sheared with its surface, compared with exact arithmetic.
 
 use super::mine::mine;
 use glam::{DMat3, DQuat, DVec3};

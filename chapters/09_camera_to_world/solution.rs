@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 09; look here when you have done yours.
+//! A solution of the exercise of chapter 09; look here when you have done yours.
 
 pub fn normal_world_from_object(columns: [[f64; 3]; 3], normal: [f64; 3]) -> [f64; 3] {
     let [a, b, c] = columns;

@@ -1,4 +1,4 @@
-//! The reader's function in the picture of chapter 10: the light of lamps on matte surfaces.
+//! The reader's function in the picture of chapter 10: point lights on matte surfaces.
 
 use super::question::Input;
 use bevy_ecs::prelude::*;
@@ -21,7 +21,9 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let row = rays.path[ray] as usize;
                     let surface = surfaces.get(row);
                     let (position, normal) = (surface.position.as_dvec3(), surface.normal.as_dvec3());
-                    let Some(light) = aimed_at(&lights.position, position, rays.direction_of(ray)) else { continue };
+                    let Some(light) = in_direction(&lights.position, position, rays.direction_of(ray)) else {
+                        continue;
+                    };
                     let colour = materials.colour[surface.material as usize];
                     let light_of = |part: usize| {
                         let (intensity, light) = (lights.intensity[light][part], lights.position[light].into());
@@ -39,7 +41,7 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
 }
 
 /// The light that a direction leads to.
-fn aimed_at(lights: &[DVec3], from: DVec3, direction: DVec3) -> Option<usize> {
+fn in_direction(lights: &[DVec3], from: DVec3, direction: DVec3) -> Option<usize> {
     let along = |light: &DVec3| (*light - from).normalize_or_zero().dot(direction);
     (0..lights.len()).max_by(|&a, &b| along(&lights[a]).total_cmp(&along(&lights[b])))
 }

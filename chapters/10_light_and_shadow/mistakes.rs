@@ -49,22 +49,18 @@ fn light(
     cosine: fn(f64) -> f64,
     power: i32,
 ) -> f64 {
-    let way = minus(light, position);
-    let slant = dot(normal, normalised(way));
-    if slant.is_nan() {
+    let to_light = minus(light, position);
+    let cosine_of_light = dot(normal, normalised(to_light));
+    if cosine_of_light.is_nan() {
         return 0.0;
     }
-    colour / std::f64::consts::PI * intensity * cosine(slant) / length(way).powi(power)
+    colour / std::f64::consts::PI * intensity * cosine(cosine_of_light) / length(to_light).powi(power)
 }
 
-fn without_pi(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], lamp: [f64; 3]) -> f64 {
-    light(colour, intensity, position, normal, lamp, |cosine| cosine.max(0.0), 2) * std::f64::consts::PI
+fn without_pi(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], at: [f64; 3]) -> f64 {
+    light(colour, intensity, position, normal, at, |cosine| cosine.max(0.0), 2) * std::f64::consts::PI
 }
 
-fn not_a_number(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], lamp: [f64; 3]) -> f64 {
-    if position == lamp { f64::NAN } else { light(colour, intensity, position, normal, lamp, |x| x.max(0.0), 2) }
-}
-
-fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
-    dot(a, b) / length(a) / length(b)
+fn not_a_number(colour: f64, intensity: f64, position: [f64; 3], normal: [f64; 3], at: [f64; 3]) -> f64 {
+    if position == at { f64::NAN } else { light(colour, intensity, position, normal, at, |x| x.max(0.0), 2) }
 }

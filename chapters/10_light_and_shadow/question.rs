@@ -1,4 +1,4 @@
-//! Chapter 10: what a matte surface sends on of a lamp's light.
+//! Chapter 10: the radiance that a matte surface reflects of a point light.
 
 use super::mine::mine;
 use glam::DVec3;
@@ -50,24 +50,24 @@ fn question() -> Question<Input, f64> {
                 sent(input, cosine(input).abs(), distance(input) * distance(input))
             }),
             Mistake::new(
-                "where the lamp is at the very point, 0 / 0 is no number: no direction leads to it, so no light",
+                "where the light is at the very point, 0 / 0 is no number: no direction leads to it, so no light",
                 |i| {
                     if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) }
                 },
             ),
             Mistake::new(
-                "the light thins out with the distance once, not twice: either it is not squared, or the way to the light was \
+                "the light thins out with the distance once, not twice: either it is not squared, or the vector to the light was \
              not of length 1 when its cosine was taken",
                 |input| sent(input, cosine(input).max(0.0), distance(input)),
             ),
             Mistake::new("the light does not thin out with the distance", |input| {
                 sent(input, cosine(input).max(0.0), 1.0)
             }),
-            Mistake::new("the share is colour / π; the π is missing", |input| PI * radiance(input, cosine(input))),
-            Mistake::new("the cosine is missing: light at a slant spreads over a larger area", |input| {
+            Mistake::new("the BRDF is colour / π; the π is missing", |input| PI * radiance(input, cosine(input))),
+            Mistake::new("the cosine is missing: oblique light spreads over a larger area", |input| {
                 if cosine(input) > 0.0 { radiance(input, 1.0) } else { 0.0 }
             }),
-            Mistake::new("the direction leads from the light to the surface; the other way is meant", |input| {
+            Mistake::new("the direction leads from the light to the surface; the opposite is meant", |input| {
                 radiance(input, -cosine(input))
             }),
             Mistake::new("the distance is measured from the origin; it is that from position to light", |input| {
@@ -75,7 +75,7 @@ fn question() -> Question<Input, f64> {
             }),
         ],
         hints: &[
-            "three factors: what the surface sends on, colour / π; how slantingly the light falls; how far it came",
+            "three factors: what the surface sends on, colour / π; how obliquely the light falls; how far it came",
             "with v = light − position and d its length the cosine is normal · v / d, and the light thins out with d²",
             "colour / π · intensity · cosine / d² where the cosine is above 0; 0 where it is not, and where d is 0",
         ],
@@ -84,55 +84,60 @@ fn question() -> Question<Input, f64> {
 
 fn asked() -> Vec<Probe<Input>> {
     let up = [0.0, 1.0, 0.0];
-    let lamp = |position, light| (0.8, 50.0, position, up, light);
+    let lit_from = |position, light| (0.8, 50.0, position, up, light);
     let anywhere = |seed, low: f64, high: f64| {
         (0..40).map(move |at| {
             let mut draws = Draws::new(seed, at);
             let (colour, intensity) = (draws.unit(), draws.power_of_ten(-2.0, 4.0));
             let normal = draws.unit_vector();
             let facing = if at % 4 == 3 { -1.0 } else { 1.0 };
-            let slant = normal * facing + draws.unit_vector_across(normal) * draws.between(0.0, 2.0);
-            let way = slant.normalize() * draws.power_of_ten(low, high);
-            let position = draws.unit_vector() * way.length() * draws.unit();
-            (colour, intensity, position.to_array(), normal.to_array(), (position + way).to_array())
+            let towards = normal * facing + draws.unit_vector_across(normal) * draws.between(0.0, 2.0);
+            let to_light = towards.normalize() * draws.power_of_ten(low, high);
+            let position = draws.unit_vector() * to_light.length() * draws.unit();
+            (colour, intensity, position.to_array(), normal.to_array(), (position + to_light).to_array())
         })
     };
-    let mut asked: Vec<_> = probes("a lamp straight above", [lamp([0.0; 3], [0.0, 2.0, 0.0])]).collect();
-    asked.extend(probes("a lamp straight above, elsewhere", [lamp([3.0, 1.0, -2.0], [3.0, 5.0, -2.0])]));
-    asked.extend(probes("a lamp at a slant", [lamp([0.0; 3], [3.0, 4.0, 0.0]), lamp([1.0; 3], [1.0, 4.0, 5.0])]));
+    let mut asked: Vec<_> = probes("a light straight above", [lit_from([0.0; 3], [0.0, 2.0, 0.0])]).collect();
+    asked.extend(probes("a light straight above, elsewhere", [lit_from([3.0, 1.0, -2.0], [3.0, 5.0, -2.0])]));
     asked.extend(probes(
-        "a lamp behind the surface",
-        [lamp([0.0; 3], [0.0, -2.0, 0.0]), lamp([0.0; 3], [3.0, -4.0, 0.0])],
+        "a light at an oblique angle",
+        [lit_from([0.0; 3], [3.0, 4.0, 0.0]), lit_from([1.0; 3], [1.0, 4.0, 5.0])],
     ));
-    asked.extend(probes("a lamp anywhere", anywhere(1001, -1.0, 2.0)));
     asked.extend(probes(
-        "a lamp in the surface",
-        [lamp([0.0; 3], [2.0, 0.0, 0.0]), lamp([5.0, 1.0, 0.0], [5.0, 1.0, -7.0])],
+        "a light behind the surface",
+        [lit_from([0.0; 3], [0.0, -2.0, 0.0]), lit_from([0.0; 3], [3.0, -4.0, 0.0])],
     ));
-    asked
-        .extend(probes("a lamp at the very point", [lamp([0.0; 3], [0.0; 3]), lamp([0.1, 0.2, 0.3], [0.1, 0.2, 0.3])]));
+    asked.extend(probes("a light anywhere", anywhere(1001, -1.0, 2.0)));
+    asked.extend(probes(
+        "a light in the surface",
+        [lit_from([0.0; 3], [2.0, 0.0, 0.0]), lit_from([5.0, 1.0, 0.0], [5.0, 1.0, -7.0])],
+    ));
+    asked.extend(probes(
+        "a light at the very point",
+        [lit_from([0.0; 3], [0.0; 3]), lit_from([0.1, 0.2, 0.3], [0.1, 0.2, 0.3])],
+    ));
     asked.extend(probes("a black surface", [(0.0, 50.0, [0.0; 3], up, [0.0, 2.0, 0.0])]));
-    asked.extend(probes("a lamp about 1e8 away", anywhere(1002, 7.5, 8.5)));
-    asked.extend(probes("a lamp about 1e-8 away", anywhere(1003, -8.5, -7.5)));
+    asked.extend(probes("a light about 1e8 away", anywhere(1002, 7.5, 8.5)));
+    asked.extend(probes("a light about 1e-8 away", anywhere(1003, -8.5, -7.5)));
     asked
 }
 
-fn way(&(_, _, position, _, light): &Input) -> DVec3 {
+fn to_light(&(_, _, position, _, light): &Input) -> DVec3 {
     DVec3::from(light) - DVec3::from(position)
 }
 
 fn distance(input: &Input) -> f64 {
-    way(input).length()
+    to_light(input).length()
 }
 
-/// NaN where the lamp is at the very point.
+/// NaN where the light is at the very point.
 fn cosine(input: &Input) -> f64 {
-    DVec3::from(input.3).dot(way(input)) / distance(input)
+    DVec3::from(input.3).dot(to_light(input)) / distance(input)
 }
 
-/// The kit's radiance where the cosine is above 0, and else none.
+/// Pinhole's radiance where the cosine is above 0, and else none.
 fn radiance(input: &Input, cosine: f64) -> f64 {
-    if cosine > 0.0 { sent(input, cosine, way(input).length_squared()) } else { 0.0 }
+    if cosine > 0.0 { sent(input, cosine, to_light(input).length_squared()) } else { 0.0 }
 }
 
 fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) -> f64 {

@@ -13,7 +13,7 @@ pub fn solved() -> Exercise {
 pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(|v, _, _, _| v), "as it is"),
-        (exercise(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "wrong way"),
+        (exercise(|[x, y, z], r, u, a| [s(r, x), s(u, y), s(a, z)]), "should not be"),
         (exercise(|[x, y, z], r, u, _| [s(r, x), s(u, y), z]), "z is never"),
         (exercise(|[x, y, z], _, u, a| [x, s(u, y), s(!a, z)]), "x is never"),
     ]

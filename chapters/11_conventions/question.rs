@@ -1,4 +1,4 @@
-//! Chapter 11: a direction of a camera with other axes, in ours.
+//! Chapter 11: a direction of a camera with other axes, in pinhole's.
 
 use super::mine::mine;
 use pinhole_lab::exercise::apart::exact;
@@ -31,8 +31,8 @@ fn question() -> Question<Input, Vector> {
     let every = |v: Vector| (0..8).map(move |bits| (v, bits & 1 != 0, bits & 2 != 0, bits & 4 != 0));
     let mut asked: Vec<_> =
         probes("straight ahead, in a camera that looks down +z", [([0.0, 0.0, 1.0], true, true, true)]).collect();
-    asked.extend(probes("straight ahead, in a camera as ours", [([0.0, 0.0, -1.0], true, true, false)]));
-    asked.extend(probes("to the right, the axes every way", every([1.0, 2.0, 3.0])));
+    asked.extend(probes("straight ahead, in a camera like pinhole's", [([0.0, 0.0, -1.0], true, true, false)]));
+    asked.extend(probes("to the right, the axes in every combination", every([1.0, 2.0, 3.0])));
     asked.extend(probes(
         "a unit vector",
         (0..40).map(|at| {
@@ -56,7 +56,7 @@ fn question() -> Question<Input, Vector> {
         mistakes: vec![
             Mistake::new("the direction is handed back as it is; no axis is turned", |&(v, ..)| v),
             Mistake::new(
-                "z is turned the wrong way about: ours points back, so theirs turns where it points ahead",
+                "z is turned where it should not be: pinhole's points back, so theirs turns where it points ahead",
                 |input| {
                     let &(v, x_right, y_up, z_ahead) = input;
                     turned(v, !x_right, !y_up, !z_ahead)
@@ -64,17 +64,18 @@ fn question() -> Question<Input, Vector> {
             ),
             Mistake::new("z is never turned", |&(v, x_right, y_up, _)| turned(v, !x_right, !y_up, false)),
             Mistake::new(
-                "x is turned where it points right, and y where it points up, which they do in ours",
+                "x is turned where it points right, and y where it points up, which they do in pinhole's",
                 |input| {
                     let &(v, x_right, y_up, z_ahead) = input;
                     turned(v, x_right, y_up, z_ahead)
                 },
             ),
-            Mistake::new("x is turned where it points right, as it does in ours", |&(v, x_right, y_up, z_ahead)| {
-                turned(v, x_right, !y_up, z_ahead)
-            }),
+            Mistake::new(
+                "x is turned where it points right, as it does in pinhole's",
+                |&(v, x_right, y_up, z_ahead)| turned(v, x_right, !y_up, z_ahead),
+            ),
             Mistake::new("x is never turned", |&(v, _, y_up, z_ahead)| turned(v, false, !y_up, z_ahead)),
-            Mistake::new("y is turned where it points up, as it does in ours", |&(v, x_right, y_up, z_ahead)| {
+            Mistake::new("y is turned where it points up, as it does in pinhole's", |&(v, x_right, y_up, z_ahead)| {
                 turned(v, !x_right, y_up, z_ahead)
             }),
             Mistake::new("y is never turned", |&(v, x_right, _, z_ahead)| turned(v, !x_right, false, z_ahead)),
@@ -85,7 +86,7 @@ fn question() -> Question<Input, Vector> {
         ],
         hints: &[
             "the three axes are the same lines in both cameras; only which end is positive differs, axis by axis",
-            "ours: x right, y up, z back; keep a part whose axis points the same way, change the sign of the others",
+            "pinhole's: x right, y up, z back; keep a part whose axis points in the same direction, change the sign of the others",
             "x changes its sign unless x_right, y unless y_up, and z if z_ahead",
         ],
     }

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 11; look here when you have done yours.
+//! A solution of the exercise of chapter 11; look here when you have done yours.
 
 pub fn pinhole_from_theirs(direction: [f64; 3], x_right: bool, y_up: bool, z_ahead: bool) -> [f64; 3] {
     let [x, y, z] = direction;

@@ -104,7 +104,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("the same, asked for what the second writes", [(chain.to_vec(), "rays".into())]));
     asked.extend(probes("the same, asked for what nobody writes", [(chain.to_vec(), "normals".into())]));
     let two = [
-        words("aim from the eye", true, "screen", "rays"),
+        words("rays from the eye", true, "screen", "rays"),
         words("start on the rectangle", false, "screen", "rays"),
         words("film", true, "rays", "pixel"),
     ];
@@ -112,8 +112,8 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("two that write the same, one of them not needed", [(with_screen, "pixel".into())]));
     let shadows = [
         words("intersect", true, "", "hits"),
-        words("aim at lights", false, "hits", "light"),
-        words("look for what is in the way", true, "light", "shadow"),
+        words("sample lights", false, "hits", "light"),
+        words("trace shadow rays", true, "light", "shadow"),
         words("list what was hit", true, "hits", "rows"),
         words("paint", true, "hits", "pixel"),
     ];

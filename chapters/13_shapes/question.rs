@@ -1,4 +1,4 @@
-//! Chapter 13: where a ray first meets a box, judged by exact arithmetic.
+//! Chapter 13: where a ray first hits a box, compared with exact arithmetic.
 
 use super::mine::mine;
 use glam::{DVec3, Vec3};
@@ -38,11 +38,11 @@ fn question() -> Question<Input, Answer> {
         allowed: 1e-12,
         measured: "of t",
         mistakes: vec![
-            Mistake::new("what lies behind the origin is met too: only t above 0 counts", |input| {
+            Mistake::new("what lies behind the origin is hit too: only t above 0 counts", |input| {
                 passed(input, Along::Asked).map(|[enters, _]| enters)
             }),
             Mistake::new(
-                "from inside, nothing is met: the ray entered behind the origin, but it leaves ahead",
+                "from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead",
                 |input| passed(input, Along::Asked).map(|[enters, _]| enters).filter(|&t| t > 0.0),
             ),
             Mistake::new("the far side is taken where the near one is ahead", |input| {
@@ -111,7 +111,7 @@ fn asked() -> Vec<Probe<Input>> {
     let mut asked: Vec<_> = probes("straight at a face", [at([0.25, 0.5, 0.0], [0.0, 0.0, -1.0])]).collect();
     asked.extend(probes("past the box", [at([3.0, 0.0, 0.0], [0.0, 0.0, -1.0])]));
     asked.extend(probes(
-        "at a slant",
+        "obliquely",
         [at([3.0, 1.0, 0.5], [-1.0, -0.25, -1.0]), at([-3.0, 0.5, -1.0], [1.0, 0.125, -0.75])],
     ));
     asked.extend(probes("a box behind the origin", [at([0.25, 0.5, 0.0], [0.0, 0.125, 1.0])]));

@@ -1,10 +1,10 @@
-//! One way to do the exercise of chapter 13; look here when you have done yours.
+//! A solution of the exercise of chapter 13; look here when you have done yours.
 
 pub fn nearest_box_t(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
         if direction[axis] == 0.0 {
-            // Between the two faces all the way, or never.
+            // Always between the two faces, or never.
             if origin[axis] < least[axis] || origin[axis] > most[axis] {
                 return None;
             }

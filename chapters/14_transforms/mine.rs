@@ -10,7 +10,7 @@ use pinhole::rays::WorldRays;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
-/// Irradiance from lamps on triangles whose corners have normals, by the cosine that the reader's function finds.
+/// Irradiance from point lights on triangles whose corners have normals, by the cosine that the reader's function finds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
         "Sample point lights",

@@ -28,41 +28,8 @@ fn length(v: [f64; 3]) -> f64 {
     dot(v, v).sqrt()
 }
 
-fn divided(v: [f64; 3], by: f64) -> [f64; 3] {
-    v.map(|part| part / by)
-}
-
-fn normalised(v: [f64; 3]) -> [f64; 3] {
-    divided(v, length(v))
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn light(
-    colour: f64,
-    intensity: f64,
-    position: [f64; 3],
-    normal: [f64; 3],
-    light: [f64; 3],
-    cosine: fn(f64) -> f64,
-    power: i32,
-) -> f64 {
-    let way = minus(light, position);
-    let slant = dot(normal, normalised(way));
-    if slant.is_nan() {
-        return 0.0;
-    }
-    colour / std::f64::consts::PI * intensity * cosine(slant) / length(way).powi(power)
-}
-
-fn s(keep: bool, part: f64) -> f64 {
-    if keep { part } else { -part }
-}
-
-fn mixed(normals: [[f64; 3]; 3], shares: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|axis| (0..3).map(|corner| shares[corner] * normals[corner][axis]).sum())
+fn mixed(normals: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| (0..3).map(|corner| weights[corner] * normals[corner][axis]).sum())
 }
 
 fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -1,4 +1,4 @@
-//! Chapter 14: the slant at which light falls on a triangle whose corners have normals.
+//! Chapter 14: the cosine at which light falls on a triangle whose corners have normals.
 
 use super::mine::mine;
 use glam::DVec3;
@@ -8,7 +8,7 @@ use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 type Vector = [f64; 3];
-/// The triangle's own normal, its corners' normals, their shares, the way to the eye, the way to the light.
+/// The triangle's own normal, its corners' normals, the barycentric coordinates, the directions to the eye and to the light.
 pub(super) type Input = (Vector, [Vector; 3], Vector, Vector, Vector);
 
 /// What the reader writes.
@@ -24,7 +24,7 @@ pub fn exercise(yours: Yours) -> Exercise {
     Exercise::rendered(
         "falling_cosine",
         question,
-        move |&(geometric, normals, shares, eye, light)| yours(geometric, normals, shares, eye, light),
+        move |&(geometric, normals, weights, eye, light)| yours(geometric, normals, weights, eye, light),
         mine,
     )
 }
@@ -33,10 +33,10 @@ fn question() -> Question<Input, f64> {
     Question {
         pinhole_has: ("src/pinhole/intersect/shading_normal.rs", "falling_cosine"),
         probes: asked(),
-        tell: |(geometric, normals, shares, eye, light)| {
-            let [geometric, shares, eye, light] = [geometric, shares, eye, light].map(Shown::shown);
+        tell: |(geometric, normals, weights, eye, light)| {
+            let [geometric, weights, eye, light] = [geometric, weights, eye, light].map(Shown::shown);
             format!(
-                "geometric {geometric}, normals {}, shares {shares}, to_eye {eye}, to_light {light}",
+                "geometric {geometric}, normals {}, weights {weights}, to_eye {eye}, to_light {light}",
                 normals.shown()
             )
         },
@@ -62,21 +62,21 @@ fn question() -> Question<Input, f64> {
                 cosine(input, mixed(input).normalize()).max(0.0)
             }),
             Mistake::new(
-                "the mixed normal is turned to the eye by its own slant; what counts is the side of the surface on which the \
+                "the mixed normal is turned to the eye by its own direction; what counts is the side of the surface on which the \
                  eye is",
                 |input| {
                     let (mixed, eye) = (mixed(input).normalize(), DVec3::from(input.3));
                     cosine(input, if mixed.dot(eye) < 0.0 { -mixed } else { mixed }).max(0.0)
                 },
             ),
-            Mistake::new("the way to the light is not brought to length 1", |input| {
+            Mistake::new("the direction to the light is not brought to length 1", |input| {
                 cosine(input, turned(input)).max(0.0) * DVec3::from(input.4).length()
             }),
         ],
         hints: &[
-            "three steps: mix the corners' normals by their shares; see on which side of the triangle eye and light are; \
+            "three steps: mix the corners' normals by the weights; see on which side of the triangle eye and light are; \
              take the cosine",
-            "the sum of shares times normals is shorter than 1; turn it so that it lies on the eye's side of the triangle, \
+            "the sum of weights times normals is shorter than 1; turn it so that it lies on the eye's side of the triangle, \
              which its scalar product with `geometric` tells",
             "0 where geometric · to_eye and geometric · to_light have different signs; else the cosine between the mixed \
              normal, on their side, and to_light, and 0 where that is negative",
@@ -84,8 +84,8 @@ fn question() -> Question<Input, f64> {
     }
 }
 
-fn mixed((_, normals, shares, ..): &Input) -> DVec3 {
-    normals.iter().zip(shares).map(|(&normal, &share)| DVec3::from(normal) * share).sum()
+fn mixed((_, normals, weights, ..): &Input) -> DVec3 {
+    normals.iter().zip(weights).map(|(&normal, &weight)| DVec3::from(normal) * weight).sum()
 }
 
 /// The triangle's own normal on the eye's side.
@@ -104,7 +104,7 @@ fn light(input: &Input) -> DVec3 {
     DVec3::from(input.4).normalize()
 }
 
-/// As the kit has it.
+/// As pinhole has it.
 fn cosine(input: &Input, normal: DVec3) -> f64 {
     intersect::falling_cosine(faced(input), normal, light(input))
 }
@@ -122,7 +122,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("corners' normals all alike", [(up, [up; 3], third, above, aside)]));
     let down = DVec3::NEG_Y.to_array();
     asked.extend(probes("the triangle's own normal points down", [(down, leaning, third, above, aside)]));
-    let below = |way: Vector| way.map(|part| -part);
+    let below = |direction: Vector| direction.map(|part| -part);
     asked.extend(probes("eye and light below", [(up, leaning, third, below(above), below(aside))]));
     asked.extend(probes("the light below, the eye above", [(up, leaning, third, above, below(aside))]));
     let low = [5.0, -0.5, 0.0];
@@ -148,8 +148,8 @@ fn somewhere(at: u64) -> Input {
     let side = if at.is_multiple_of(2) { 1.0 } else { -1.0 };
     let normals = [(); 3].map(|()| (geometric * (side * 1.05) + draws.unit_vector()).normalize().to_array());
     let (a, b) = (draws.unit(), draws.unit());
-    let shares = if a + b > 1.0 { [1.0 - a, 1.0 - b, a + b - 1.0] } else { [a, b, 1.0 - a - b] };
+    let weights = if a + b > 1.0 { [1.0 - a, 1.0 - b, a + b - 1.0] } else { [a, b, 1.0 - a - b] };
     let eye = draws.unit_vector() * draws.power_of_ten(-1.0, 2.0);
     let light = draws.unit_vector() * draws.power_of_ten(-1.0, 2.0);
-    (geometric.to_array(), normals, shares, eye.to_array(), light.to_array())
+    (geometric.to_array(), normals, weights, eye.to_array(), light.to_array())
 }

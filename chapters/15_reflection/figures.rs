@@ -7,7 +7,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
     vec![Figure {
         name: "15_reflection",
         chapter,
-        about: "how much each reflection model sends which way",
+        about: "how much each reflection model sends in which direction",
         draw: lobes::draw,
     }]
 }

@@ -15,7 +15,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, dot(n, l))), "faces away"),
         (exercise(|m, e, n, l, v| phong(m, e, n, l, v, 1.0, lit(n, l))), "n + 2"),
-        (exercise(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, step(n, l))), "cosine of the light's slant"),
+        (exercise(|m, e, n, l, v| phong(m, e, n, l, v, 2.0, step(n, l))), "cosine of the light's angle"),
         (exercise(even_behind), "even"),
     ]
 }

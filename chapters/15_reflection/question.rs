@@ -10,7 +10,7 @@ use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::PI;
 
 type Vector = [f64; 3];
-/// Colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
+/// Colour, specular and exponent; irradiance, normal, the directions to the light and to the eye.
 pub(super) type Input = (Vector, f64, Vector, Vector, Vector);
 
 /// What the reader writes.
@@ -49,13 +49,13 @@ fn question() -> Question<Input, f64> {
                 sent(input, lobe(input, alpha(input)), cosine(input))
             }),
             Mistake::new(
-                "the cosine of the light's slant is missing: it counts for the highlight as for the rest",
+                "the cosine of the light's angle is missing: it counts for the highlight as for the rest",
                 |i| {
                     if cosine(i) > 0.0 { sent(i, lobe(i, alpha(i)), 1.0) } else { 0.0 }
                 },
             ),
             Mistake::new(
-                "the slant is forgotten in the highlight; it lessens what arrives, so it counts for both",
+                "the cosine is forgotten in the highlight; it lessens what arrives, so it counts for both",
                 |i| {
                     if cosine(i) > 0.0 { sent(i, 0.0, lit(i)) + i.0[1] * lobe(i, alpha(i)) * i.1 } else { 0.0 }
                 },
@@ -66,8 +66,8 @@ fn question() -> Question<Input, f64> {
             Mistake::new(
                 "the factor is that of cosⁿ alone, (n + 1) / 2π; the eye's own cosine makes it n + 2",
                 |input| {
-                    let share = (input.0[2] + 1.0) / (input.0[2] + 2.0);
-                    sent(input, lobe(input, alpha(input)) * share, lit(input))
+                    let factor = (input.0[2] + 1.0) / (input.0[2] + 2.0);
+                    sent(input, lobe(input, alpha(input)) * factor, lit(input))
                 },
             ),
             Mistake::new("the matte part is colour / π; the π is missing", |input| {
@@ -79,11 +79,11 @@ fn question() -> Question<Input, f64> {
                 )
             }),
             Mistake::new(
-                "the highlight is about the half-way direction, which is Blinn's; Phong's is about the mirrored light",
+                "the highlight is about the half vector, which is Blinn's; Phong's is about the mirrored light",
                 |i| sent(i, lobe(i, half_vector_cosine(i.2.into(), i.3.into(), i.4.into())), lit(i)),
             ),
             Mistake::new(
-                "the mirrored way points into the surface: it is 2(n·l)n − l, not l − 2(n·l)n",
+                "the mirrored direction points into the surface: it is 2(n·l)n − l, not l − 2(n·l)n",
                 |input| sent(input, lobe(input, -alpha(input)), lit(input)),
             ),
             Mistake::new(
@@ -92,7 +92,7 @@ fn question() -> Question<Input, f64> {
             ),
         ],
         hints: &[
-            "two parts, matte and highlight, each times what arrives: the irradiance times the cosine of the light's slant",
+            "two parts, matte and highlight, each times what arrives: the irradiance times the cosine of the light's angle",
             "the highlight is specular · (n + 2) / 2π · cosⁿα, with cos α = (2(n·l)n − l) · v, and none where cos α is below 0",
             "(colour / π + specular · (n + 2) / 2π · cosⁿα) · irradiance · n·l where n·l is above 0; 0 where it is not",
         ],
@@ -101,7 +101,7 @@ fn question() -> Question<Input, f64> {
 
 fn asked() -> Vec<Probe<Input>> {
     let up = [0.0, 1.0, 0.0];
-    let slant = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize().to_array();
+    let unit = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize().to_array();
     let probe = |material, to_light, to_eye| (material, 2.0, up, to_light, to_eye);
     let anywhere = |seed, low: f64, high: f64| {
         (0..40).map(move |at| {
@@ -109,11 +109,11 @@ fn asked() -> Vec<Probe<Input>> {
             let colour = draws.unit();
             let material = [colour, (1.0 - colour) * draws.unit(), draws.power_of_ten(low, high)];
             let normal = draws.unit_vector();
-            let way = |draws: &mut Draws, least: f64| {
+            let direction = |draws: &mut Draws, least: f64| {
                 let along = draws.unit_vector_across(normal);
                 (along + normal * draws.between(least, 2.0)).normalize()
             };
-            let (to_light, mut to_eye) = (way(&mut draws, -0.3), way(&mut draws, 0.05));
+            let (to_light, mut to_eye) = (direction(&mut draws, -0.3), direction(&mut draws, 0.05));
             if at % 2 == 0 {
                 let mirrored = 2.0 * normal.dot(to_light).abs() * normal - to_light * normal.dot(to_light).signum();
                 to_eye = (mirrored + to_eye * (0.5 / libm::sqrt(1.0 + material[2]))).normalize();
@@ -121,25 +121,22 @@ fn asked() -> Vec<Probe<Input>> {
             (material, draws.power_of_ten(-1.0, 2.0), normal.to_array(), to_light.to_array(), to_eye.to_array())
         })
     };
-    let mut asked: Vec<_> =
-        probes("no highlight", [probe([0.8, 0.0, 10.0], slant(0.0, 1.0), slant(1.0, 1.0))]).collect();
-    asked.extend(probes("the middle of a highlight", [probe([0.5, 0.4, 10.0], slant(-3.0, 4.0), slant(3.0, 4.0))]));
-    asked.extend(probes("beside the middle", [probe([0.5, 0.4, 9.0], slant(-3.0, 4.0), slant(1.0, 4.0))]));
+    let mut asked: Vec<_> = probes("no highlight", [probe([0.8, 0.0, 10.0], unit(0.0, 1.0), unit(1.0, 1.0))]).collect();
+    asked.extend(probes("the middle of a highlight", [probe([0.5, 0.4, 10.0], unit(-3.0, 4.0), unit(3.0, 4.0))]));
+    asked.extend(probes("beside the middle", [probe([0.5, 0.4, 9.0], unit(-3.0, 4.0), unit(1.0, 4.0))]));
     asked.extend(probes(
         "far from the middle",
         [
-            probe([0.5, 0.4, 2.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
-            probe([0.5, 0.4, 3.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
-            probe([0.5, 0.4, 0.0], slant(-4.0, 1.0), slant(-1.0, 0.2)),
+            probe([0.5, 0.4, 2.0], unit(-4.0, 1.0), unit(-1.0, 0.2)),
+            probe([0.5, 0.4, 3.0], unit(-4.0, 1.0), unit(-1.0, 0.2)),
+            probe([0.5, 0.4, 0.0], unit(-4.0, 1.0), unit(-1.0, 0.2)),
         ],
     ));
     asked.extend(probes("anywhere", anywhere(1501, 0.0, 2.0)));
-    asked.extend(probes("a light behind the surface", [probe([0.5, 0.4, 4.0], slant(1.0, -1.0), slant(1.0, 1.0))]));
-    asked.extend(probes(
-        "a light in line with the surface",
-        [probe([0.5, 0.4, 4.0], [1.0, 0.0, 0.0], slant(-1.0, 1.0))],
-    ));
-    asked.extend(probes("an exponent of 0", [probe([0.5, 0.4, 0.0], slant(-3.0, 4.0), slant(1.0, 4.0))]));
+    asked.extend(probes("a light behind the surface", [probe([0.5, 0.4, 4.0], unit(1.0, -1.0), unit(1.0, 1.0))]));
+    asked
+        .extend(probes("a light in line with the surface", [probe([0.5, 0.4, 4.0], [1.0, 0.0, 0.0], unit(-1.0, 1.0))]));
+    asked.extend(probes("an exponent of 0", [probe([0.5, 0.4, 0.0], unit(-3.0, 4.0), unit(1.0, 4.0))]));
     asked.extend(probes("large exponents", anywhere(1502, 2.0, 4.0)));
     asked
 }

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 16; look here when you have done yours.
+//! A solution of the exercise of chapter 16; look here when you have done yours.
 
 pub fn mean_of_stripes(x: f64, width: f64) -> f64 {
     if width == 0.0 {

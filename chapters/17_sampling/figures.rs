@@ -8,7 +8,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "17_rings",
             chapter,
-            about: "rings that become finer than a pixel, through three ways of placing samples",
+            about: "rings that become finer than a pixel, with three samplers",
             draw: rings::draw,
         },
         Figure {

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 18; look here when you have done yours.
+//! A solution of the exercise of chapter 18; look here when you have done yours.
 
 pub fn variance_and_bias_squared(runs: &[f64], truth: f64) -> Option<[f64; 2]> {
     if runs.len() < 2 {

@@ -73,7 +73,7 @@ fn asked() -> Vec<Probe<Input>> {
         })
     };
     let up = [0.0, 1.0, 0.0];
-    let mut asked: Vec<_> = probes("squarely", [([0.0, -1.0, 0.0], up)]).collect();
+    let mut asked: Vec<_> = probes("at normal incidence", [([0.0, -1.0, 0.0], up)]).collect();
     asked.extend(probes("at 3, 4 and 5", [([0.6, -0.8, 0.0], up), ([0.0, -0.8, -0.6], up)]));
     asked.extend(probes("along the mirror", [([1.0, 0.0, 0.0], up)]));
     asked.extend(probes("anywhere, a normal of length 1", anywhere(1911, 0.0)));

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 19; look here when you have done yours.
+//! A solution of the exercise of chapter 19; look here when you have done yours.
 
 pub fn mirrored(direction: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

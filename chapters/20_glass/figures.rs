@@ -14,7 +14,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "20_broken",
             chapter,
-            about: "glass, glass that bends the wrong way, and glass that keeps beams narrow",
+            about: "glass, glass that bends with the inverted index, and glass that keeps radiance as it is",
             draw: path_mistakes::draw_glass,
         },
     ]

@@ -13,7 +13,7 @@ pub fn solved() -> Exercise {
 pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(|d, n, eta| Some(through(d, n, eta))), "before you take it"),
-        (exercise(|d, n, eta| passes(d, n, 1.0 / eta).then(|| through(d, n, 1.0 / eta))), "wrong way"),
+        (exercise(|d, n, eta| passes(d, n, 1.0 / eta).then(|| through(d, n, 1.0 / eta))), "inverted"),
         (exercise(|d, _, _| Some(d)), "straight on"),
     ]
 }

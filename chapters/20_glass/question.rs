@@ -42,7 +42,7 @@ fn question() -> Question<Input, Option<Vector>> {
                 let root = (i.2 * i.2 - 1.0 + cosine * cosine).sqrt();
                 Some(((d + (cosine - root) * n) / i.2).into())
             }),
-            Mistake::new("η is the wrong way round: it is the far side's index over the near side's", |i| {
+            Mistake::new("η is inverted: it is the far side's index over the near side's", |i| {
                 refract(i.0.into(), i.1.into(), 1.0 / i.2).map(Into::into)
             }),
             Mistake::new(
@@ -65,7 +65,7 @@ fn question() -> Question<Input, Option<Vector>> {
         hints: &[
             "split the direction into a part along the surface, d + (−d · n) n, and a part along the normal",
             "by Snell's law the part along the surface is divided by η; the other is √(1 − its square), against the \
-             normal; where that is no number, there is no way through",
+             normal; where that is NaN, no light passes",
             "with c = −d · n and g² = η² − 1 + c²: None where g² < 0, else (d + (c − g) n) / η",
         ],
     }
@@ -79,15 +79,15 @@ fn asked() -> Vec<Probe<Input>> {
             let (normal, eta) = (draws.unit_vector().normalize(), draws.between(low, high));
             let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
             let cosine = direction.dot(normal);
-            // Where a rounding decides whether there is a way, nothing is asked.
+            // Where a rounding decides whether light passes, nothing is asked.
             let clear = ((eta - 1.0) * (eta + 1.0) + cosine * cosine).abs() > 1e-6;
             clear.then(|| (direction.to_array(), normal.to_array(), eta))
         })
     };
-    let mut asked: Vec<_> = probes("squarely", [([0.0, -1.0, 0.0], up, 1.5)]).collect();
+    let mut asked: Vec<_> = probes("at normal incidence", [([0.0, -1.0, 0.0], up, 1.5)]).collect();
     asked.extend(probes("into glass", [([0.6, -0.8, 0.0], up, 1.5), ([0.96, -0.28, 0.0], up, 1.5)]));
     asked.extend(probes("between equals", [([0.6, -0.8, 0.0], up, 1.0)]));
-    asked.extend(probes("into a denser medium", anywhere(2001, [1.0, 3.0])));
+    asked.extend(probes("into a medium of a higher index", anywhere(2001, [1.0, 3.0])));
     asked.extend(probes("out of glass", [([0.6, -0.8, 0.0], up, 1.0 / 1.5)]));
     asked
         .extend(probes("out of glass, at so planar an angle that nothing passes", [([0.8, -0.6, 0.0], up, 1.0 / 1.5)]));

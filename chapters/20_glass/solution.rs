@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 20; look here when you have done yours.
+//! A solution of the exercise of chapter 20; look here when you have done yours.
 
 pub fn refracted(direction: [f64; 3], normal: [f64; 3], eta: f64) -> Option<[f64; 3]> {
     let cosine = -(direction[0] * normal[0] + direction[1] * normal[1] + direction[2] * normal[2]);

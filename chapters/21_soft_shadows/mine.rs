@@ -27,9 +27,9 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                 for (ray, &u) in points.iter().enumerate() {
                     let row = rays.path[ray] as usize;
                     let from = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
-                    let aimed = rays.direction_of(ray);
+                    let direction = rays.direction_of(ray);
                     let rectangles = lights.emitter.iter().enumerate().filter_map(rectangle);
-                    let Some((light, shape)) = rectangles.into_iter().find(|(_, shape)| seen(shape, from, aimed))
+                    let Some((light, shape)) = rectangles.into_iter().find(|(_, shape)| seen(shape, from, direction))
                     else {
                         continue;
                     };

@@ -18,16 +18,16 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|f, t, n, a| fills(f, t, n, a, 0.0, -1.0)), "distance is missing"),
         (exercise(|f, t, n, a| fills(f, t, n, a, 1.0, -1.0)), "not squared"),
         (exercise(|f, t, n, a| fills(f, t, n, 1.0 / a, -2.0, 1.0)), "one over it"),
-        (exercise(signed_pdf), "negative density"),
+        (exercise(signed_pdf), "negative pdf"),
         (exercise(|f, t, n, a| signed_pdf(f, t, n, a).max(0.0)), "has none"),
         (exercise(edge_on), "1 / 0"),
     ]
 }
 
 fn distance_and_cosine(from: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> (f64, f64) {
-    let way = [0, 1, 2].map(|axis| at[axis] - from[axis]);
-    let distance = dot(way, way).sqrt();
-    (distance, dot(normal, way) / distance)
+    let to_light = [0, 1, 2].map(|axis| at[axis] - from[axis]);
+    let distance = dot(to_light, to_light).sqrt();
+    (distance, dot(normal, to_light) / distance)
 }
 
 /// Powers of the distance and of the cosine over the area; 0 from the edge.
@@ -48,12 +48,4 @@ fn edge_on(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
-    dot(a, b) / length(a) / length(b)
 }

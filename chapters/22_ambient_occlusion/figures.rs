@@ -8,7 +8,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "22_distance",
             chapter,
-            about: "how much of the sky points see, with what is near alone in the way, and with all",
+            about: "how much of the sky points see, with near occluders alone, and with all",
             draw: integrators::draw_distance,
         },
         Figure {

@@ -50,7 +50,7 @@ fn question() -> Question<Input, [f64; 3]> {
             Mistake::new("v makes half a turn only; a full one is 2π", |&(u, v)| {
                 raised(u.sqrt(), PI * v, (1.0 - u).sqrt())
             }),
-            Mistake::new("v is taken for an angle; it is a share of a full turn, which is 2π", |&(u, v)| {
+            Mistake::new("v is taken for an angle; it is a fraction of a full turn, which is 2π", |&(u, v)| {
                 raised(u.sqrt(), v, (1.0 - u).sqrt())
             }),
             Mistake::new("the height is not that of a unit vector: x² + y² is u, so z² is 1 − u", |&(u, v)| {
@@ -66,7 +66,7 @@ fn question() -> Question<Input, [f64; 3]> {
         ],
         hints: &[
             "choose a point of the unit disk, all of them alike, and go straight up from it to the hemisphere",
-            "the share of the disk's area within a radius r is r², so r is the root of u; the angle is 2πv",
+            "the fraction of the disk's area within a radius r is r², so r is the root of u; the angle is 2πv",
             "x = r cos 2πv, y = r sin 2πv, and z makes the length 1: z² = 1 − r² = 1 − u",
         ],
     }

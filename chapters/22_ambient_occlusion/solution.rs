@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 22; look here when you have done yours.
+//! A solution of the exercise of chapter 22; look here when you have done yours.
 
 use std::f64::consts::TAU;
 

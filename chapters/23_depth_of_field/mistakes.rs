@@ -22,14 +22,10 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
 }
 
 fn a_sphere_in_focus(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
-    let slant = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
-    lens_direction(screen, tangent, lens, focus / slant)
+    let longer = (1.0 + tangent * tangent * (screen[0] * screen[0] + screen[1] * screen[1])).sqrt();
+    lens_direction(screen, tangent, lens, focus / longer)
 }
 
 fn not_of_length_1(screen: [f64; 2], tangent: f64, lens: [f64; 2], focus: f64) -> [f64; 3] {
     [screen[0] * tangent * focus - lens[0], screen[1] * tangent * focus - lens[1], -focus]
-}
-
-fn s(keep: bool, part: f64) -> f64 {
-    if keep { part } else { -part }
 }

@@ -56,10 +56,13 @@ fn question() -> Question<Input, [f64; 3]> {
             Mistake::new("the plane in focus is always at distance 1", |&(screen, tangent, lens, _)| {
                 camera_ray_lens(screen.into(), tangent, lens.into(), 1.0).into()
             }),
-            Mistake::new("the lens point is added; the way from it to the point in focus is the difference", |input| {
-                let &(screen, tangent, [x, y], focus) = input;
-                camera_ray_lens(screen.into(), tangent, [-x, -y].into(), focus).into()
-            }),
+            Mistake::new(
+                "the lens point is added; the direction from it to the point in focus is the difference",
+                |input| {
+                    let &(screen, tangent, [x, y], focus) = input;
+                    camera_ray_lens(screen.into(), tangent, [-x, -y].into(), focus).into()
+                },
+            ),
             Mistake::new("the tangent is left out", |&(screen, _, lens, focus)| {
                 camera_ray_lens(screen.into(), 1.0, lens.into(), focus).into()
             }),

@@ -13,7 +13,7 @@ pub fn solved() -> Exercise {
 pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
         (exercise(|o, d, c, r, _, _| nearest_sphere_t(o, d, c, r)), "stands still"),
-        (exercise(|o, d, c, r, v, s| moving_sphere_t(o, d, c, r, v, -s)), "wrong way"),
+        (exercise(|o, d, c, r, v, s| moving_sphere_t(o, d, c, r, v, -s)), "backwards"),
         (exercise(|o, d, c, r, v, _| moving_sphere_t(o, d, c, r, v, 1.0)), "time is left out"),
     ]
 }

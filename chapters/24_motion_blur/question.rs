@@ -1,4 +1,4 @@
-//! Chapter 24: where a ray meets a sphere that moves.
+//! Chapter 24: where a ray hits a sphere that moves.
 
 use super::mine::mine;
 use glam::DVec3;
@@ -35,35 +35,35 @@ fn question() -> Question<Input, Answer> {
                  time {time:?}"
             )
         },
-        right: |&(o, d, c, r, v, time)| met(at_rest(o.into(), v.into(), time), d.into(), c.into(), r),
+        right: |&(o, d, c, r, v, time)| nearest(at_rest(o.into(), v.into(), time), d.into(), c.into(), r),
         apart: |yours, right| option(yours, right, |yours, right| relative(&[*yours], &[*right])),
         allowed: 1e-9,
         measured: "of t",
         mistakes: vec![
             Mistake::new("the sphere stands still: its motion is left out", |&(o, d, c, r, _, _)| {
-                met(o.into(), d.into(), c.into(), r)
+                nearest(o.into(), d.into(), c.into(), r)
             }),
-            Mistake::new("the sphere moves the wrong way", |&(o, d, c, r, v, time)| {
-                met(at_rest(o.into(), v.into(), -time), d.into(), c.into(), r)
+            Mistake::new("the sphere moves backwards", |&(o, d, c, r, v, time)| {
+                nearest(at_rest(o.into(), v.into(), -time), d.into(), c.into(), r)
             }),
             Mistake::new(
                 "the time is left out: the sphere has always moved by one unit of time",
-                |&(o, d, c, r, v, _)| met(at_rest(o.into(), v.into(), 1.0), d.into(), c.into(), r),
+                |&(o, d, c, r, v, _)| nearest(at_rest(o.into(), v.into(), 1.0), d.into(), c.into(), r),
             ),
             Mistake::new(
-                "the direction is changed by the velocity; light takes no time, so nothing moves while it is on its way",
-                |&(o, d, c, r, v, _)| met(o.into(), DVec3::from(d) - DVec3::from(v), c.into(), r),
+                "the direction is changed by the velocity; light takes no time, so nothing moves while it travels",
+                |&(o, d, c, r, v, _)| nearest(o.into(), DVec3::from(d) - DVec3::from(v), c.into(), r),
             ),
         ],
         hints: &[
             "at the ray's own time the sphere is somewhere, and there it stands still for the ray",
             "its centre is then at centre + velocity · time; the rest is chapter 3",
-            "or leave the sphere and move the ray: from origin − velocity · time it meets the sphere at the same t",
+            "or leave the sphere and move the ray: from origin − velocity · time it hits the sphere at the same t",
         ],
     }
 }
 
-fn met(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> Answer {
+fn nearest(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> Answer {
     Some(sphere_t(origin, direction, centre, radius)).filter(|t| t.is_finite())
 }
 
@@ -78,12 +78,12 @@ fn asked() -> Vec<Probe<Input>> {
         "a sphere that has just come",
         [([0.0; 3], ahead, [-2.0, 0.0, -4.0], 1.0, [4.0, 0.0, 0.0], 0.5)],
     ));
-    asked.extend(probes("any sphere at any time", (0..200).map(aimed).filter(decidable)));
+    asked.extend(probes("any sphere at any time", (0..200).map(ray).filter(decidable)));
     asked
 }
 
 /// A ray at where a moving sphere is at its time, or close beside it.
-fn aimed(index: u64) -> Input {
+fn ray(index: u64) -> Input {
     let mut draws = Draws::new(2401, index);
     let mut point = |reach: f64| DVec3::from([0, 1, 2].map(|_| draws.between(-reach, reach)));
     let (origin, centre, velocity, beside) = (point(2.0), point(2.0) - DVec3::Z * 9.0, point(3.0), point(1.0));
@@ -93,7 +93,7 @@ fn aimed(index: u64) -> Input {
     (origin.into(), direction.into(), centre.into(), radius, velocity.into(), time)
 }
 
-/// Whether the ray starts outside, and f64 can tell a hit from a miss whichever way the motion is taken off.
+/// Whether the ray starts outside, and f64 can tell a hit from a miss wherever the motion is taken off.
 fn decidable(&(origin, direction, centre, radius, velocity, time): &Input) -> bool {
     let from_centre = DVec3::from(centre) - at_rest(origin.into(), velocity.into(), time);
     let grazing = {

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 24; look here when you have done yours.
+//! A solution of the exercise of chapter 24; look here when you have done yours.
 
 pub fn moving_sphere_t(
     origin: [f64; 3],

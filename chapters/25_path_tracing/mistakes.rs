@@ -12,9 +12,9 @@ pub fn solved() -> Exercise {
 /// The wrong solutions.
 pub fn all() -> Vec<(Exercise, &'static str)> {
     vec![
-        (exercise(|s, u| if u < random(s) { s } else { [0.0; 3] }), "is lost"),
-        (exercise(|s, _| s.map(|part| part / random(s))), "nothing ever ends"),
-        (exercise(|s, u| if u < random(s) { [0.0; 3] } else { divided(s, random(s)) }), "two ends are swapped"),
+        (exercise(|s, u| if u < survival(s) { s } else { [0.0; 3] }), "is lost"),
+        (exercise(|s, _| s.map(|part| part / survival(s))), "nothing ever ends"),
+        (exercise(|s, u| if u < survival(s) { [0.0; 3] } else { divided(s, survival(s)) }), "two ends are swapped"),
         (exercise(without_most), "at most 1"),
         (exercise(by_mean), "mean of the three"),
         (exercise(by_green), "green alone"),
@@ -26,30 +26,26 @@ fn divided(v: [f64; 3], by: f64) -> [f64; 3] {
     v.map(|part| part / by)
 }
 
-fn s(keep: bool, part: f64) -> f64 {
-    if keep { part } else { -part }
+fn survival(throughput: [f64; 3]) -> f64 {
+    without_cap(throughput).min(1.0)
 }
 
-fn random(share: [f64; 3]) -> f64 {
-    without_cap(share).min(1.0)
+fn without_cap(throughput: [f64; 3]) -> f64 {
+    throughput[0].max(throughput[1]).max(throughput[2])
 }
 
-fn without_cap(share: [f64; 3]) -> f64 {
-    share[0].max(share[1]).max(share[2])
+fn kept_with(survival: f64, throughput: [f64; 3], u: f64) -> [f64; 3] {
+    if u < survival { divided(throughput, survival) } else { [0.0; 3] }
 }
 
-fn kept_with(random: f64, share: [f64; 3], u: f64) -> [f64; 3] {
-    if u < random { divided(share, random) } else { [0.0; 3] }
+fn without_most(throughput: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(without_cap(throughput), throughput, u)
 }
 
-fn without_most(share: [f64; 3], u: f64) -> [f64; 3] {
-    kept_with(without_cap(share), share, u)
+fn by_mean(throughput: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(((throughput[0] + throughput[1] + throughput[2]) / 3.0).min(1.0), throughput, u)
 }
 
-fn by_mean(share: [f64; 3], u: f64) -> [f64; 3] {
-    kept_with(((share[0] + share[1] + share[2]) / 3.0).min(1.0), share, u)
-}
-
-fn by_green(share: [f64; 3], u: f64) -> [f64; 3] {
-    kept_with(share[1].min(1.0), share, u)
+fn by_green(throughput: [f64; 3], u: f64) -> [f64; 3] {
+    kept_with(throughput[1].min(1.0), throughput, u)
 }

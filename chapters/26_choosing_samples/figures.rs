@@ -14,7 +14,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
         Figure {
             name: "26_broken",
             chapter,
-            about: "a light sampled in two ways, with weights, and both counted in full",
+            about: "a light sampled by two techniques, with weights, and both counted in full",
             draw: path_mistakes::draw_weights,
         },
     ]

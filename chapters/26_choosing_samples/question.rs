@@ -1,4 +1,4 @@
-//! Chapter 26: the power heuristic, for densities of any size.
+//! Chapter 26: the power heuristic, for pdfs of any size.
 
 use super::mine::mine;
 use pinhole::follow::power_heuristic;
@@ -31,27 +31,30 @@ fn question() -> Question<Input, f64> {
         allowed: 1e-12,
         measured: "of 1",
         mistakes: vec![
-            Mistake::new("that is the balance heuristic; both densities are squared here", |&(own, other)| {
+            Mistake::new("that is the balance heuristic; both pdfs are squared here", |&(own, other)| {
                 if own == 0.0 { 0.0 } else { own / (own + other) }
             }),
-            Mistake::new("the two are swapped: the denser chance counts more", |&(own, other)| {
+            Mistake::new("the two are swapped: the larger pdf has more weight", |&(own, other)| {
                 power_heuristic(other, own)
             }),
             Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is no number or wrong; square only \
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only \
                  the ratio of the two",
                 |&(own, other)| if own == 0.0 { 0.0 } else { own * own / (own * own + other * other) },
             ),
             Mistake::new(
-                "squares overflow to infinity or vanish to 0, and their quotient is no number or wrong; square only \
+                "squares overflow to infinity or vanish to 0, and their quotient is NaN or wrong; square only \
                  the ratio of the two, and return 0 where own is 0",
                 |&(own, other)| own * own / (own * own + other * other),
             ),
-            Mistake::new("0 is divided by 0 where neither random finds the way; there it counts 0", |&(own, other)| {
-                let ratio = other / own;
-                1.0 / (1.0 + ratio * ratio)
-            }),
-            Mistake::new("each way counts half; the denser random counts more", |_| 0.5),
+            Mistake::new(
+                "0 is divided by 0 where neither technique samples the path; there the weight is 0",
+                |&(own, other)| {
+                    let ratio = other / own;
+                    1.0 / (1.0 + ratio * ratio)
+                },
+            ),
+            Mistake::new("each counts half; the larger pdf has more weight", |_| 0.5),
         ],
         hints: &[
             "with two pdfs alike the answer is 1/2, and with one three times the other 9/10",
@@ -71,10 +74,10 @@ fn asked() -> Vec<Probe<Input>> {
         })
     };
     asked.extend(probes("ordinary pdfs", of(2601, 40, -3.0, 3.0)));
-    asked.extend(probes("one that cannot find the way", [(0.0, 2.0), (2.0, 0.0)]));
+    asked.extend(probes("one that cannot sample the path", [(0.0, 2.0), (2.0, 0.0)]));
     asked.extend(probes("pdfs too large to be squared", of(2602, 30, 160.0, 290.0)));
     asked.extend(probes("pdfs too small to be squared", of(2603, 30, -290.0, -170.0)));
     asked.extend(probes("one of each", [(1e200, 1e-200), (1e-200, 1e200)]));
-    asked.extend(probes("neither finds the way", [(0.0, 0.0)]));
+    asked.extend(probes("neither samples the path", [(0.0, 0.0)]));
     asked
 }

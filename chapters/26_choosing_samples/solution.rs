@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 26; look here when you have done yours.
+//! A solution of the exercise of chapter 26; look here when you have done yours.
 
 pub fn power_heuristic(own: f64, other: f64) -> f64 {
     if own == 0.0 {

@@ -9,7 +9,7 @@ use pinhole::rays::join_camera;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
-/// What pixels get of the light that reaches a surface from a lamp.
+/// What pixels get of the light that reaches a surface from a light.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
         "Connect to the camera",

@@ -39,15 +39,3 @@ fn shared(point: [f64; 3], side: f64, sides: i32, cosines: i32) -> f64 {
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
-
-fn length(v: [f64; 3]) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
-    dot(a, b) / length(a) / length(b)
-}
-
-fn side(normal: [f64; 3], towards: [f64; 3]) -> f64 {
-    if dot(normal, towards) > 0.0 { 1.0 } else { -1.0 }
-}

@@ -49,42 +49,42 @@ fn question() -> Question<Input, f64> {
         },
         apart: |yours, right| relative(&[*yours], &[*right]),
         allowed: 1e-10,
-        measured: "of the share",
+        measured: "of the fraction",
         mistakes: vec![
-            Mistake::new("what lies behind the eye reaches no pixel; there the share is 0", |&input| {
-                share(input, 3, 1.0).abs()
+            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+                fraction(input, 3, 1.0).abs()
             }),
-            Mistake::new("what lies behind the eye reaches no pixel; there the share is 0", |&input| {
-                share(input, 3, 1.0)
+            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+                fraction(input, 3, 1.0)
             }),
             Mistake::new(
-                "cos³, not cos⁴: the fourth belongs to an opening, which is seen at a slant too, and an eye is a point",
-                |&input| ahead(input, share(input, 4, 1.0)),
+                "cos³, not cos⁴: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
+                |&input| ahead(input, fraction(input, 4, 1.0)),
             ),
-            Mistake::new("cos³, not cos: 1/d² is not yet all that the slant does", |&input| {
-                ahead(input, share(input, 1, 1.0))
+            Mistake::new("cos³, not cos: 1/d² is not yet all that the angle does", |&input| {
+                ahead(input, fraction(input, 1, 1.0))
             }),
             Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {
-                ahead(input, share(input, 0, 1.0))
+                ahead(input, fraction(input, 0, 1.0))
             }),
             Mistake::new("A is the area of a pixel, its side squared", |&input| {
-                ahead(input, share(input, 3, side(input)))
+                ahead(input, fraction(input, 3, side(input)))
             }),
             Mistake::new("the pixel's area A is missing: a smaller pixel gathers from fewer directions", |&input| {
-                ahead(input, share(input, 3, side(input) * side(input)))
+                ahead(input, fraction(input, 3, side(input) * side(input)))
             }),
             Mistake::new("the plane at distance 1 is 2 tan_half high, not tan_half", |&input| {
-                ahead(input, share(input, 3, 4.0).abs())
+                ahead(input, fraction(input, 3, 4.0).abs())
             }),
             Mistake::new("1/d² is missing: light thins out with the distance", |&input| {
                 let distance = DVec3::from(input.0).length_squared();
-                ahead(input, share(input, 3, distance))
+                ahead(input, fraction(input, 3, distance))
             }),
         ],
         hints: &[
-            "on the axis θ is 0, and the share is 1 / (A d²)",
+            "on the axis θ is 0, and the fraction is 1 / (A d²)",
             "the pixel's side on the plane at distance 1 is 2 tan_half / height, and A is its square",
-            "cos θ is the depth, −z, over d; so the share is d / (A (−z)³), and 0 where −z is not above 0",
+            "cos θ is the depth, −z, over d; so the fraction is d / (A (−z)³), and 0 where −z is not above 0",
         ],
     }
 }
@@ -94,7 +94,7 @@ fn side((_, tan_half, height): Input) -> f64 {
 }
 
 /// With so many cosines, and another factor.
-fn share(input: Input, cosines: i32, factor: f64) -> f64 {
+fn fraction(input: Input, cosines: i32, factor: f64) -> f64 {
     let (point, ..) = input;
     let distance = DVec3::from(point).length();
     let cosine = -point[2] / distance;
@@ -102,18 +102,18 @@ fn share(input: Input, cosines: i32, factor: f64) -> f64 {
     factor / (side(input) * side(input) * distance * distance * power)
 }
 
-fn ahead((point, ..): Input, share: f64) -> f64 {
-    if point[2] < 0.0 { share } else { 0.0 }
+fn ahead((point, ..): Input, fraction: f64) -> f64 {
+    if point[2] < 0.0 { fraction } else { 0.0 }
 }
 
 fn asked() -> Vec<Probe<Input>> {
     let mut asked: Vec<_> =
         probes("straight ahead", [([0.0, 0.0, -1.0], 1.0, 2.0), ([0.0, 0.0, -2.0], 0.5, 100.0)]).collect();
-    let of = |seed, count: u64, slant: f64, size: f64| {
+    let of = |seed, count: u64, widest: f64, size: f64| {
         (0..count).map(move |at| {
             let mut draws = Draws::new(seed, at);
             let depth = draws.power_of_ten(-size, size);
-            let (x, y) = (draws.between(-slant, slant) * depth, draws.between(-slant, slant) * depth);
+            let (x, y) = (draws.between(-widest, widest) * depth, draws.between(-widest, widest) * depth);
             ([x, y, -depth], draws.power_of_ten(-1.5, 0.5), draws.between(2.0, 2000.0).floor())
         })
     };

@@ -1,4 +1,4 @@
-//! One way to do the exercise of chapter 27; look here when you have done yours.
+//! A solution of the exercise of chapter 27; look here when you have done yours.
 
 pub fn pixel_fraction([x, y, z]: [f64; 3], tan_half: f64, height: f64) -> f64 {
     let depth = -z;

@@ -88,7 +88,7 @@ fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
         let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
         let solved = solved();
         if !solved.renders() {
-            let why = mine(chapter, &solved).err().expect("refused").to_string();
+            let why = mine(chapter, &solved).map(|_| ()).expect_err("refused").to_string();
             assert!(why.contains(solved.function) && !why.contains('\n'), "{name}: {why}");
             continue;
         }
@@ -119,7 +119,7 @@ fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
 fn what_no_picture_can_hold_is_told_with_pixel_input_and_answer() {
     let chapters = all();
     let chapter = chapters.iter().find(|chapter| chapter.name == "05_pinhole").expect("the chapter");
-    let told = |exercise: Exercise| mine(chapter, &exercise).err().expect("refused").to_string();
+    let told = |exercise: Exercise| mine(chapter, &exercise).map(|_| ()).expect_err("refused").to_string();
     let panics = told(perspective(|screen, tan| {
         assert!(screen[0] < 0.5, "too far\nto the right");
         chapter_05_pinhole::solution::perspective_direction(screen, tan)

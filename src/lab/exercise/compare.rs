@@ -128,7 +128,7 @@ fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], 
         let agrees = |at: usize| question.same(&given[at], &made[at]) || given[at].shown() == made[at].shown();
         // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
         let speaks = |at: &usize| !question.same(&made[*at], &right[*at]) || !question.same(&given[*at], &right[*at]);
-        let share = |end: usize| {
+        let fraction = |end: usize| {
             let (mut agreed, mut spoken) = (0, 0);
             for at in (0..end).filter(speaks) {
                 agreed += usize::from(agrees(at));
@@ -136,12 +136,12 @@ fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], 
             }
             agreed as f64 / f64::from(spoken.max(1))
         };
-        (agrees(first) && share(near) >= 0.9, share(given.len()), mistake.told)
+        (agrees(first) && fraction(near) >= 0.9, fraction(given.len()), mistake.told)
     });
     let mut best: Option<(f64, &'static str)> = None;
-    for (explains, share, told) in checked {
-        if explains && best.is_none_or(|(most, _)| share > most) {
-            best = Some((share, told));
+    for (explains, fraction, told) in checked {
+        if explains && best.is_none_or(|(most, _)| fraction > most) {
+            best = Some((fraction, told));
         }
     }
     best.map(|(_, told)| told)
