@@ -1,82 +1,11 @@
-use super::hits::shape_evidence;
+use super::evidence::shape_evidence;
+use super::rows::{
+    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows, TriangleRows,
+};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
-
-column! {
-    /// The rows that hit a sphere, ascending.
-    pub struct SphereRows("sphere rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit an ellipsoid, ascending.
-    pub struct EllipsoidRows("ellipsoid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a plane, ascending.
-    pub struct PlaneRows("plane rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a disk, ascending.
-    pub struct DiskRows("disk rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a rectangle, ascending.
-    pub struct RectangleRows("rectangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a cuboid, ascending.
-    pub struct CuboidRows("cuboid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a triangle, ascending.
-    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows whose surface has a non-specular material, which is every material but mirrors and glass; ascending.
-    pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
-        /// A row of the surfaces.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows whose surface emits light, ascending.
-    pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-        /// A row of the table of emissive surfaces.
-        emissive: u32,
-    }
-}
 
 /// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
@@ -177,60 +106,6 @@ fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
         (px[row], py[row], pz[row]) = (0.0, 0.0, 0.0);
         (nx[row], ny[row], nz[row]) = (0.0, 0.0, 0.0);
         (bound[row], material[row]) = (0.0, 0);
-    }
-}
-
-impl SphereRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl EllipsoidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl PlaneRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl EmissiveRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl DiskRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl RectangleRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl CuboidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl TriangleRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl MaterialRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
     }
 }
 

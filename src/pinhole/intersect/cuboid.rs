@@ -1,7 +1,7 @@
-use super::classify::CuboidRows;
 use super::double_double_planar::double_double_cuboid_t;
-use super::keep_closest::keep_closest;
-use super::sphere::{Intersection, LANES, RayBlock, nearness, vector};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest, vector};
+use super::rows::CuboidRows;
+use super::sphere::nearness;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
 use super::uv::cuboid_uv;
 use super::{HitColumn, Hits, RayColumn, RaySlices};

@@ -1,8 +1,7 @@
-use super::classify::DiskRows;
 use super::double_double_planar::double_double_disk_t;
-use super::keep_closest::keep_closest;
 use super::planar::{crossing, describe_planar};
-use super::sphere::{Intersection, LANES, RayBlock};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
+use super::rows::DiskRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};

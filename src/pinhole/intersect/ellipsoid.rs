@@ -1,6 +1,7 @@
-use super::classify::EllipsoidRows;
 use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t};
-use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
+use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
+use super::rows::EllipsoidRows;
+use super::sphere::nearness;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
 use super::uv::sphere_uv;
 use super::{HitColumn, Hits, RayColumn, RaySlices};

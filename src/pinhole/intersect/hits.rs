@@ -1,9 +1,5 @@
-use super::cuboid::cuboid_evidence;
-use super::plane::plane_evidence;
-use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::plan::{Column, column};
 use crate::rays::WorldRays;
-use crate::scene::{Disk, Rectangle, Sphere, Triangle};
-use bevy_ecs::prelude::*;
 
 /// The shape number of a ray that hit nothing.
 pub const NO_SHAPE: u32 = u32::MAX;
@@ -69,28 +65,4 @@ impl HitColumn for Hits {
         let rows = self.rows();
         self.slices_mut(rows)
     }
-}
-
-/// Sets every row of a tile's hits to a miss.
-pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits)>) {
-    for (rays, mut hits) in &mut tiles {
-        let (t, shape) = hits.slices_mut(rays.rows());
-        t.fill(f64::INFINITY);
-        shape.fill(NO_SHAPE);
-    }
-}
-
-/// The stage that runs this system.
-pub fn start_stage() -> Stage {
-    Stage::new("Clear hits", TileSystems::Start, start_hits).reads::<WorldRays>().writes::<Hits>().when(shape_evidence)
-}
-
-/// Evidence that the scene contains a shape of any kind.
-pub fn shape_evidence(scene: &World) -> Evidence {
-    Evidence::of::<Sphere>(scene, "sphere")
-        .or(plane_evidence(scene))
-        .or(Evidence::of::<Disk>(scene, "disk"))
-        .or(Evidence::of::<Rectangle>(scene, "rectangle"))
-        .or(cuboid_evidence(scene))
-        .or(Evidence::of::<Triangle>(scene, "triangle"))
 }

@@ -1,9 +1,9 @@
 use super::disk::disk_intersection;
 use super::double_double::double_double_sphere_t;
 use super::double_double_planar::{double_double_disk_t, double_double_rectangle_t};
-use super::keep_closest::keep_closest;
+use super::ray_block::{LANES, RayBlock, keep_closest, vector};
 use super::rectangle::rectangle_intersection;
-use super::sphere::{LANES, RayBlock, sphere_intersection, vector};
+use super::sphere::sphere_intersection;
 use super::surface::{Surface, SurfaceSides, Surfaces, l1_norm, offset_bound};
 use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RaySlices};
 use crate::extract::{Body, MovingTable, ShapeKind, ShapeTable, moving_evidence};

@@ -1,4 +1,4 @@
-use super::classify::PlaneRows;
+use super::rows::PlaneRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};

@@ -1,8 +1,7 @@
-use super::classify::RectangleRows;
 use super::double_double_planar::double_double_rectangle_t;
-use super::keep_closest::keep_closest;
 use super::planar::{crossing, describe_planar};
-use super::sphere::{Intersection, LANES, RayBlock};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
+use super::rows::RectangleRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{Planar, RectangleTable, ShapeTable, moves_while_open};

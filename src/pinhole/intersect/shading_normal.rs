@@ -1,4 +1,4 @@
-use super::classify::TriangleRows;
+use super::rows::TriangleRows;
 use super::triangle_surface::TriangleHit;
 use super::{Hits, Surfaces};
 use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};

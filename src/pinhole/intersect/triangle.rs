@@ -1,4 +1,5 @@
-use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
+use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
+use super::sphere::nearness;
 use super::triangle_exact::exact_triangle_t;
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{TriangleRow, TriangleTable};

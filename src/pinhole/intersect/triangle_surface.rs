@@ -1,6 +1,6 @@
 use super::Hits;
-use super::classify::TriangleRows;
-use super::sphere::UNIT_ROUNDOFF;
+use super::ray_block::UNIT_ROUNDOFF;
+use super::rows::TriangleRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::triangle::{Edges, Shear, edges, longest_axis, triangle_evidence};
 use super::triangle_exact::exact_barycentrics;
