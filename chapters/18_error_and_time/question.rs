@@ -9,7 +9,8 @@ type Input = (Vec<f64>, f64);
 type Answer = Option<[f64; 2]>;
 
 /// Why `render 18 --mine` makes no picture.
-const NOT_SEEN: &str = "variance_and_bias_squared stands in no stage: it compares many renders, where a picture is one; `report 18` shows both";
+const NOT_SEEN: &str = "variance_and_bias_squared stands in no stage: it compares many renders, and a picture is one; \
+                        `report 18` shows both";
 
 /// What the reader writes.
 pub type Yours = fn(&[f64], f64) -> Answer;

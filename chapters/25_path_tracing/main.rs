@@ -1,4 +1,4 @@
-//! Where does the light come from that no light sends there directly? A room with one light at its ceiling, which it lights itself.
+//! Where does the light come from that no light sends there directly? A room with one light below its ceiling.
 //! The walls' colours lie on the ball, the block and the ceiling.
 //! New here: surfaces send light on to each other, until Russian roulette ends a path.
 
