@@ -3,6 +3,7 @@
 use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use pinhole::extract::SphereTable;
+use pinhole::intersect;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
@@ -11,7 +12,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// The nearest sphere of each ray.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Intersect spheres",
+        intersect::sphere_stage,
         move |spheres: Res<Shared<SphereTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
             for (place, rays, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {

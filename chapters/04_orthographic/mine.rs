@@ -4,13 +4,14 @@ use super::question::{Input, Ray};
 use bevy_ecs::prelude::*;
 use pinhole::extract::OrthographicWindow;
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Origins and directions of camera rays.
 pub fn mine(ask: Ask<Input, Ray>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Generate camera rays: orthographic",
+        rays::orthographic_stage,
         move |view: Res<Shared<OrthographicWindow>>, mut tiles: Query<(RowPlaces, &ScreenPoints, &mut CameraRays)>| {
             for (place, screen, mut rays) in &mut tiles {
                 for row in 0..screen.rows() {

@@ -4,13 +4,14 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::PerspectiveProjection;
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{CameraRays, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Directions of camera rays.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Generate camera rays: perspective",
+        rays::perspective_stage,
         move |camera: Res<Shared<PerspectiveProjection>>,
               mut tiles: Query<(RowPlaces, &ScreenPoints, &mut CameraRays)>| {
             for (place, screen, mut rays) in &mut tiles {

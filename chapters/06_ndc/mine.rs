@@ -5,6 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::extract::ImageFrame;
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{NdcPoints, ndc_from_raster, raster_from_pixel};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
@@ -12,7 +13,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 pub fn mine(ask: Ask<Input, Pixel>, setting: &Setting<'_>) -> StandIn {
     let size = setting.resolution();
     StandIn::after(
-        "Compute NDC points",
+        rays::ndc_stage,
         move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(RowPlaces, &mut NdcPoints)>| {
             for (place, mut ndc) in &mut tiles {
                 for row in 0..ndc.rows() {

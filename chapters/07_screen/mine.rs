@@ -4,6 +4,7 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::ImageFrame;
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{ScreenPoints, screen_from_ndc};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
@@ -11,7 +12,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 pub fn mine(ask: Ask<Input, [f64; 2]>, setting: &Setting<'_>) -> StandIn {
     let size = setting.resolution();
     StandIn::after(
-        "Compute screen points",
+        rays::screen_stage,
         move |image: Res<Shared<ImageFrame>>, mut tiles: Query<(RowPlaces, &mut ScreenPoints)>| {
             for (place, mut screen) in &mut tiles {
                 for row in 0..screen.rows() {

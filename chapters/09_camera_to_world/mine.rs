@@ -4,6 +4,7 @@ use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{EllipsoidTable, ShapeTable};
+use pinhole::intersect;
 use pinhole::intersect::{EllipsoidRows, Hits, Surfaces};
 use pinhole::plan::Shared;
 use pinhole::rays::WorldRays;
@@ -12,7 +13,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// Normals of ellipsoids, from those of the unit spheres that they are in object space.
 pub fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Compute surfaces: ellipsoids",
+        intersect::ellipsoid_surface_stage,
         move |ellipsoids: Res<Shared<EllipsoidTable>>,
               shapes: Res<Shared<ShapeTable>>,
               mut tiles: Query<(RowPlaces, &WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>| {

@@ -4,6 +4,7 @@ use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::CuboidTable;
+use pinhole::intersect;
 use pinhole::intersect::Hits;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
@@ -12,7 +13,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// The nearest cuboid of each ray, each asked in its own axes about its own centre.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Intersect cuboids",
+        intersect::cuboid_stage,
         move |cuboids: Res<Shared<CuboidTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
             for (place, rays, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {

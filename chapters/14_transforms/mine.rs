@@ -7,13 +7,14 @@ use pinhole::extract::{ShapeKind, ShapeTable, TriangleTable, VertexNormalTable};
 use pinhole::intersect::{Hits, ShadingNormals, Surfaces, TriangleHit, falling_cosine};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::shade;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Irradiance from point lights on triangles whose corners have normals, by the cosine that the reader's function finds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Sample point lights",
+        shade::point_light_stage,
         move |(triangles, normals, shapes): (
             Res<Shared<TriangleTable>>,
             Res<Shared<VertexNormalTable>>,

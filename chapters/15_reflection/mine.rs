@@ -6,13 +6,14 @@ use pinhole::extract::{MaterialKind, MaterialTable, PhongTable};
 use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::shade;
 use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Radiance of Phong surfaces, less the matte part that "Evaluate direct light" adds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Add Phong highlights",
+        shade::phong_stage,
         move |(materials, phong): (Res<Shared<MaterialTable>>, Res<Shared<PhongTable>>),
               mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>| {
             for (place, eye, surfaces, rays, shadows, mut radiance) in &mut tiles {

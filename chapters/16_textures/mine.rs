@@ -5,13 +5,14 @@ use bevy_ecs::prelude::*;
 use pinhole::extract::{CheckerTable, NO_TEXTURE};
 use pinhole::intersect::{MaterialRows, Surfaces};
 use pinhole::plan::Shared;
+use pinhole::shade;
 use pinhole::shade::{SurfaceColours, TexturePoints, box_width};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Colours of checkers: a checker is the product of stripes along its three axes.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Evaluate textures: checkers",
+        shade::checker_stage,
         move |checkers: Res<Shared<CheckerTable>>,
               mut tiles: Query<(RowPlaces, &Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>| {
             for (place, surfaces, list, points, mut colours) in &mut tiles {

@@ -4,6 +4,7 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{FilterTable, SamplingTable, radius_of};
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{Depth, Draws, PixelSamples, RasterPoints, SampleNumber, Tile, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
@@ -11,7 +12,7 @@ use pinhole_lab::exercise::{Ask, Setting, StandIn};
 /// Samples placed by the tent, with the radius of the filter that the camera has.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Place samples",
+        rays::place_samples_stage,
         move |(sampling, filter): (Res<Shared<SamplingTable>>, Res<Shared<FilterTable>>),
               (mut rows, mut points): (Local<Vec<u32>>, Local<Vec<[f64; 2]>>),
               mut tiles: Query<(&Tile, Option<&SampleNumber>, &PixelSamples, &mut RasterPoints)>| {

@@ -8,6 +8,7 @@ use pinhole::intersect::Surfaces;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
+use pinhole::shade;
 use pinhole::shade::{LightRays, emitter::parallelogram_area_point, irradiance_from_area, shadow_t_max};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
@@ -16,7 +17,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// Pinhole itself samples a rectangle that is near by its solid angle: the mean is the same, the noise is less.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Sample area lights",
+        shade::area_light_stage,
         move |(lights, sampling): (Res<Shared<AreaLightTable>>, Res<Shared<SamplingTable>>),
               mut points: Local<Vec<[f64; 2]>>,
               mut tiles: Query<(RowPlaces, Option<&SampleNumber>, Option<&Depth>, &Surfaces, &mut LightRays)>| {

@@ -4,6 +4,7 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::SamplingTable;
+use pinhole::follow;
 use pinhole::follow::frame_of;
 use pinhole::intersect::Surfaces;
 use pinhole::plan::Shared;
@@ -15,7 +16,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// Directions about the normal, in which the open sky is looked for.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Sample the open sky",
+        follow::sky_rays_stage,
         move |sampling: Res<Shared<SamplingTable>>,
               mut points: Local<Vec<[f64; 2]>>,
               mut tiles: Query<(RowPlaces, Option<&SampleNumber>, &Surfaces, &mut LightRays)>| {

@@ -4,13 +4,14 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{LensTable, PerspectiveProjection};
 use pinhole::plan::{Column, Shared};
+use pinhole::rays;
 use pinhole::rays::{CameraRays, LensPoints, ScreenPoints};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Directions of rays from points of the lens.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Generate camera rays: thin lens",
+        rays::lens_stage,
         move |(camera, lens): (Res<Shared<PerspectiveProjection>>, Res<Shared<LensTable>>),
               mut tiles: Query<(RowPlaces, &ScreenPoints, &LensPoints, &mut CameraRays)>| {
             for (place, screen, points, mut rays) in &mut tiles {

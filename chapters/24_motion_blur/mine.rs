@@ -3,6 +3,7 @@
 use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use pinhole::extract::{Body, MovingTable};
+use pinhole::intersect;
 use pinhole::intersect::{Hits, at_rest, disk_t, rectangle_t};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{RayTimes, WorldRays};
@@ -11,7 +12,7 @@ use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 /// The nearest moving shape of each ray; spheres by the reader's function.
 pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Intersect moving shapes",
+        intersect::moving_stage,
         move |moving: Res<Shared<MovingTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &RayTimes, &mut Hits)>| {
             for (place, rays, times, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {

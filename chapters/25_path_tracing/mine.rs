@@ -3,6 +3,7 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{IntegratorTable, SamplingTable};
+use pinhole::follow;
 use pinhole::follow::Scattered;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
@@ -12,7 +13,7 @@ use pinhole_lab::exercise::{Ask, Setting, StandIn};
 /// The throughput of paths after roulette; a path that ends keeps its row, with nothing left of its light.
 pub fn mine(ask: Ask<Input, [f64; 3]>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Russian roulette",
+        follow::roulette_stage,
         move |(sampling, integrator): (Res<Shared<SamplingTable>>, Res<Shared<IntegratorTable>>),
               mut numbers: Local<Vec<f64>>,
               mut tiles: Query<(

@@ -3,6 +3,7 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{AreaLightTable, EmissiveTable, NO_ROW};
+use pinhole::follow;
 use pinhole::intersect::{EmissiveRows, Hits, SurfaceSides};
 use pinhole::plan::Shared;
 use pinhole::rays::{Paths, PixelSamples, Tile, WorldRays};
@@ -12,7 +13,7 @@ use pinhole_lab::exercise::{Ask, Setting, StandIn};
 /// The light of emitters that a path hits, weighted against light sampling, which could have found them too.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        "Add emission, weighted by MIS",
+        follow::mis_emission_stage,
         move |(emissive, lights): (Res<Shared<EmissiveTable>>, Res<Shared<AreaLightTable>>),
               mut tiles: Query<(
             (&Tile, Option<&PixelSamples>, &Paths),

@@ -6,13 +6,14 @@ use glam::{DVec2, DVec3};
 use pinhole::extract::CameraJoinTable;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::join_camera;
+use pinhole::shade;
 use pinhole::shade::LightRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// What pixels get of the light that reaches a surface from a light.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        "Connect to the camera",
+        shade::camera_join_stage,
         move |camera: Res<Shared<CameraJoinTable>>, mut tiles: Query<(RowPlaces, &mut LightRays)>| {
             for (place, mut rays) in &mut tiles {
                 for ray in 0..rays.rows() {

@@ -36,7 +36,8 @@ type Make = Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
 
 /// A stage with a reader's function in it, which takes the place of one of pinhole's.
 pub struct StandIn {
-    stage: &'static str,
+    /// The stage, where it is one.
+    stage: Option<fn() -> Stage>,
     place: Place,
 }
 
@@ -47,45 +48,42 @@ enum Place {
 }
 
 impl StandIn {
-    /// A system that runs in place of the stage of this name.
+    /// A system that runs in place of this stage.
     pub fn instead<M: 'static>(
-        stage: &'static str,
+        stage: fn() -> Stage,
         system: impl IntoScheduleConfigs<ScheduleSystem, M> + Clone + Send + Sync + 'static,
     ) -> Self {
-        Self { stage, place: Place::Instead(Arc::new(move || system.clone().into_configs())) }
+        Self { stage: Some(stage), place: Place::Instead(Arc::new(move || system.clone().into_configs())) }
     }
 
-    /// A system that runs after the stage of this name, and puts the reader's numbers over pinhole's.
+    /// A system that runs after this stage, and puts the reader's numbers over pinhole's.
     pub fn after<M: 'static>(
-        stage: &'static str,
+        stage: fn() -> Stage,
         system: impl IntoScheduleConfigs<ScheduleSystem, M> + Clone + Send + Sync + 'static,
     ) -> Self {
-        Self { stage, place: Place::After(Arc::new(move || system.clone().into_configs())) }
+        Self { stage: Some(stage), place: Place::After(Arc::new(move || system.clone().into_configs())) }
     }
 
     /// Only the stages of these names are offered, beside what every chapter has.
     pub fn keeping(stages: Vec<String>) -> Self {
-        Self { stage: "", place: Place::Keep(stages) }
+        Self { stage: None, place: Place::Keep(stages) }
     }
 
-    /// The chapter with the stand-in.
-    ///
-    /// Errors: the chapter has no stage of the name.
-    fn put_in(self, chapter: &Chapter) -> Result<Chapter> {
+    /// The chapter with the stand-in, and the name of the stage that must run for it.
+    fn put_in(self, chapter: &Chapter) -> (Chapter, Option<&'static str>) {
         let mut chapter = chapter.clone();
         if let Place::Keep(names) = &self.place {
             chapter.offer.retain(|stage| names.iter().any(|name| name == stage.name));
-            return Ok(chapter);
         }
-        if !chapter.offer.iter().any(|stage| stage.name == self.stage) {
-            // What every chapter has may be offered by name.
-            chapter.offer.extend(chapter.stages().into_iter().filter(|stage| stage.name == self.stage));
+        let Some(mut stage) = self.stage.map(|stage| stage()) else { return (chapter, None) };
+        let name = stage.name;
+        if !chapter.offer.iter().any(|own| own.name == name) {
+            // What every chapter has may be offered as well.
+            chapter.offer.extend(chapter.stages().into_iter().filter(|own| own.name == name));
         }
-        let name = chapter.name;
-        let missing = || Error::Usage(format!("{name} has no stage \"{}\" for your function to stand in", self.stage));
-        let stage = chapter.offer.iter_mut().find(|stage| stage.name == self.stage).ok_or_else(missing)?;
-        self.place.take(stage);
-        Ok(chapter)
+        self.place.take(&mut stage);
+        chapter.offer.iter_mut().filter(|own| own.name == name).for_each(|own| own.system = Arc::clone(&stage.system));
+        (chapter, Some(name))
     }
 }
 
@@ -117,10 +115,10 @@ impl Mine {
         let render = exercise.mine.as_ref().map_err(|why| Error::Usage((*why).into()))?;
         let (stand_in, complaint) = render(&Setting { chapter, scene });
         complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))?;
-        let stage = stand_in.stage;
-        let chapter = stand_in.put_in(chapter)?;
-        let runs = plan(scene, &chapter.stages())?.stages.iter().any(|own| own.name == stage);
-        if !runs && !stage.is_empty() {
+        let (chapter, stage) = stand_in.put_in(chapter);
+        if let Some(stage) = stage
+            && !plan(scene, &chapter.stages())?.stages.iter().any(|own| own.name == stage)
+        {
             let function = exercise.function;
             return Err(Error::Usage(format!("{function} stands in \"{stage}\", which this render does not run")));
         }
