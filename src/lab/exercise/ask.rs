@@ -45,7 +45,7 @@ impl<I, A: Shown> Ask<I, A> {
         self.answer(input, || pixel_of(place, row).map_or_else(String::new, |[x, y]| format!("at pixel ({x}, {y}), ")))
     }
 
-    /// The same for the picture as a whole.
+    /// The same where no row of a pixel asks.
     pub fn once(&self, input: I) -> Option<A> {
         self.answer(input, String::new)
     }
