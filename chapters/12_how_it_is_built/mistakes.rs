@@ -23,7 +23,7 @@ fn only(stages: &[StageWords], kept: impl Fn(&StageWords) -> bool) -> Vec<String
     stages.iter().filter(|stage| kept(stage)).map(|stage| stage.name.clone()).collect()
 }
 
-/// Round after round, until nothing more is kept; the order of the stages does not matter to it.
+/// Round after round, until nothing more is kept; whatever the order of the stages.
 fn forward(stages: &[StageWords], asked: &str) -> Vec<String> {
     let mut wanted = vec![asked.to_owned()];
     loop {

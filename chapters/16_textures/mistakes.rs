@@ -17,7 +17,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|x, w| stripes_between(x - w, x + w, 2.0 * w)), "twice as wide"),
         (exercise(|x, w| (zigzag(x + w / 2.0) - zigzag(x - w / 2.0)) / w), "without width"),
         (exercise(|x, w| stripes_between(x - w / 2.0, x + w / 2.0, 1.0)), "the area"),
-        (exercise(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "other way round"),
+        (exercise(|x, w| -stripes_between(x - w / 2.0, x + w / 2.0, w)), "the reverse"),
     ]
 }
 

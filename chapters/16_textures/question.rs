@@ -53,7 +53,7 @@ fn question() -> Question<Input, f64> {
             Mistake::new("this is the area; divided by the width it is the mean", |&(x, width)| {
                 wave_mean(x, width) * width
             }),
-            Mistake::new("odd stripes count as 1 and even ones as −1; it is the other way round", |&(x, width)| {
+            Mistake::new("odd stripes count as 1 and even ones as −1; it is the reverse", |&(x, width)| {
                 -wave_mean(x, width)
             }),
         ],

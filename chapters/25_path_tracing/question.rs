@@ -1,4 +1,4 @@
-//! Chapter 25: what a way is worth after Russian roulette.
+//! Chapter 25: the throughput of a path after Russian roulette.
 
 use super::mine::mine;
 use pinhole::follow::survival_probability;

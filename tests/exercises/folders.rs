@@ -15,7 +15,7 @@ const NAMED: [(&str, &str); 4] = [
     ("src/lab/review/mutation/table.rs", "a mutation is tried in whichever chapter runs the stage that it spoils"),
     ("tests/book_numbers/spaces.rs", "the numbers that page 08 prints, computed from its scene"),
     ("tests/exercises/folders.rs", "this file"),
-    ("tests/follow.rs", "pictures of sampled scenes that must not change when a way to render them is forced"),
+    ("tests/follow.rs", "pictures of sampled scenes that must not change when an integrator is forced on them"),
 ];
 
 #[test]
