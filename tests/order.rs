@@ -22,17 +22,18 @@ const ORDER: &[(&str, &[&str])] = &[
             "film",
             "render",
             "look",
+            "stages",
             "chapter",
             "example",
             "prelude",
         ],
     ),
-    ("lab", &["repository", "naive", "figure", "review", "measure", "report", "exercise"]),
+    ("lab", &["png_url", "repository", "naive", "figure", "review", "measure", "report", "exercise"]),
     ("", &["exercises", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
-const ROOT: [&str; 3] = ["Error", "Result", "repository"];
+const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
 const REEXPORTED: [(&str, &str); 5] = [

@@ -4,8 +4,8 @@ use super::find;
 use super::format::{Format, print_json, print_written, shown};
 use super::review::{keep_page, picture, told, write_page};
 use pinhole::Chapter;
-use pinhole::film::png_url;
 use pinhole::film::write_whole;
+use pinhole_lab::png_url;
 use pinhole_lab::review::mutation::{MUTATIONS, Mutation};
 use pinhole_lab::review::{Compared, Snapshots, compare_pictures, escape, page, picture_contrast};
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ fn table(all: &[(&Mutation, Compared)], format: Format, out: &mut dyn Write) -> 
     let found = |(mutation, compared): &(&Mutation, Compared)| {
         let named = compared.before.first_difference(&compared.now).map(|difference| difference.stage);
         let pixels = compare_pictures(&compared.before.picture, &compared.now.picture);
-        let right = named.as_deref() == Some(mutation.stage);
+        let right = named.as_deref() == Some(mutation.stage());
         (mutation.name, mutation.mistake, named, pixels.map_or(0, |difference| difference.differing), right)
     };
     let found: Vec<_> = all.iter().map(found).collect();

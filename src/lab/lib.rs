@@ -21,6 +21,8 @@ pub mod report;
 
 pub mod exercise;
 
+mod png_url;
 mod repository;
 
+pub use png_url::png_url;
 pub use repository::repository;

@@ -5,12 +5,11 @@ use bevy_ecs::prelude::*;
 use pinhole::scene::{
     Checker, Degrees, LookAt, Matte, Name, PerspectiveCamera, Placement, Plane, PointLight, Rgb, Sphere,
 };
-use pinhole::{Chapter, Result, follow, intersect, rays, shade};
+use pinhole::{Chapter, Result, stages};
 
 /// A chapter with this scene.
 pub fn chapter(scene: fn(&mut World)) -> Chapter {
-    let chapter = Chapter::new("trial", "a trial", scene).offer(rays::stages()).offer(intersect::stages());
-    chapter.offer(shade::stages()).offer(follow::stages())
+    Chapter::new("trial", "a trial", scene).offer(stages::all())
 }
 
 /// A figure of such a chapter.

@@ -27,6 +27,6 @@ pub use film_tile::{FIRST_SAMPLE_STEPS, Film, FilmTile, Rejected};
 pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
-pub use png::{png_bytes, png_bytes_by, png_url, write_png};
+pub use png::{png_bytes, png_bytes_by, write_png};
 pub use splats::{FilmSplats, SplatFilter};
 pub use whole_file::{check_place, write_whole, writes_in_progress};

@@ -1,7 +1,5 @@
 use super::{Curve, Film, byte_from_linear, write_whole};
 use crate::Result;
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -23,11 +21,6 @@ pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> i
     let mut bytes = Vec::new();
     encode(film, curve, develop, &mut bytes)?;
     Ok(bytes)
-}
-
-/// A data URL of a PNG, for self-contained pages and drawings.
-pub fn png_url(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", BASE64_STANDARD.encode(png))
 }
 
 fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Write) -> io::Result<()> {
