@@ -69,21 +69,20 @@ impl StandIn {
         Self { stage: None, place: Place::Keep(stages) }
     }
 
-    /// The chapter with the stand-in, and the name of the stage that must run for it.
-    fn put_in(self, chapter: &Chapter) -> (Chapter, Option<&'static str>) {
+    /// The chapter with the stand-in, and the stage that must run for it.
+    fn put_in(self, chapter: &Chapter) -> (Chapter, Option<Stage>) {
         let mut chapter = chapter.clone();
         if let Place::Keep(names) = &self.place {
             chapter.offer.retain(|stage| names.iter().any(|name| name == stage.name));
         }
         let Some(mut stage) = self.stage.map(|stage| stage()) else { return (chapter, None) };
-        let name = stage.name;
-        if !chapter.offer.iter().any(|own| own.name == name) {
-            // What every chapter has may be offered as well.
-            chapter.offer.extend(chapter.stages().into_iter().filter(|own| own.name == name));
-        }
         self.place.take(&mut stage);
-        chapter.offer.iter_mut().filter(|own| own.name == name).for_each(|own| own.system = Arc::clone(&stage.system));
-        (chapter, Some(name))
+        if !chapter.offer.contains(&stage) && chapter.stages().contains(&stage) {
+            // What every chapter has may be offered as well.
+            chapter.offer.push(stage.clone());
+        }
+        chapter.offer.iter_mut().filter(|own| **own == stage).for_each(|own| own.system = Arc::clone(&stage.system));
+        (chapter, Some(stage))
     }
 }
 
@@ -117,10 +116,10 @@ impl Mine {
         complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))?;
         let (chapter, stage) = stand_in.put_in(chapter);
         if let Some(stage) = stage
-            && !plan(scene, &chapter.stages())?.stages.iter().any(|own| own.name == stage)
+            && !plan(scene, &chapter.stages())?.stages.contains(&stage)
         {
-            let function = exercise.function;
-            return Err(Error::Usage(format!("{function} stands in \"{stage}\", which this render does not run")));
+            let (function, name) = (exercise.function, stage.name);
+            return Err(Error::Usage(format!("{function} stands in \"{name}\", which this render does not run")));
         }
         Ok(Self { chapter, complaint })
     }
