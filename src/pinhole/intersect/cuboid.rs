@@ -236,27 +236,12 @@ pub fn fill_cuboid_surfaces(
 
 /// The stage that intersects camera rays.
 pub fn cuboid_stage() -> Stage {
-    Stage::new("Intersect cuboids", TileSystems::Intersect, intersect_cuboids::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<CuboidTable>()
-        .when(cuboid_evidence)
+    Stage::new("Intersect cuboids", TileSystems::Intersect, intersect_cuboids::<WorldRays, Hits>).when(cuboid_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn cuboid_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: cuboids", TileSystems::Surface, fill_cuboid_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<CuboidRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<CuboidTable>()
-        .table::<ShapeTable>()
-        .when(cuboid_evidence)
+    Stage::new("Compute surfaces: cuboids", TileSystems::Surface, fill_cuboid_surfaces).when(cuboid_evidence)
 }
 
 /// Evidence that the scene contains a cuboid.

@@ -80,27 +80,12 @@ pub fn fill_disk_surfaces(
 
 /// The stage that intersects camera rays.
 pub fn disk_stage() -> Stage {
-    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<DiskTable>()
-        .when(disk_evidence)
+    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>).when(disk_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn disk_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<DiskRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<DiskTable>()
-        .table::<ShapeTable>()
-        .when(disk_evidence)
+    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces).when(disk_evidence)
 }
 
 /// Evidence that the scene contains a disk.

@@ -84,26 +84,12 @@ pub fn fill_rectangle_surfaces(
 /// The stage that intersects camera rays.
 pub fn rectangle_stage() -> Stage {
     Stage::new("Intersect rectangles", TileSystems::Intersect, intersect_rectangles::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<RectangleTable>()
         .when(rectangle_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn rectangle_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: rectangles", TileSystems::Surface, fill_rectangle_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<RectangleRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<RectangleTable>()
-        .table::<ShapeTable>()
-        .when(rectangle_evidence)
+    Stage::new("Compute surfaces: rectangles", TileSystems::Surface, fill_rectangle_surfaces).when(rectangle_evidence)
 }
 
 /// Evidence that the scene contains a rectangle.

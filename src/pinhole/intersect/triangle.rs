@@ -266,10 +266,6 @@ fn keep_closest<const Z: usize>(
 /// The stage that intersects camera rays.
 pub fn triangle_stage() -> Stage {
     Stage::new("Intersect triangles", TileSystems::Intersect, intersect_triangles::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<TriangleTable>()
         .when(triangle_evidence)
 }
 

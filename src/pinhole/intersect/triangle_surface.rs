@@ -118,15 +118,5 @@ pub fn fill_triangle_surfaces(
 
 /// The stage that fills surfaces.
 pub fn triangle_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: triangles", TileSystems::Surface, fill_triangle_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<TriangleRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<TriangleTable>()
-        .table::<ShapeTable>()
-        .when(triangle_evidence)
+    Stage::new("Compute surfaces: triangles", TileSystems::Surface, fill_triangle_surfaces).when(triangle_evidence)
 }
