@@ -1,8 +1,8 @@
-//! What the renderer does, from top to bottom: every stage once, in the order of the data.
+//! The list of all stages, in the order in which data flows through them.
 //!
-//! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
+//! Gives lists of stages for [`Chapter::offer`](crate::Chapter::offer).
 //! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
-//! Stages of one set run in the order of this list, whichever group was offered first.
+//! Stages of the same set run in the order of this list, whichever group was offered first.
 
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
@@ -42,12 +42,12 @@ enum Group {
 }
 use Group::*;
 
-/// All stages in the order of the data.
+/// All stages, in the order of data flow.
 ///
-/// Where several of one set add to the same sums, their order here decides the last bits of a picture.
+/// If several stages of a set add to the same sums, their order here determines the last bits of the picture.
 #[rustfmt::skip]
 const LIST: &[(Group, fn() -> Stage)] = &[
-    // Points of the image become rays in the world, or rays start on the lights.
+    // Generate camera rays from points of the image, or emitted rays from the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
     (CameraRays, rays::ndc_stage),
@@ -62,14 +62,14 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
-    // What each bounce fills is cleared.
+    // Clear the columns that each bounce fills.
     (Intersection, intersect::start_stage),
     (Radiance, shade::start_stage),
     (DirectLight, shade::start_light_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
 
-    // Rays are intersected with each kind of shape, and the closest hit is kept.
+    // Intersect rays with each kind of shape and keep the closest hit.
     (Intersection, intersect::sphere_stage),
     (Transforms, intersect::ellipsoid_stage),
     (Intersection, intersect::plane_stage),
@@ -79,14 +79,14 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Intersection, intersect::triangle_stage),
     (Motion, intersect::moving_stage),
 
-    // Rows are sorted by the kinds of shapes and materials that were hit.
+    // Sort rows by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
     (SpecularReflection, follow::classify_materials_stage),
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
 
-    // Positions, normals and colours of the surfaces that were hit.
+    // Compute positions, normals and colours of the surfaces that were hit.
     (Surfaces, intersect::sphere_surface_stage),
     (Transforms, intersect::ellipsoid_surface_stage),
     (Surfaces, intersect::plane_surface_stage),
@@ -103,16 +103,16 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Textures, shade::stripes_stage),
     (Textures, shade::image_stage),
 
-    // What rays that hit nothing bring back.
+    // Evaluate the environment for rays that hit nothing.
     (Radiance, shade::background_stage),
     (Environment, shade::environment_stage),
     (AreaLights, follow::mis_environment_stage),
     (Environment, shade::gradient_stage),
 
-    // What else is kept of each pixel.
+    // Accumulate the layers of each pixel.
     (Film, film::layers_stage),
 
-    // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
+    // Sample the lights, or connect to the camera: one shadow ray per surface and light.
     (LightTracing, shade::join_point_stage),
     (Lights, shade::directional_light_stage),
     (AreaLights, shade::area_light_stage),
@@ -122,7 +122,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),
 
-    // Shadow rays are traced.
+    // Trace shadow rays.
     (Shadows, shade::start_shadow_stage),
     (Shadows, shade::sphere_shadow_stage),
     (Transforms, shade::ellipsoid_shadow_stage),
@@ -133,7 +133,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Shadows, shade::triangle_shadow_stage),
     (Motion, shade::moving_shadow_stage),
 
-    // Light that arrives is reflected towards where the ray came from.
+    // Evaluate direct light.
     (Mis, follow::mis_matte_stage),
     (Mis, follow::mis_metal_stage),
     (Highlights, shade::blinn_phong_stage),
@@ -145,7 +145,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (AmbientOcclusion, follow::sky_stage),
     (Unlit, shade::unlit_stage),
 
-    // The path goes on from each surface, or ends there.
+    // Continue or terminate each path.
     (Glass, follow::start_media_stage),
     (Glass, follow::absorb_stage),
     (Glass, follow::glass_stage),
@@ -164,7 +164,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),
 
-    // All further bounces; then the light of the whole path lands on the film.
+    // Trace the remaining bounces, then add the light of the whole path to the film.
     (Bounces, follow::follow_stage),
     (Bounces, follow::gather_stage),
     (WideCameras, shade::image_circle_stage),
@@ -176,12 +176,12 @@ fn of(group: Group) -> Vec<Stage> {
     LIST.iter().filter(|(own, _)| *own == group).map(|(_, stage)| stage()).collect()
 }
 
-/// Everything, as scene files are offered it: all but the painting of a view, which depends on what else is on offer.
+/// All stages, as offered to scene files, except the painting of a view, which depends on the columns of the others.
 pub fn all() -> Vec<Stage> {
     LIST.iter().map(|(_, stage)| stage()).collect()
 }
 
-/// Puts stages into the order of the list; those that are not in it follow, as they stood.
+/// Sorts stages into the order of the list; those that are not in it follow in their original order.
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places =
@@ -189,13 +189,13 @@ pub fn sort(offer: &mut [Stage]) {
     offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
 }
 
-/// A ray through the middle of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic
-/// cameras.
+/// A ray through the centre of each pixel, from raster to NDC, screen, camera and world space, for perspective and
+/// orthographic cameras.
 pub fn camera_rays() -> Vec<Stage> {
     of(CameraRays)
 }
 
-/// Several samples a pixel, where the camera asks for them.
+/// Several samples per pixel, if the camera has a sampler.
 pub fn samples() -> Vec<Stage> {
     of(Samples)
 }
@@ -205,12 +205,12 @@ pub fn wide_cameras() -> Vec<Stage> {
     of(WideCameras)
 }
 
-/// A thin lens in place of the pinhole.
+/// A thin lens in place of the pinhole: depth of field.
 pub fn lens() -> Vec<Stage> {
     of(Lens)
 }
 
-/// Times at which rays are traced, and shapes that move meanwhile.
+/// The times of rays, and moving shapes: motion blur.
 pub fn motion() -> Vec<Stage> {
     of(Motion)
 }
@@ -220,12 +220,12 @@ pub fn intersection() -> Vec<Stage> {
     of(Intersection)
 }
 
-/// Positions and normals of what was hit.
+/// Positions and normals of the surfaces that were hit.
 pub fn surfaces() -> Vec<Stage> {
     of(Surfaces)
 }
 
-/// What transforms make of shapes: spheres scaled unevenly, and shading normals.
+/// Transformed shapes: ellipsoids, and shading normals.
 pub fn transforms() -> Vec<Stage> {
     of(Transforms)
 }
@@ -235,83 +235,83 @@ pub fn shadows() -> Vec<Stage> {
     of(Shadows)
 }
 
-/// Each surface in its own colour before a background, where no light is on offer.
+/// Unlit surfaces in front of a background, for chapters without lights.
 pub fn unlit() -> Vec<Stage> {
     let shown = of(Unlit).into_iter().map(|stage| stage.when(shade::shown_evidence));
     of(Radiance).into_iter().chain(shown).collect()
 }
 
-/// Point lights on matte surfaces, with shadows, before a background; where nothing shines, surfaces are shown unlit.
+/// Point lights on matte surfaces, with shadows, in front of a background; a scene without lights is shown unlit.
 pub fn direct_light() -> Vec<Stage> {
     [Radiance, DirectLight, Shadows, Unlit].into_iter().flat_map(of).collect()
 }
 
-/// Directional lights, spot lights, and surfaces that emit light of their own.
+/// Directional lights, spotlights, and the emission of surfaces.
 pub fn lights() -> Vec<Stage> {
     of(Lights)
 }
 
-/// The highlights of Phong's and of Blinn's model.
+/// The highlights of the Phong and Blinn–Phong models.
 pub fn highlights() -> Vec<Stage> {
     of(Highlights)
 }
 
-/// Surfaces with more than one colour, averaged over what a pixel covers of them.
+/// Textures, filtered over the pixel's footprint.
 pub fn textures() -> Vec<Stage> {
     of(Textures)
 }
 
-/// What lies behind everything, where it is more than one colour: a gradient or an image.
+/// Backgrounds of more than one colour: a gradient or an environment map.
 pub fn environment() -> Vec<Stage> {
     of(Environment)
 }
 
-/// What carries a path from bounce to bounce and adds up its light.
+/// The loop over bounces, and the sum of a path's light.
 pub fn bounces() -> Vec<Stage> {
     of(Bounces)
 }
 
-/// Mirrors, where paths go on in one direction only.
+/// Mirrors: specular reflection.
 pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
 
-/// Rough metal: its BSDF sampled, and evaluated for direct light.
+/// Rough metal: sampling its BSDF, and evaluating it for direct light.
 pub fn rough_metal() -> Vec<Stage> {
     of(RoughMetal)
 }
 
-/// Glass: reflection and refraction, and the light that it absorbs.
+/// Glass: specular reflection and refraction, and absorption.
 pub fn glass() -> Vec<Stage> {
     of(Glass)
 }
 
-/// Lights that fill a solid angle: surfaces that emit, and the environment.
+/// Light sampling of emitters with an area, and of the environment.
 pub fn area_lights() -> Vec<Stage> {
     of(AreaLights)
 }
 
-/// How much of the sky each surface sees.
+/// Ambient occlusion.
 pub fn ambient_occlusion() -> Vec<Stage> {
     of(AmbientOcclusion)
 }
 
-/// Paths that go on from matte surfaces, and Russian roulette, which ends them.
+/// Path continuation from matte surfaces, and Russian roulette.
 pub fn path_continuation() -> Vec<Stage> {
     of(PathContinuation)
 }
 
-/// Multiple importance sampling: light that BSDF sampling finds too counts for less.
+/// Multiple importance sampling of lights and BSDFs.
 pub fn mis() -> Vec<Stage> {
     of(Mis)
 }
 
-/// Paths from the lights to the camera.
+/// Light tracing: paths from the lights to the camera.
 pub fn light_tracing() -> Vec<Stage> {
     of(LightTracing)
 }
 
-/// The film: sums of samples, and what else is kept of each pixel.
+/// The film: sums of samples, layers and moments.
 pub fn film() -> Vec<Stage> {
     of(Film)
 }
