@@ -1,8 +1,8 @@
-//! The list of all stages, in the order in which data flows through them.
+//! What the renderer does, from top to bottom: every stage once, in the order of the data flow.
 //!
-//! Gives lists of stages for [`Chapter::offer`](crate::Chapter::offer).
+//! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
 //! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
-//! Stages of the same set run in the order of this list, whichever group was offered first.
+//! Stages of one set run in the order of this list, whichever group was offered first.
 
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
@@ -42,12 +42,12 @@ enum Group {
 }
 use Group::*;
 
-/// All stages, in the order of data flow.
+/// All stages in the order of the data flow.
 ///
-/// If several stages of a set add to the same sums, their order here determines the last bits of the picture.
+/// Where several of one set add to the same sums, their order here decides the last bits of the picture.
 #[rustfmt::skip]
 const LIST: &[(Group, fn() -> Stage)] = &[
-    // Generate camera rays from points of the image, or emitted rays from the lights.
+    // Image points become rays in world space, or rays start on the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
     (CameraRays, rays::ndc_stage),
@@ -62,14 +62,14 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
-    // Clear the columns that each bounce fills.
+    // The columns that each bounce fills are cleared.
     (Intersection, intersect::start_stage),
     (Radiance, shade::start_stage),
     (DirectLight, shade::start_light_stage),
     (Bounces, follow::start_paths_stage),
     (Bounces, follow::start_scattered_stage),
 
-    // Intersect rays with each kind of shape and keep the closest hit.
+    // Rays are intersected with each kind of shape, and the closest hit is kept.
     (Intersection, intersect::sphere_stage),
     (Transforms, intersect::ellipsoid_stage),
     (Intersection, intersect::plane_stage),
@@ -79,14 +79,14 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Intersection, intersect::triangle_stage),
     (Motion, intersect::moving_stage),
 
-    // Sort rows by the kinds of shapes and materials that were hit.
+    // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
     (SpecularReflection, follow::classify_materials_stage),
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
 
-    // Compute positions, normals and colours of the surfaces that were hit.
+    // Positions, normals and colours of the surfaces that were hit.
     (Surfaces, intersect::sphere_surface_stage),
     (Transforms, intersect::ellipsoid_surface_stage),
     (Surfaces, intersect::plane_surface_stage),
@@ -98,21 +98,21 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Transforms, intersect::shading_normal_stage),
     (Textures, shade::footprint_stage),
     (Textures, shade::colour_stage),
-    (Textures, shade::lay_stage),
+    (Textures, shade::texture_point_stage),
     (Textures, shade::checker_stage),
     (Textures, shade::stripes_stage),
     (Textures, shade::image_stage),
 
-    // Evaluate the environment for rays that hit nothing.
+    // The radiance of rays that hit nothing.
     (Radiance, shade::background_stage),
     (Environment, shade::environment_stage),
     (AreaLights, follow::mis_environment_stage),
     (Environment, shade::gradient_stage),
 
-    // Accumulate the layers of each pixel.
+    // Layers of the film are recorded.
     (Film, film::layers_stage),
 
-    // Sample the lights, or connect to the camera: one shadow ray per surface and light.
+    // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
     (Lights, shade::directional_light_stage),
     (AreaLights, shade::area_light_stage),
@@ -122,7 +122,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),
 
-    // Trace shadow rays.
+    // Shadow rays are traced.
     (Shadows, shade::start_shadow_stage),
     (Shadows, shade::sphere_shadow_stage),
     (Transforms, shade::ellipsoid_shadow_stage),
@@ -133,7 +133,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Shadows, shade::triangle_shadow_stage),
     (Motion, shade::moving_shadow_stage),
 
-    // Evaluate direct light.
+    // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
     (Mis, follow::mis_matte_stage),
     (Mis, follow::mis_metal_stage),
     (Highlights, shade::blinn_phong_stage),
@@ -145,7 +145,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (AmbientOcclusion, follow::sky_stage),
     (Unlit, shade::unlit_stage),
 
-    // Continue or terminate each path.
+    // BSDFs are sampled to continue the path, or it is terminated.
     (Glass, follow::start_media_stage),
     (Glass, follow::absorb_stage),
     (Glass, follow::glass_stage),
@@ -160,13 +160,13 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Bounces, follow::add_bounce_stage),
     (LightTracing, follow::splat_stage),
     (Glass, follow::carry_media_stage),
-    (Bounces, follow::step_stage),
+    (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),
 
-    // Trace the remaining bounces, then add the light of the whole path to the film.
-    (Bounces, follow::follow_stage),
-    (Bounces, follow::gather_stage),
+    // All further bounces; then the light of the whole path is added to the film.
+    (Bounces, follow::remaining_bounces_stage),
+    (Bounces, follow::sum_bounces_stage),
     (WideCameras, shade::image_circle_stage),
     (Film, film::moments_stage),
     (Film, film::film_stage),
@@ -176,12 +176,12 @@ fn of(group: Group) -> Vec<Stage> {
     LIST.iter().filter(|(own, _)| *own == group).map(|(_, stage)| stage()).collect()
 }
 
-/// All stages, as offered to scene files, except the painting of a view, which depends on the columns of the others.
+/// All stages, as offered for scene files, except for the painting of a view, which depends on what else is on offer.
 pub fn all() -> Vec<Stage> {
     LIST.iter().map(|(_, stage)| stage()).collect()
 }
 
-/// Sorts stages into the order of the list; those that are not in it follow in their original order.
+/// Sorts stages into the order of the list; those that are not in it follow in their given order.
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places =
@@ -189,13 +189,13 @@ pub fn sort(offer: &mut [Stage]) {
     offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
 }
 
-/// A ray through the centre of each pixel, from raster to NDC, screen, camera and world space, for perspective and
-/// orthographic cameras.
+/// A ray through the centre of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic
+/// cameras.
 pub fn camera_rays() -> Vec<Stage> {
     of(CameraRays)
 }
 
-/// Several samples per pixel, if the camera has a sampler.
+/// Several samples per pixel, where the camera asks for them.
 pub fn samples() -> Vec<Stage> {
     of(Samples)
 }
@@ -205,12 +205,12 @@ pub fn wide_cameras() -> Vec<Stage> {
     of(WideCameras)
 }
 
-/// A thin lens in place of the pinhole: depth of field.
+/// A thin lens in place of the pinhole.
 pub fn lens() -> Vec<Stage> {
     of(Lens)
 }
 
-/// The times of rays, and moving shapes: motion blur.
+/// Ray times, and shapes that move while the shutter is open.
 pub fn motion() -> Vec<Stage> {
     of(Motion)
 }
@@ -220,12 +220,12 @@ pub fn intersection() -> Vec<Stage> {
     of(Intersection)
 }
 
-/// Positions and normals of the surfaces that were hit.
+/// Positions and normals of hits.
 pub fn surfaces() -> Vec<Stage> {
     of(Surfaces)
 }
 
-/// Transformed shapes: ellipsoids, and shading normals.
+/// The effects of transforms on shapes: non-uniformly scaled spheres, and shading normals.
 pub fn transforms() -> Vec<Stage> {
     of(Transforms)
 }
@@ -235,58 +235,58 @@ pub fn shadows() -> Vec<Stage> {
     of(Shadows)
 }
 
-/// Unlit surfaces in front of a background, for chapters without lights.
+/// Surface colours in front of a background, where no lights are on offer.
 pub fn unlit() -> Vec<Stage> {
     let shown = of(Unlit).into_iter().map(|stage| stage.when(shade::shown_evidence));
     of(Radiance).into_iter().chain(shown).collect()
 }
 
-/// Point lights on matte surfaces, with shadows, in front of a background; a scene without lights is shown unlit.
+/// Point lights on matte surfaces, with shadows, and a background; in a scene without light, surfaces are shown unlit.
 pub fn direct_light() -> Vec<Stage> {
     [Radiance, DirectLight, Shadows, Unlit].into_iter().flat_map(of).collect()
 }
 
-/// Directional lights, spotlights, and the emission of surfaces.
+/// Directional lights, spot lights, and surfaces that emit light.
 pub fn lights() -> Vec<Stage> {
     of(Lights)
 }
 
-/// The highlights of the Phong and Blinn–Phong models.
+/// Phong and Blinn–Phong highlights.
 pub fn highlights() -> Vec<Stage> {
     of(Highlights)
 }
 
-/// Textures, filtered over the pixel's footprint.
+/// Textures, filtered over each pixel's footprint.
 pub fn textures() -> Vec<Stage> {
     of(Textures)
 }
 
-/// Backgrounds of more than one colour: a gradient or an environment map.
+/// Backgrounds of more than one colour: a gradient or an environment image.
 pub fn environment() -> Vec<Stage> {
     of(Environment)
 }
 
-/// The loop over bounces, and the sum of a path's light.
+/// The stages that carry a path from bounce to bounce and sum its light.
 pub fn bounces() -> Vec<Stage> {
     of(Bounces)
 }
 
-/// Mirrors: specular reflection.
+/// Mirrors, whose BSDF is a delta distribution.
 pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
 
-/// Rough metal: sampling its BSDF, and evaluating it for direct light.
+/// Rough metal: its BSDF sampled, and evaluated for direct light.
 pub fn rough_metal() -> Vec<Stage> {
     of(RoughMetal)
 }
 
-/// Glass: specular reflection and refraction, and absorption.
+/// Glass: reflection and refraction, and the light that it absorbs.
 pub fn glass() -> Vec<Stage> {
     of(Glass)
 }
 
-/// Light sampling of emitters with an area, and of the environment.
+/// Area lights: surfaces that emit, and the environment.
 pub fn area_lights() -> Vec<Stage> {
     of(AreaLights)
 }
@@ -301,7 +301,7 @@ pub fn path_continuation() -> Vec<Stage> {
     of(PathContinuation)
 }
 
-/// Multiple importance sampling of lights and BSDFs.
+/// Multiple importance sampling: light that BSDF sampling finds too is weighted.
 pub fn mis() -> Vec<Stage> {
     of(Mis)
 }
@@ -311,7 +311,7 @@ pub fn light_tracing() -> Vec<Stage> {
     of(LightTracing)
 }
 
-/// The film: sums of samples, layers and moments.
+/// The film: sums of samples, and the layers of each pixel.
 pub fn film() -> Vec<Stage> {
     of(Film)
 }

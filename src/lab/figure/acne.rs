@@ -105,7 +105,7 @@ impl Shadows {
         for (ray, &path) in rays.path.iter().enumerate() {
             let surface = self.surfaces.get(path as usize);
             let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]).as_dvec3();
-            let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.reach[ray]));
+            let blocked = self.blocked(start(surface.position, surface.normal), direction, f64::from(rays.t_max[ray]));
             wrong += usize::from(blocked != (self.hits.shape[ray] != NO_SHAPE));
             if !blocked {
                 let colour = self.materials.colour.get(surface.material as usize).copied().unwrap_or_default();

@@ -1,17 +1,17 @@
-//! Matter that no stage on offer sends light on from.
+//! Materials whose BSDF no stage on offer samples.
 
 use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
 use crate::plan::{Stage, Table, TableKind, TileSystems};
 use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
-/// Checks that where light is followed, stages on offer do so at every mirror, glass and metal of the scene: a chapter
-/// offers the stages taught so far, and such matter would be black in its picture without a word.
+/// Checks that where paths are traced, a stage on offer samples the BSDF of every mirror, glass and metal in the scene:
+/// a chapter offers the stages taught so far, and other materials would be black without a warning.
 ///
-/// Errors: the first shape of such matter that no stage on offer sends light on from.
+/// Errors: the first shape of a material that no stage on offer samples.
 pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
-    let unmet = |word: &'static str, table: TableKind, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
+    let unsampled = |word: &'static str, table: TableKind, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
         let scatters = |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.contains(&table);
         let goes_on = |stage: &Stage| stage.set == TileSystems::RemainingBounces;
         if offer.iter().any(scatters) && offer.iter().any(goes_on) {
@@ -25,10 +25,10 @@ pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<()
             return Ok(());
         };
         let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
-        let accepted = "no stage on offer sends light on from it; offer stages::all(), which do";
+        let accepted = "no stage on offer samples its BSDF; offer stages::all(), which do";
         Err(SceneError::new(name, word, "given", accepted))
     };
-    unmet("mirror", TableKind::of::<MirrorTable>(), &|entity| entity.contains::<Mirror>())?;
-    unmet("glass", TableKind::of::<GlassTable>(), &|entity| entity.contains::<Glass>())?;
-    unmet("metal", TableKind::of::<MetalTable>(), &|entity| entity.contains::<Metal>())
+    unsampled("mirror", TableKind::of::<MirrorTable>(), &|entity| entity.contains::<Mirror>())?;
+    unsampled("glass", TableKind::of::<GlassTable>(), &|entity| entity.contains::<Glass>())?;
+    unsampled("metal", TableKind::of::<MetalTable>(), &|entity| entity.contains::<Metal>())
 }
