@@ -178,9 +178,9 @@ mod tests {
 
     #[test]
     fn a_broken_formula_is_named() {
-        let told = expand("so $\\frac{a}$ is").expect_err("a slip");
+        let told = expand("so $\\frac{a}$ is").expect_err("a mistake");
         assert!(told.starts_with("the formula `\\frac{a}` cannot be read: "), "{told}");
-        let told = expand("so $\\nosuchthing$ is").expect_err("a slip");
+        let told = expand("so $\\nosuchthing$ is").expect_err("a mistake");
         assert!(told.starts_with("the formula `\\nosuchthing` cannot be read: "), "{told}");
         assert!(!told.contains('\n'), "{told}");
     }

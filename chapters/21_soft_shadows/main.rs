@@ -1,4 +1,4 @@
-//! Lamps with an area: a shadow's edge is as soft as the lamp is wide. One point of one lamp is asked at a time, at random.
+//! Area lights: a shadow's edge is as soft as the light is wide. Each sample chooses one point of one light at random.
 //! A wide lamp on one side, a bulb on the other: the post and the ball have a shadow of each.
 //! New here: `Emissive` lights other surfaces; the stage "Sample area lights"; the camera's `Integrator`.
 
@@ -13,7 +13,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("21_soft_shadows", "lights with an area", scene)
+    Chapter::new("21_soft_shadows", "area lights", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
         .offer(shade::stages())

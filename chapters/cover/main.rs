@@ -1,5 +1,5 @@
 //! The cover: what following light makes possible, in one picture.
-//! A globe of glass gathers a lamp's light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
+//! A glass globe focuses a lamp's light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
 //! Each seed stands a golden angle further round than the last, as in a sunflower.
 
 use bevy_ecs::prelude::*;
@@ -13,7 +13,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("cover", "the cover: glass, mirrors and metal, in and out of focus, under a lamp with a size", scene)
+    Chapter::new("cover", "the cover: glass, mirrors and metal, in and out of focus, under an area light", scene)
         .offer(rays::stages())
         .offer(intersect::stages())
         .offer(shade::stages())
@@ -68,12 +68,12 @@ const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
 const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);
 
 /// From ember through gold to teal, the further out.
-fn seed_colour(way: f64) -> Rgb {
-    if way < 0.5 { blend(EMBER, GOLD, 2.0 * way) } else { blend(GOLD, TEAL, 2.0 * way - 1.0) }
+fn seed_colour(fraction: f64) -> Rgb {
+    if fraction < 0.5 { blend(EMBER, GOLD, 2.0 * fraction) } else { blend(GOLD, TEAL, 2.0 * fraction - 1.0) }
 }
 
-/// A colour on the way from one to another.
-fn blend(from: Rgb, to: Rgb, way: f64) -> Rgb {
-    let [r, g, b] = (from.to_vec() * (1.0 - way) + to.to_vec() * way).to_array();
+/// A colour between one and another.
+fn blend(from: Rgb, to: Rgb, fraction: f64) -> Rgb {
+    let [r, g, b] = (from.to_vec() * (1.0 - fraction) + to.to_vec() * fraction).to_array();
     Rgb::new(r, g, b)
 }
