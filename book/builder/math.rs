@@ -186,6 +186,16 @@ mod tests {
     }
 
     #[test]
+    fn every_formula_of_the_book_can_be_read() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let pages = crate::check::read_pages(&folder).expect("the pages can be read");
+        for page in &pages {
+            expand(&page.text).unwrap_or_else(|error| panic!("{}: {error}", page.label));
+        }
+        assert!(pages.iter().map(|page| edits(&page.text).0.len()).sum::<usize>() > 300);
+    }
+
+    #[test]
     fn half_a_formula_is_named() {
         let (_, mistakes) = edits("one\n\nx $ y\n\n`$`\n");
         assert_eq!(mistakes.len(), 1);
