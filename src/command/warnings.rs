@@ -53,7 +53,7 @@ fn empty_layers<'a>(film: &'a Film, plan: &'a Plan) -> impl Iterator<Item = Stri
 
 /// Pixels that a filter that is negative in places has left without weight or below 0.
 fn negative_weights(film: &Film) -> Vec<String> {
-    let (without, below) = film.weighed_out();
+    let (without, below) = film.filter_artifacts();
     let mut told = Vec::new();
     if without > 0 {
         told.push(format!(
@@ -77,7 +77,7 @@ fn narrow_pixels(subject: &Subject<'_>, options: &RenderOptions) -> Result<Optio
     let narrowest = PerspectiveProjection::extract(&scene)?.narrowest_pixel(ImageFrame::extract(&scene)?);
     Ok((narrowest < SMALLEST_PIXEL).then(|| {
         format!(
-            "so double_double an angle leaves pixels in the corners {narrowest:.1e} rad double_double, and world rays in f32 can be off by \
+            "so wide an angle leaves pixels in the corners {narrowest:.1e} rad wide, and world rays in f32 can be off by \
              about {:.2} of such a pixel",
             f64::from(f32::EPSILON) / narrowest
         )

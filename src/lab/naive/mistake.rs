@@ -45,7 +45,7 @@ pub fn scatter_matte_by(way: MatteSample) -> Stage {
                 scattered.append(&list.row, |number, row| {
                     let surface = surfaces.get(row);
                     let local = (way.direction)(points[number]);
-                    let (share, colour) = (paths.share(row), materials.colour[surface.material as usize]);
+                    let (share, colour) = (paths.throughput(row), materials.colour[surface.material as usize]);
                     ScatteredRay {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,

@@ -60,7 +60,7 @@ impl Mutation {
         MUTATIONS.iter().find(|mutation| mutation.name == name).ok_or_else(|| {
             let nearest = MUTATIONS.iter().max_by_key(likeness).map_or("half-pixel", |mutation| mutation.name);
             Error::Usage(format!(
-                "there is no bug \"{name}\" to be mutation; the nearest is {nearest}, \
+                "there is no bug \"{name}\" by which to mutate; the nearest is {nearest}, \
                  and `review --mutate all` shows all"
             ))
         })
