@@ -1,5 +1,5 @@
-//! The camera stands anywhere and is turned in any direction; its rays were made as if it stood at the origin and looked down −z.
-//! Eggs and a lens are spheres whose placement scales them unevenly; a point, a direction and a normal transform differently.
+//! The camera stands anywhere and looks in any direction; its rays were made as if it stood at the origin, facing −z.
+//! Eggs and a lens are spheres whose placement scales them unevenly; a point, a direction and a normal move differently.
 //! New here: the last step of ray generation, and where things stand.
 
 use bevy_ecs::prelude::*;

@@ -1,5 +1,5 @@
-//! How much of the sky does each point see? A courtyard under a uniform sky: creases, corners and arcades are dark.
-//! All is of one colour; the shapes differ only by what hides the sky.
+//! How much of the sky does each point see? A courtyard under an even sky: creases, corners and arcades are dark.
+//! All is of one colour; whatever tells the shapes apart is what hides the sky.
 //! New here: the `Integrator` on the camera, and rays to the sky instead of to lights.
 
 use bevy_ecs::prelude::*;

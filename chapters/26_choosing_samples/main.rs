@@ -1,6 +1,6 @@
-//! Which samples are worth most? Four plates of metal, smooth to rough, show four lights, small to large, of equal power.
+//! Which rays tell most? Four plates of metal, smooth to rough, show four lights, small to large, of equal power.
 //! BSDF sampling suits the smooth plate, light sampling the rough one; neither suits both.
-//! New here: `LightStrategy::Mis`, multiple importance sampling, which uses both and counts every path once.
+//! New here: `LightStrategy::Mis`, which uses both and weights them.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -41,7 +41,7 @@ fn scene(world: &mut World) {
         ("ball", 0.5, 0.32, [0.4, 0.9, 0.6]),
         ("globe", 1.8, 0.8, [0.4, 0.6, 1.0]),
     ] {
-        // A light of a quarter of the area has four times the radiance.
+        // A light of a quarter of the area shines four times as brightly.
         let bright = 0.8 / (radius * radius);
         let emissive = Emissive { radiance: Rgb::new(bright * r, bright * g, bright * b), ..Emissive::default() };
         world.spawn((Name::new(name), Sphere { radius }, Placement::at(x, 2.6, -1.2), emissive));

@@ -1,6 +1,6 @@
-//! Where does the bright spot behind a glass ball come from? From a light so small that hardly a ray hits it.
-//! The ball focuses its light on the floor, and half a ring of mirror focuses it into a curve.
-//! New here: light tracing, paths that start on the light and are connected to the camera.
+//! Where does the bright spot behind a ball of glass come from? From a light so small that hardly a ray hits it.
+//! The ball focuses its light on the floor, and half a ring of mirror folds it into a curve.
+//! New here: rays that start on the light, and are connected to the camera.
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -37,7 +37,7 @@ fn scene(world: &mut World) {
     let ball = Placement::at(-0.85, 0.6, 0.1);
     world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, ball, Glass::default()));
 
-    // Half a ring, open towards the lamp: planar parts, reflecting by their corners' normals.
+    // Half a ring, open towards the light: planar parts, smooth by their corners' normals.
     let gold = world.spawn((Name::new("gold"), Mirror { colour: Rgb::new(0.95, 0.75, 0.35) })).id();
     let edge = |part: u32, height: f64| {
         let angle = PI * (f64::from(part) / 24.0 - 0.82);

@@ -1,5 +1,5 @@
 //! The cover: what following light makes possible, in one picture.
-//! A glass globe focuses a lamp's light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
+//! A globe of glass focuses a light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
 //! Each seed stands a golden angle further round than the last, as in a sunflower.
 
 use bevy_ecs::prelude::*;
@@ -34,7 +34,7 @@ fn scene(world: &mut World) {
         Lens { aperture: Aperture::Radius { radius: 0.16 }, focus_distance: 9.8, ..Lens::default() },
         Resolution { width: 960, height: 540 },
         Sampling { samples: 80, ..Sampling::default() },
-        // Paths that survive roulette count for more, and one that then hits the lamp is a speck: so roulette begins late.
+        // Paths that survive roulette count for more, and one that then hits the light is a speck: so roulette begins late.
         Integrator::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 8 },
         LightTracing { paths: 0.5 },
     ));
@@ -52,7 +52,7 @@ fn scene(world: &mut World) {
         };
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.52, 0.5, 0.47) }));
-    // Large and dim: what mirrors and glass show of the lamp is found only by paths that happen to hit it, and where one
+    // Large and dim: what mirrors and glass show of the light is found only by paths that happen to hit it, and where one
     // in 80 does, it must not whiten the pixel.
     let shine = Emissive { radiance: Rgb::new(7.0, 6.0, 4.8), ..Emissive::default() };
     world.spawn((Name::new("lamp"), Sphere { radius: 4.7 }, Placement::at(-6.0, 10.0, -9.0), shine));

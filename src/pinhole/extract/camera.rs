@@ -166,7 +166,7 @@ impl Table for PerspectiveProjection {
 }
 
 // ANCHOR: tan_half
-/// tan(φ / 2) of a full angle φ, to the last bits also where φ is near 180°: there the tangent of what is missing to
+/// tan(α / 2) of a full angle α, to the last bits also where α is near 180°: there the tangent of what is missing to
 /// 180° is taken, which the subtraction gives exactly, and turned over.
 pub fn tan_half(angle: Degrees) -> f64 {
     if angle.0 > 90.0 {
