@@ -65,12 +65,12 @@ const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
 const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);
 
 /// From ember through gold to teal, the further out.
-fn seed_colour(fraction: f64) -> Rgb {
-    if fraction < 0.5 { blend(EMBER, GOLD, 2.0 * fraction) } else { blend(GOLD, TEAL, 2.0 * fraction - 1.0) }
+fn seed_colour(t: f64) -> Rgb {
+    if t < 0.5 { blend(EMBER, GOLD, 2.0 * t) } else { blend(GOLD, TEAL, 2.0 * t - 1.0) }
 }
 
-/// A colour between one and another.
-fn blend(from: Rgb, to: Rgb, fraction: f64) -> Rgb {
-    let [r, g, b] = (from.to_vec() * (1.0 - fraction) + to.to_vec() * fraction).to_array();
+/// A blend of two colours, from 0, all of the first, to 1.
+fn blend(from: Rgb, to: Rgb, t: f64) -> Rgb {
+    let [r, g, b] = (from.to_vec() * (1.0 - t) + to.to_vec() * t).to_array();
     Rgb::new(r, g, b)
 }
