@@ -1,5 +1,5 @@
-//! A ray hits a sphere and a plane: which t comes first?
-//! The picture paints the hits, a colour a shape, darker with distance.
+//! Ray–sphere and ray–plane intersection: which t comes first?
+//! The picture paints the hits, one colour for each shape, darker with distance.
 //! New here: intersection, exact enough for a sphere that is very far or very large.
 
 use bevy_ecs::prelude::*;

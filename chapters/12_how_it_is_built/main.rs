@@ -1,5 +1,5 @@
-//! How pinhole is built, shown by building onto it: a column and a stage of this chapter's own.
-//! The picture is how directly each surface faces the eye, which no stage of pinhole computes.
+//! How pinhole is built, shown by extending it: a column and a stage of this chapter's own.
+//! The picture is the cosine between each normal and the direction to the eye, which no stage of pinhole computes.
 //! New here: nothing in the renderer; `Facing` and its stage live in this file.
 
 use bevy_ecs::prelude::*;
@@ -28,7 +28,7 @@ pub fn chapter() -> Chapter {
 
 // ANCHOR: facing
 column! {
-    /// The cosine at which each ray hits its surface.
+    /// The facing ratio of the surface that each ray hits.
     pub struct Facing("facing", "none, a ratio", "1", Ray) {
         /// The cosine of the angle between the normal and the direction to the eye; 0 where nothing is hit.
         cosine: f32,

@@ -1,6 +1,6 @@
 //! A scene of many kinds: a ball, a floor, a table top, a board, boxes, a pyramid of triangles; which one does a ray hit?
-//! Each kind narrows the hit in its turn; where two are equally near, the lower shape number wins.
-//! New here: the disk, the rectangle and the cuboid, and how each is described.
+//! Each kind in turn keeps the closest hit; where two are equally near, the lower shape number wins.
+//! New here: the disk, the rectangle and the cuboid, and how the surface of each is computed.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -1,4 +1,4 @@
-//! Lights with an area: a shadow's edge is as soft as the light is wide. One point of one light is sampled at a time.
+//! Area lights: a shadow's edge is as soft as the light is wide. One point of one light is sampled at a time.
 //! A wide light on one side, a bulb on the other: the post and the ball have a shadow of each.
 //! New here: `Emissive` lights other surfaces; the stage "Sample area lights"; the camera's `Integrator`.
 
