@@ -34,7 +34,7 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         continue;
                     }
                     let (origin, direction) = (eye.origin_of(row), eye.direction_of(row));
-                    let weights = TriangleHit::of(origin, direction, &triangles.facet[triangle]).weights;
+                    let weights = TriangleHit::of(origin, direction, &triangles.triangle[triangle]).weights;
                     let geometric = surfaces.get(row).normal.as_dvec3();
                     let asked =
                         (geometric.into(), corners.map(DVec3::into), weights, (-direction).into(), to_light.into());

@@ -38,12 +38,12 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let asked = (from.into(), (from + to).into(), shape.normal.into(), shape.area());
                     let Some(pdf) = ask.at(place, row, asked) else { continue };
                     let cosine = surfaces.get(row).normal.as_dvec3().dot(to.normalize()).max(0.0);
-                    let pdf = lights.random[light] * pdf;
+                    let pdf = lights.probability[light] * pdf;
                     let light = irradiance_from_area(lights.radiance[light], cosine, pdf).map(|part| part as f32);
                     let finite = light.iter().all(|part| part.is_finite());
                     (rays.r[ray], rays.g[ray], rays.b[ray]) = if finite { light.into() } else { (0.0, 0.0, 0.0) };
                     (rays.dx[ray], rays.dy[ray], rays.dz[ray]) = to.normalize().as_vec3().into();
-                    rays.reach[ray] = shadow_t_max(to.length());
+                    rays.t_max[ray] = shadow_t_max(to.length());
                 }
             }
         },
