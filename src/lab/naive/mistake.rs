@@ -10,7 +10,7 @@ use pinhole::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_pdf, frame_of};
+use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyLists, SkyView, aim_by, cosine_pdf, frame_of};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
@@ -118,7 +118,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
     let aim = |sampling: Res<Shared<SamplingTable>>,
                integrator: Res<Shared<IntegratorTable>>,
                lists: Local<SkyLists>,
-               tiles: Query<SkyColumns>| {
+               tiles: Query<SkyView>| {
         aim_by(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
     Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)

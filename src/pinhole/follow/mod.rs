@@ -34,6 +34,7 @@ mod shading_adjoint;
 mod splat;
 mod stop;
 mod unfollowed;
+mod view;
 
 pub use beer::{absorbed, transmittance};
 pub use caustic_paths::{CausticPaths, caustic_paths_stage, note_caustic_paths};
@@ -65,7 +66,7 @@ pub use metal::{RoughMetals, add_metal, metal_light_stage, metal_stage, scatter_
 pub use mirror::{mirror_stage, scatter_mirror};
 pub use mis::{mis_matte, mis_matte_stage, mis_metal, mis_metal_stage};
 pub use multiple_scattering::{MultipleScatteringTable, found_again, lost_at};
-pub use occlusion::{SkyColumns, SkyLists, aim_by, sample_sky, show_the_sky, sky_rays_stage, sky_stage};
+pub use occlusion::{SkyLists, SkyView, aim_by, sample_sky, show_the_sky, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{play_roulette, roulette_stage, survival_probability};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};

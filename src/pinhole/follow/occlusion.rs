@@ -6,6 +6,7 @@ use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -18,7 +19,7 @@ pub fn sample_sky(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     lists: Local<SkyLists>,
-    tiles: Query<SkyColumns>,
+    tiles: Query<SkyView>,
 ) {
     aim_by(cosine_direction, (&sampling, &integrator), lists, tiles);
 }
@@ -30,21 +31,27 @@ pub struct SkyLists {
     points: Vec<[f64; 2]>,
 }
 
-/// What is read and written to aim at the sky.
-pub type SkyColumns = (
-    (&'static Tile, Option<&'static SampleNumber>, Option<&'static PixelSamples>),
-    (&'static Hits, &'static Surfaces, &'static mut LightRays),
-);
+/// What sampling the sky reads, and the rays that it appends.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct SkyView {
+    tile: &'static Tile,
+    number: Option<&'static SampleNumber>,
+    samples: Option<&'static PixelSamples>,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    rays: &'static mut LightRays,
+}
 
 /// Sends a ray of irradiance π from every surface, about its normal in the direction that two numbers make.
 pub fn aim_by(
     direction_of: impl Fn([f64; 2]) -> DVec3,
     (sampling, integrator): (&SamplingTable, &IntegratorTable),
     mut lists: Local<SkyLists>,
-    mut tiles: Query<SkyColumns>,
+    mut tiles: Query<SkyView>,
 ) {
     let SkyLists { row: list, points } = &mut *lists;
-    for ((tile, number, samples), (hits, surfaces, mut rays)) in &mut tiles {
+    for SkyViewItem { tile, number, samples, hits, surfaces, mut rays } in &mut tiles {
         list.clear();
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
         let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };

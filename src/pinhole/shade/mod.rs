@@ -31,6 +31,7 @@ mod surface_colour;
 mod texture_point;
 mod unlit;
 mod unmet;
+mod view;
 
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 pub use background::{add_background, background_stage};
@@ -72,3 +73,4 @@ pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
 pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
 pub use unmet::check_shapes_are_intersected;
+pub use view::{LightSamplingView, LightSamplingViewItem, ReflectionView, ReflectionViewItem};
