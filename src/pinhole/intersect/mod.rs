@@ -1,6 +1,6 @@
 //! Rays → the closest hit and its surface.
 //!
-//! Reads: a ray column ([`WorldRays`], later shadow rays) and the tables of shapes.
+//! Reads: a ray column ([`WorldRays`](crate::rays::WorldRays), or shadow rays) and the tables of shapes.
 //! Writes: [`Hits`], the lists of rows of each kind, and [`Surfaces`].
 //! Space: render space. The kinds of shapes run one after another over the whole tile, and each keeps the closest hits;
 //! at equal distances the lowest shape number wins, so the order of the kinds does not affect the result.

@@ -1,5 +1,5 @@
 use super::double_double_planar::double_double_rectangle_t;
-use super::planar::{crossing, describe_planar};
+use super::planar::{crossing, fill_planar_surfaces};
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
 use super::rows::RectangleRows;
 use super::view::{SurfaceView, SurfaceViewItem};
@@ -70,7 +70,7 @@ pub fn fill_rectangle_surfaces(
     for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let planar_of = |shape: u32| &rectangles.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 

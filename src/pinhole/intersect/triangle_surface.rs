@@ -48,16 +48,16 @@ impl TriangleHit {
 
     /// Interpolates vectors given at the vertices.
     #[inline(always)]
-    pub fn interpolate(&self, corners: &[DVec3; 3]) -> DVec3 {
+    pub fn interpolate(&self, vectors: &[DVec3; 3]) -> DVec3 {
         let [a, b, c] = self.weights;
-        a * corners[0] + b * corners[1] + c * corners[2]
+        a * vectors[0] + b * vectors[1] + c * vectors[2]
     }
 
     /// Interpolates texture coordinates given at the vertices.
     #[inline(always)]
-    pub fn interpolate_uvs(&self, corners: &[DVec2; 3]) -> DVec2 {
+    pub fn interpolate_uvs(&self, uvs: &[DVec2; 3]) -> DVec2 {
         let [a, b, c] = self.weights;
-        a * corners[0] + b * corners[1] + c * corners[2]
+        a * uvs[0] + b * uvs[1] + c * uvs[2]
     }
 }
 
