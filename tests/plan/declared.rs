@@ -51,6 +51,33 @@ fn little_is_declared_by_hand() {
     assert!(by_stages + by_columns <= MOST, "{by_stages} + {by_columns} are more than {MOST}");
 }
 
+/// What a query asks for, where it asks for a tuple of columns.
+fn tuples(text: &str) -> impl Iterator<Item = &str> {
+    text.match_indices("Query<(").map(|(at, _)| {
+        let mut depth = 0;
+        let end = text[at..].find(|letter| {
+            depth += i32::from(matches!(letter, '<' | '(')) - i32::from(matches!(letter, '>' | ')'));
+            depth == 0 && letter == '>'
+        });
+        &text[at..at + end.expect("closed")]
+    })
+}
+
+#[test]
+fn queries_of_many_columns_have_names_for_them() {
+    let mut files = Vec::new();
+    sources(Path::new("src/pinhole"), &mut files);
+    let mut counted = 0;
+    for file in &files {
+        let text = std::fs::read_to_string(file).expect("a source");
+        for tuple in tuples(&text) {
+            counted += 1;
+            assert!(tuple.matches('&').count() <= 5, "{}: make a view of {tuple}", file.display());
+        }
+    }
+    assert!(counted > 20, "the test must see them: {counted}");
+}
+
 /// A stage's columns and tables: those it needs, those it reads where they are, those for a reason, those it writes, its
 /// tables and those for a reason.
 fn touched(stage: &Stage) -> [Vec<&'static str>; 6] {

@@ -133,6 +133,10 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
                 stages::lens(),
                 stages::motion(),
                 stages::intersection(),
+                stages::transforms(),
+                stages::surfaces(),
+                stages::direct_light(),
+                stages::lights(),
             ]
             .concat();
             inspect(scene, &whole.stages(), side)

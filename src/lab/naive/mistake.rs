@@ -10,9 +10,7 @@ use pinhole::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{
-    GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, cosine_pdf, frame_of, sample_sky_with,
-};
+use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyLists, SkyView, cosine_pdf, frame_of, sample_sky_with};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
@@ -120,7 +118,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
     let aim = |sampling: Res<Shared<SamplingTable>>,
                integrator: Res<Shared<IntegratorTable>>,
                lists: Local<SkyLists>,
-               tiles: Query<SkyColumns>| {
+               tiles: Query<SkyView>| {
         sample_sky_with(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
     Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)

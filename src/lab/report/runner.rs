@@ -39,7 +39,7 @@ pub struct Runs {
     /// The runs of each variant, by level.
     pub levels: Vec<Vec<Vec<Run>>>,
     /// The stages of each variant and their laps, from a run of their own.
-    pub stages: Vec<Vec<(&'static str, Lap)>>,
+    pub stages: Vec<Vec<(Stage, Lap)>>,
     /// CPU time with timers over that without, and its interval.
     pub timers: Option<Interval>,
 }
@@ -185,10 +185,10 @@ fn kept(shelf: &Shelf, name: &str, make: impl FnOnce() -> Result<Run>) -> Result
 }
 
 /// The time within each stage, from a run with timers that is no part of the others.
-fn stages(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress) -> Result<Vec<(&'static str, Lap)>> {
+fn stages(variant: &Variant<'_>, execution: &Execution, watch: &dyn Progress) -> Result<Vec<(Stage, Lap)>> {
     let world = with_timers(variant.world(Sampling { samples: 16, ..variant.sampling })?)?;
     let Rendered { plan, laps, .. } = render(&world, &variant.stages, execution, watch)?;
-    Ok(plan.stages.iter().map(|stage| stage.name).zip(laps).collect())
+    Ok(plan.stages.into_iter().zip(laps).collect())
 }
 
 fn with_timers(mut world: World) -> Result<World> {

@@ -11,6 +11,8 @@ use super::run::{Run, Times};
 use super::runner::{Runs, Variant};
 use super::summary::{At, Comparison, LevelSummary, Report, Spread, StageSummary, Told, VariantSummary};
 use crate::measure::image_error::Numbers;
+use pinhole::plan::{Stage, TileSystems};
+use pinhole::rays::{place_samples_stage, world_stage};
 use pinhole::{Error, Result};
 
 /// Readings at equal time.
@@ -88,12 +90,12 @@ fn summary(
     let Measured { curve, deviations, reference } = measured;
     let levels = curve.levels.iter().zip(deviations).zip(&runs.levels[own]).enumerate();
     let stages = &runs.stages[own];
-    let rows_of = |name: &str| {
-        let named = stages.iter().filter(|(stage, _)| stage.starts_with(name));
-        named.map(|(_, lap)| lap.rows).sum::<u64>() as f64
+    let rows_of = |counts: &dyn Fn(&Stage) -> bool| {
+        let counted = stages.iter().filter(|(stage, _)| counts(stage));
+        counted.map(|(_, lap)| lap.rows).sum::<u64>() as f64
     };
-    let rays = [rows_of("Transform rays to world space"), rows_of("Aim at ")];
-    let samples = rows_of("Place samples").max(1.0);
+    let rays = [rows_of(&|stage| stage.is(world_stage)), rows_of(&|stage| stage.set == TileSystems::SampleLights)];
+    let samples = rows_of(&|stage| stage.is(place_samples_stage)).max(1.0);
     VariantSummary {
         name: variant.name.clone(),
         sampling: format!("{:?}, {:?}", variant.sampling.sampler, variant.sampling.filter),
@@ -108,7 +110,7 @@ fn summary(
         stages: stages
             .iter()
             .map(|(stage, lap)| StageSummary {
-                stage: (*stage).into(),
+                stage: stage.name.into(),
                 rows: lap.rows,
                 milliseconds: lap.time.as_secs_f64() * 1e3,
             })

@@ -8,6 +8,7 @@ use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
 use crate::scene::LayerKind;
 use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec3;
 
 /// The layers of one tile's film, with a row per pixel; exists only if layers are requested.
@@ -161,23 +162,30 @@ impl LayerInputs<'_> {
     }
 }
 
+/// What layers are made of, and the film of layers.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LayersView {
+    raster: &'static RasterPoints,
+    samples: Option<&'static PixelSamples>,
+    rays: Option<&'static WorldRays>,
+    hits: Option<&'static Hits>,
+    surfaces: Option<&'static Surfaces>,
+    shading_normals: Option<&'static ShadingNormals>,
+    uvs: Option<&'static SurfaceUvs>,
+    colours: Option<&'static SurfaceColours>,
+    layers: &'static mut FilmLayers,
+}
+
 /// Adds each row's values to its pixel's layers.
 pub fn add_to_layers(
     table: Res<Shared<LayerTable>>,
     materials: Option<Res<Shared<MaterialTable>>>,
-    mut tiles: Query<(
-        &RasterPoints,
-        Option<&PixelSamples>,
-        Option<&WorldRays>,
-        Option<&Hits>,
-        Option<&Surfaces>,
-        Option<&ShadingNormals>,
-        Option<&SurfaceUvs>,
-        Option<&SurfaceColours>,
-        &mut FilmLayers,
-    )>,
+    mut tiles: Query<LayersView>,
 ) {
-    for (raster, samples, rays, hits, surfaces, shading_normals, uvs, colours, mut layers) in &mut tiles {
+    for LayersViewItem { raster, samples, rays, hits, surfaces, shading_normals, uvs, colours, mut layers } in
+        &mut tiles
+    {
         let layers = &mut *layers;
         let pixel_of = |row: usize| samples.map_or(row, |samples| samples.pixel[row] as usize);
         (0..raster.rows()).for_each(|row| layers.taken[pixel_of(row)] += 1);

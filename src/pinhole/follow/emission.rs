@@ -8,6 +8,7 @@ use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystem
 use crate::rays::{Depth, Paths, WorldRays};
 use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 
 // ANCHOR: power_heuristic
 /// The MIS weight of a sample taken with pdf `own` that the other strategy would take with pdf `other`: the power
@@ -24,6 +25,20 @@ pub fn power_heuristic(own: f64, other: f64) -> f64 {
 }
 // ANCHOR_END: power_heuristic
 
+/// Hits on emissive surfaces, the paths that found them, and the radiance that emission is added to.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct MisEmissionView {
+    depth: &'static Depth,
+    paths: &'static Paths,
+    rays: &'static WorldRays,
+    caustic: Option<&'static CausticPaths>,
+    hits: &'static Hits,
+    list: &'static EmissiveRows,
+    sides: Option<&'static SurfaceSides>,
+    radiance: &'static mut Radiance,
+}
+
 // ANCHOR: add_mis_emission
 /// Adds the emission of the surface that a ray hit, weighted against light sampling, unless light tracing finds the
 /// same path.
@@ -35,13 +50,9 @@ pub fn add_mis_emission(
     emissive: Res<Shared<EmissiveTable>>,
     lights: Res<Shared<AreaLightTable>>,
     integrator: Res<Shared<IntegratorTable>>,
-    mut tiles: Query<(
-        (&Depth, &Paths, &WorldRays, Option<&CausticPaths>),
-        (&Hits, &EmissiveRows, Option<&SurfaceSides>),
-        &mut Radiance,
-    )>,
+    mut tiles: Query<MisEmissionView>,
 ) {
-    for ((depth, paths, rays, caustic), (hits, list, sides), mut radiance) in &mut tiles {
+    for MisEmissionViewItem { depth, paths, rays, caustic, hits, list, sides, mut radiance } in &mut tiles {
         for (&row, &of) in list.row.iter().zip(&list.emissive) {
             let (row, [r, g, b]) = (row as usize, emissive.radiance[of as usize]);
             if sides.is_some_and(|sides| sides.outside[row] == 0 && emissive.one_sided[of as usize]) {

@@ -1,14 +1,14 @@
 use super::deeper_media::{deeper_media_evidence, near_and_far};
 use super::media::media_evidence;
 use super::mirror::mirroring_normal;
+use super::view::{BsdfView, BsdfViewItem, GlassView, GlassViewItem};
 use super::{DeeperMedia, GlassRows, Media, Scattered, ScatteredRay, fresnel, mirror_direction, refract};
 use crate::extract::{
     GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Depth, PixelSamples, SampleNumber, Tile, WorldRays};
-use crate::rays::{Draws, Paths, draws_of_one};
+use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
@@ -119,21 +119,15 @@ pub fn sample_glass<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
-    mut tiles: Query<(
-        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
-        (Option<&Media>, Option<&DeeperMedia>),
-        (&Surfaces, Option<&ShadingNormals>, &SurfaceSides, &GlassRows),
-        &mut Scattered,
-    )>,
+    mut tiles: Query<(BsdfView, DrawsView, GlassView)>,
 ) {
     for (
-        (tile, &depth, number, samples, rays, paths),
-        (media, deeper),
-        (surfaces, shading, sides, list),
-        mut scattered,
+        BsdfViewItem { rays, paths, surfaces, shading, mut scattered },
+        draws,
+        GlassViewItem { sides, list, media, deeper },
     ) in &mut tiles
     {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
+        let draws = draws.draws(&sampling, Some(paths));
         draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut numbers);
         let columns = GlassColumns { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         scattered.append(&list.row, |number, row| {
@@ -150,15 +144,12 @@ const MIN_THROUGHPUT: f64 = 1.0 / 512.0;
 
 // ANCHOR: split_rays_at_glass
 /// Traces both rays at every glass surface (Whitted 1980), except for those with too little throughput to be seen.
-pub fn split_rays_at_glass(
-    glass: Res<Shared<GlassTable>>,
-    mut tiles: Query<(
-        (&WorldRays, &Paths, Option<&Media>, Option<&DeeperMedia>),
-        (&Surfaces, Option<&ShadingNormals>, &SurfaceSides, &GlassRows),
-        &mut Scattered,
-    )>,
-) {
-    for ((rays, paths, media, deeper), (surfaces, shading, sides, list), mut scattered) in &mut tiles {
+pub fn split_rays_at_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(BsdfView, GlassView)>) {
+    for (
+        BsdfViewItem { rays, paths, surfaces, shading, mut scattered },
+        GlassViewItem { sides, list, media, deeper },
+    ) in &mut tiles
+    {
         let columns = GlassColumns { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         for which in [0, 1] {
             scattered.append(&list.row, |number, row| {

@@ -10,6 +10,7 @@ use crate::shade::emitter::{
 };
 use crate::shade::{Radiance, spot_falloff, versine};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
@@ -104,16 +105,26 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 }
 // ANCHOR_END: light_start
 
+/// A tile of paths from lights, and what each of them starts with.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LightStartView {
+    tile: &'static Tile,
+    number: &'static SampleNumber,
+    depth: &'static mut Depth,
+    rays: &'static mut WorldRays,
+    paths: &'static mut Paths,
+    power: &'static mut LightPower,
+    radiance: &'static mut Radiance,
+}
+
 /// Samples the rays with which a batch of light paths starts, and clears their radiance.
 pub fn start_on_lights(
     table: Res<Shared<LightPathTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    mut tiles: Query<(
-        (&Tile, &SampleNumber, &mut Depth),
-        (&mut WorldRays, &mut Paths, &mut LightPower, &mut Radiance),
-    )>,
+    mut tiles: Query<LightStartView>,
 ) {
-    for ((tile, number, mut depth), (mut rays, mut paths, mut power, mut radiance)) in &mut tiles {
+    for LightStartViewItem { tile, number, mut depth, mut rays, mut paths, mut power, mut radiance } in &mut tiles {
         *depth = Depth(0);
         let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
         let of = (&**table, tile, sampling.seed);

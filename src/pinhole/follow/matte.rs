@@ -1,9 +1,10 @@
 use super::frame::{cosine_direction, frame_of};
+use super::view::{BsdfView, BsdfViewItem};
 use super::{Scattered, ScatteredRay};
 use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
+use crate::intersect::{MaterialRows, offset_origin};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, WorldRays, draws_of_two};
+use crate::rays::{DrawsView, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use crate::shade::SurfaceColours;
@@ -30,15 +31,10 @@ pub fn sample_matte<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut points: Local<Vec<[f64; 2]>>,
-    mut tiles: Query<(
-        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
-        (&Surfaces, Option<&ShadingNormals>, Option<&SurfaceColours>, &MaterialRows),
-        &mut Scattered,
-    )>,
+    mut tiles: Query<(BsdfView, DrawsView, Option<&SurfaceColours>, &MaterialRows)>,
 ) {
-    for ((tile, &depth, number, samples, rays, paths), (surfaces, shading, colours, list), mut scattered) in &mut tiles
-    {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
+    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, colours, list) in &mut tiles {
+        let draws = draws.draws(&sampling, Some(paths));
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
         scattered.append(&list.row, |number, row| {
             let surface = surfaces.get(row);

@@ -5,6 +5,7 @@ use crate::intersect::{Hits, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec3;
 
 column! {
@@ -80,6 +81,18 @@ pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, 
     }
 }
 
+/// The scattered rays, the glass that they leave, and the media that each of them starts in.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct CarryView {
+    scattered: &'static Scattered,
+    surfaces: &'static Surfaces,
+    sides: &'static SurfaceSides,
+    list: &'static GlassRows,
+    media: &'static mut Media,
+    deeper: Option<&'static mut DeeperMedia>,
+}
+
 /// Gives each scattered ray the media of the ray it was scattered from, with the glass that it entered or left by
 /// refraction.
 pub fn carry_media(
@@ -87,9 +100,9 @@ pub fn carry_media(
     mut kept: Local<Media>,
     mut glass_of: Local<Vec<u32>>,
     mut carrier: Local<Carrier>,
-    mut tiles: Query<(&Scattered, &Surfaces, &SurfaceSides, &GlassRows, &mut Media, Option<&mut DeeperMedia>)>,
+    mut tiles: Query<CarryView>,
 ) {
-    for (scattered, surfaces, sides, list, mut media, mut deeper) in &mut tiles {
+    for CarryViewItem { scattered, surfaces, sides, list, mut media, mut deeper } in &mut tiles {
         carrier.start();
         glass_of.clear();
         glass_of.resize(surfaces.rows(), NO_ROW);

@@ -1,3 +1,4 @@
+use super::view::{BsdfView, BsdfViewItem};
 use super::{
     MetalRows, MultipleScatteringTable, Scattered, ScatteredRay, cosine_direction, frame_of, ggx_brdf, ggx_sample,
     visible_pdf,
@@ -5,13 +6,12 @@ use super::{
 use crate::extract::{
     MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, multiple_scattering_evidence, needed_if,
 };
-use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces, offset_origin};
+use crate::intersect::{NO_SHAPE, offset_origin};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Depth, PixelSamples, SampleNumber, Tile, WorldRays};
-use crate::rays::{Draws, Paths, draws_of_one, draws_of_two};
+use crate::rays::{DrawsView, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
-use crate::shade::{LightRays, Radiance, ShadowHits, lit_evidence};
+use crate::shade::{ReflectionView, ReflectionViewItem, lit_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -76,15 +76,11 @@ pub fn sample_metal(
     sampling: Res<Shared<SamplingTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     (mut points, mut choices): (Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
-    mut tiles: Query<(
-        (&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &WorldRays, &Paths),
-        (&Surfaces, Option<&ShadingNormals>, &MetalRows),
-        &mut Scattered,
-    )>,
+    mut tiles: Query<(BsdfView, DrawsView, &MetalRows)>,
 ) {
     let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
-    for ((tile, &depth, number, samples, rays, paths), (surfaces, shading, list), mut scattered) in &mut tiles {
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
+    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, list) in &mut tiles {
+        let draws = draws.draws(&sampling, Some(paths));
         draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
         if rough.several.is_some() {
             draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut choices);
@@ -114,13 +110,10 @@ pub fn sample_metal(
 pub fn add_metal(
     materials: Res<Shared<MaterialTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
-    mut tiles: Query<(
-        (&WorldRays, &Surfaces, Option<&ShadingNormals>),
-        (&LightRays, Option<&ShadowHits>, &mut Radiance),
-    )>,
+    mut tiles: Query<ReflectionView>,
 ) {
     let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
-    for ((eye, surfaces, shading), (light, hits, mut radiance)) in &mut tiles {
+    for ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance } in &mut tiles {
         for ray in 0..light.rows() {
             let row = light.path[ray] as usize;
             let surface = surfaces.get(row);

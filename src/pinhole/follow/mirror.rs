@@ -1,8 +1,8 @@
+use super::view::{BsdfView, BsdfViewItem};
 use super::{MirrorRows, Scattered, ScatteredRay, mirror_direction};
 use crate::extract::{MirrorTable, followed_evidence, mirror_evidence};
-use crate::intersect::{ShadingNormals, Surfaces, offset_origin};
+use crate::intersect::{ShadingNormals, offset_origin};
 use crate::plan::{Shared, Stage, TileSystems};
-use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -16,11 +16,8 @@ pub(super) fn mirroring_normal(shading: Option<&ShadingNormals>, row: usize, own
 
 // ANCHOR: sample_mirror
 /// Reflects a ray from every mirror; the only direction of this specular BSDF.
-pub fn sample_mirror(
-    mirrors: Res<Shared<MirrorTable>>,
-    mut tiles: Query<((&WorldRays, &Paths), (&Surfaces, Option<&ShadingNormals>, &MirrorRows), &mut Scattered)>,
-) {
-    for ((rays, paths), (surfaces, shading, list), mut scattered) in &mut tiles {
+pub fn sample_mirror(mirrors: Res<Shared<MirrorTable>>, mut tiles: Query<(BsdfView, &MirrorRows)>) {
+    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, list) in &mut tiles {
         scattered.append(&list.row, |number, row| {
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);

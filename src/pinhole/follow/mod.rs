@@ -35,6 +35,7 @@ mod shading_adjoint;
 mod splat;
 mod stop;
 mod unsampled;
+mod view;
 
 pub use beer::{absorbed, transmittance};
 pub use caustic_paths::{CausticPaths, caustic_paths_stage, mark_caustic_paths};
@@ -66,7 +67,7 @@ pub use metal::{RoughMetals, add_metal, metal_light_stage, metal_stage, sample_m
 pub use mirror::{mirror_stage, sample_mirror};
 pub use mis::{mis_matte, mis_matte_stage, mis_metal, mis_metal_stage};
 pub use multiple_scattering::{MultipleScatteringTable, lost_at, multiple_scattering_albedo};
-pub use occlusion::{SkyColumns, SkyLists, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
+pub use occlusion::{SkyLists, SkyView, sample_sky, sample_sky_with, show_occlusion, sky_rays_stage, sky_stage};
 pub use paths::{start_paths, start_paths_stage};
 pub use roulette::{play_roulette, roulette_stage, survival_probability};
 pub use scattered::{Scattered, ScatteredRay, start_scattered, start_scattered_stage};

@@ -6,6 +6,7 @@ use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -18,7 +19,7 @@ pub fn sample_sky(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     lists: Local<SkyLists>,
-    tiles: Query<SkyColumns>,
+    tiles: Query<SkyView>,
 ) {
     sample_sky_with(cosine_direction, (&sampling, &integrator), lists, tiles);
 }
@@ -31,10 +32,16 @@ pub struct SkyLists {
 }
 
 /// The columns that sampling the sky reads and writes.
-pub type SkyColumns = (
-    (&'static Tile, Option<&'static SampleNumber>, Option<&'static PixelSamples>),
-    (&'static Hits, &'static Surfaces, &'static mut LightRays),
-);
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct SkyView {
+    tile: &'static Tile,
+    number: Option<&'static SampleNumber>,
+    samples: Option<&'static PixelSamples>,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    rays: &'static mut LightRays,
+}
 
 /// Traces a ray of irradiance π from every surface, in the direction about its normal that `direction_of` makes from
 /// two random numbers.
@@ -42,10 +49,10 @@ pub fn sample_sky_with(
     direction_of: impl Fn([f64; 2]) -> DVec3,
     (sampling, integrator): (&SamplingTable, &IntegratorTable),
     mut lists: Local<SkyLists>,
-    mut tiles: Query<SkyColumns>,
+    mut tiles: Query<SkyView>,
 ) {
     let SkyLists { row: list, points } = &mut *lists;
-    for ((tile, number, samples), (hits, surfaces, mut rays)) in &mut tiles {
+    for SkyViewItem { tile, number, samples, hits, surfaces, mut rays } in &mut tiles {
         list.clear();
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
         let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };

@@ -1,7 +1,7 @@
 use super::Scattered;
 use crate::extract::{IntegratorTable, SamplingTable, needed_if};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, draws_of_one};
+use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
@@ -24,13 +24,13 @@ pub fn play_roulette(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     mut numbers: Local<Vec<f64>>,
-    mut tiles: Query<(&Tile, &Depth, Option<&SampleNumber>, Option<&PixelSamples>, &Paths, &mut Scattered)>,
+    mut tiles: Query<(DrawsView, &Paths, &mut Scattered)>,
 ) {
-    for (tile, &depth, number, samples, paths, mut scattered) in &mut tiles {
-        if depth.0 + 1 < integrator.roulette {
+    for (draws, paths, mut scattered) in &mut tiles {
+        let draws = draws.draws(&sampling, Some(paths));
+        if draws.depth.0 + 1 < integrator.roulette {
             continue;
         }
-        let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
         draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
         let mut kept = 0;
         for row in 0..scattered.rows() {

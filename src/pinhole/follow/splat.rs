@@ -5,6 +5,7 @@ use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Paths, join_camera};
 use crate::shade::{JoinPoints, LightRays, Radiance};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::{DVec2, DVec3};
 
 column! {
@@ -48,16 +49,26 @@ pub fn keep_specular_stage() -> Stage {
         .on_first_bounce()
         .kind(StageKind::Alternative)
         .changes::<MaterialRows>()
+        .changes::<MaterialRows>()
         .when(traced_evidence)
+}
+
+/// Rays that reached the camera, what they carry, and the splats that become of them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct SplatView {
+    paths: &'static Paths,
+    rays: &'static LightRays,
+    points: Option<&'static JoinPoints>,
+    radiance: &'static Radiance,
+    power: &'static LightPower,
+    splats: &'static mut Splats,
 }
 
 // ANCHOR: splat_light
 /// Lists what every surface sends to the camera at this bounce: where it lands on the film, and how much.
-pub fn splat_light(
-    join: Res<Shared<CameraJoinTable>>,
-    mut tiles: Query<(&Paths, &LightRays, Option<&JoinPoints>, &Radiance, &LightPower, &mut Splats)>,
-) {
-    for (paths, rays, points, radiance, power, mut splats) in &mut tiles {
+pub fn splat_light(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<SplatView>) {
+    for SplatViewItem { paths, rays, points, radiance, power, mut splats } in &mut tiles {
         let splats = &mut *splats;
         for ray in 0..rays.rows() {
             let row = rays.path[ray] as usize;

@@ -6,29 +6,34 @@ use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
+
+/// The hits of a tile, the lists that they are sorted into, and what is cleared where nothing was hit.
+///
+/// Each exists only where something reads it.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct HitListsView {
+    hits: &'static Hits,
+    spheres: Option<&'static mut SphereRows>,
+    ellipsoids: Option<&'static mut EllipsoidRows>,
+    planes: Option<&'static mut PlaneRows>,
+    disks: Option<&'static mut DiskRows>,
+    rectangles: Option<&'static mut RectangleRows>,
+    cuboids: Option<&'static mut CuboidRows>,
+    triangles: Option<&'static mut TriangleRows>,
+    materials: Option<&'static mut MaterialRows>,
+    emissive: Option<&'static mut EmissiveRows>,
+    surfaces: Option<&'static mut Surfaces>,
+    uvs: Option<&'static mut SurfaceUvs>,
+    sides: Option<&'static mut SurfaceSides>,
+}
 
 /// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
 /// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
-pub fn classify_hits(
-    shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(
-        &Hits,
-        Option<&mut SphereRows>,
-        Option<&mut EllipsoidRows>,
-        Option<&mut PlaneRows>,
-        Option<&mut DiskRows>,
-        Option<&mut RectangleRows>,
-        Option<&mut CuboidRows>,
-        Option<&mut TriangleRows>,
-        Option<&mut MaterialRows>,
-        Option<&mut EmissiveRows>,
-        Option<&mut Surfaces>,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
-) {
-    for (
+pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<HitListsView>) {
+    for HitListsViewItem {
         hits,
         spheres,
         ellipsoids,
@@ -42,7 +47,7 @@ pub fn classify_hits(
         surfaces,
         uvs,
         sides,
-    ) in &mut tiles
+    } in &mut tiles
     {
         if let Some(mut list) = spheres {
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);

@@ -2,8 +2,9 @@ use super::double_double_planar::double_double_cuboid_t;
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest, vector};
 use super::rows::CuboidRows;
 use super::sphere::nearness;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
+use super::surface::{Surface, l1_norm, offset_bound};
 use super::uv::cuboid_uv;
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
@@ -206,16 +207,9 @@ fn cuboid_rows(rays: RaySlices<'_>, cuboids: &CuboidTable, t: &mut [f64], shape:
 pub fn fill_cuboid_surfaces(
     cuboids: Res<Shared<CuboidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &CuboidRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<CuboidRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;

@@ -2,7 +2,7 @@ use super::double_double_planar::double_double_disk_t;
 use super::planar::{crossing, fill_planar_surfaces};
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
 use super::rows::DiskRows;
-use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
@@ -69,9 +69,9 @@ fn disk_rows(rays: RaySlices<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut 
 pub fn fill_disk_surfaces(
     disks: Res<Shared<DiskTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &DiskRows, &mut Surfaces, Option<&mut SurfaceUvs>, Option<&mut SurfaceSides>)>,
+    mut tiles: Query<SurfaceView<DiskRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let planar_of = |shape: u32| &disks.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
         fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);

@@ -2,8 +2,9 @@ use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoi
 use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
 use super::rows::EllipsoidRows;
 use super::sphere::nearness;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
+use super::surface::{Surface, l1_norm, offset_bound};
 use super::uv::sphere_uv;
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{
     Ellipsoid, EllipsoidTable, ShapeTable, direction_object_from_world, normal_world_from_object,
@@ -184,16 +185,9 @@ pub fn ellipsoid_surface(
 pub fn fill_ellipsoid_surfaces(
     ellipsoids: Res<Shared<EllipsoidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &EllipsoidRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<EllipsoidRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs, mut sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, uvs, mut sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;

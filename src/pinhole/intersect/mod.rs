@@ -27,6 +27,7 @@ mod triangle;
 mod triangle_exact;
 mod triangle_surface;
 mod uv;
+mod view;
 
 pub use classify::{classify_hits, classify_stage};
 pub use cuboid::{

@@ -1,5 +1,6 @@
 use super::rows::PlaneRows;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
+use super::surface::{Surface, SurfaceUvs, offset_bound};
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
@@ -52,16 +53,9 @@ pub fn fill_plane_surfaces(
     planes: Res<Shared<PlaneTable>>,
     shapes: Res<Shared<ShapeTable>>,
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &PlaneRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<PlaneRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs, sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, uvs, sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;

@@ -2,7 +2,7 @@ use super::double_double_planar::double_double_rectangle_t;
 use super::planar::{crossing, fill_planar_surfaces};
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
 use super::rows::RectangleRows;
-use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{Planar, RectangleTable, ShapeTable, moves_while_open};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
@@ -65,16 +65,9 @@ fn rectangle_rows(rays: RaySlices<'_>, rectangles: &RectangleTable, t: &mut [f64
 pub fn fill_rectangle_surfaces(
     rectangles: Res<Shared<RectangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &RectangleRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<RectangleRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         let planar_of = |shape: u32| &rectangles.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
         fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);

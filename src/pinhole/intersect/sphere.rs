@@ -1,8 +1,9 @@
 use super::double_double::double_double_sphere_t;
 use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
 use super::rows::SphereRows;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
+use super::surface::{Surface, SurfaceUvs, l1_norm, offset_bound};
 use super::uv::sphere_uv;
+use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
 use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
@@ -133,16 +134,9 @@ pub fn fill_sphere_surfaces(
     spheres: Res<Shared<SphereTable>>,
     shapes: Res<Shared<ShapeTable>>,
     uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &SphereRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<SphereRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, uvs, sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, uvs, sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;

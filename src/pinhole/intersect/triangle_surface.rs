@@ -1,12 +1,11 @@
-use super::Hits;
 use super::ray_block::UNIT_ROUNDOFF;
 use super::rows::TriangleRows;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
+use super::surface::{Surface, offset_bound};
 use super::triangle::{Edges, Shear, edges, longest_axis, triangle_evidence};
 use super::triangle_exact::exact_barycentrics;
+use super::view::{SurfaceView, SurfaceViewItem};
 use crate::extract::{ShapeTable, TriangleRow, TriangleTable};
 use crate::plan::{Shared, Stage, TileSystems};
-use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
@@ -89,16 +88,9 @@ pub fn triangle_surface(
 pub fn fill_triangle_surfaces(
     triangles: Res<Shared<TriangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &TriangleRows,
-        &mut Surfaces,
-        Option<&mut SurfaceUvs>,
-        Option<&mut SurfaceSides>,
-    )>,
+    mut tiles: Query<SurfaceView<TriangleRows>>,
 ) {
-    for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
             let shape = hits.shape[row] as usize;

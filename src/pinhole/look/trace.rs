@@ -5,6 +5,7 @@ use crate::render::{Hook, inspect_pixel};
 use crate::scene::{SceneError, TracePixel, called};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
+use std::any::TypeId;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::ops::Range;
@@ -137,15 +138,15 @@ fn rows_at_depth(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usi
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A later stage of the same bounce may overwrite what an earlier one wrote.
-        let mut last: HashMap<(u32, &str), usize> = HashMap::new();
+        let mut last: HashMap<(u32, TypeId), usize> = HashMap::new();
         for (position, recorded) in self.stages.iter().enumerate() {
-            last.insert((recorded.depth, recorded.column.name), position);
+            last.insert((recorded.depth, recorded.column.id), position);
         }
         let left_out = self.bounces_left_out();
         let mut announced = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
-            if last.get(&(recorded.depth, recorded.column.name)) != Some(&position) || listing {
+            if last.get(&(recorded.depth, recorded.column.id)) != Some(&position) || listing {
                 continue;
             }
             if left_out.contains(&recorded.depth) {

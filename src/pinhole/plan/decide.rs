@@ -206,7 +206,7 @@ fn check_producers(decided: &[Decided<'_>], view: Option<ColumnKind>) -> Result<
         if let Some(column) = view.filter(|column| stage.reads_view && !written.contains(&column.id)) {
             return Err(PlanError::NoSuchView { wanted: column.name.into(), why: fate(decided, column) });
         }
-        for &column in stage.reads.iter().filter(|column| !written.contains(&column.id)) {
+        if let Some(&column) = stage.reads.iter().find(|column| !written.contains(&column.id)) {
             let why = fate(decided, column);
             return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
         }

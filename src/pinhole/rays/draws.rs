@@ -2,6 +2,7 @@ use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::extract::SamplingTable;
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
+use bevy_ecs::query::QueryData;
 
 /// Everything that determines a tile's random numbers at the current bounce.
 pub struct Draws<'a> {
@@ -17,6 +18,27 @@ pub struct Draws<'a> {
     pub paths: Option<&'a Paths>,
     /// The current depth.
     pub depth: Depth,
+}
+
+/// What a stage reads of a tile to draw random numbers for its rows.
+#[derive(QueryData)]
+pub struct DrawsView {
+    /// The tile's rectangle in the image.
+    pub tile: &'static Tile,
+    /// The current depth; `None` means 0.
+    pub depth: Option<&'static Depth>,
+    /// The index of the current sample of each pixel; `None` means 0.
+    pub number: Option<&'static SampleNumber>,
+    /// The pixels of the camera rays' rows; `None` if row and pixel coincide.
+    pub samples: Option<&'static PixelSamples>,
+}
+
+impl DrawsViewItem<'_, '_> {
+    /// The numbers of these paths; `None` if the scene has no bounces.
+    pub fn draws<'a>(&'a self, sampling: &'a SamplingTable, paths: Option<&'a Paths>) -> Draws<'a> {
+        let depth = self.depth.copied().unwrap_or_default();
+        Draws { sampling, tile: self.tile, number: self.number, samples: self.samples, paths, depth }
+    }
 }
 
 impl Draws<'_> {

@@ -25,7 +25,7 @@ pub use camera::{
     orthographic_stage, perspective_stage,
 };
 pub use depth::{Depth, pixel_of_row};
-pub use draws::{Draws, draws_of_one, draws_of_two};
+pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two};
 pub use equirectangular::{
     camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
 };

@@ -6,6 +6,7 @@ use crate::sample::{
 };
 use crate::scene::{Filter, Sampler, Sampling};
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use multiversion::multiversion;
 
 column! {
@@ -48,21 +49,34 @@ pub struct SampleNumber(pub u32);
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 pub struct ActivePixels(pub Vec<u32>);
 
+/// The pixels of a tile that take part, and where their samples are placed.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct PlacementView {
+    tile: &'static Tile,
+    number: &'static SampleNumber,
+    active: &'static ActivePixels,
+    raster: &'static mut RasterPoints,
+    samples: &'static mut PixelSamples,
+    signs: Option<&'static mut SampleSigns>,
+}
+
 // ANCHOR: place_samples
 /// Fills a tile's raster points with one sample of each of its active pixels.
 pub fn place_samples(
     sampling: Res<Shared<SamplingTable>>,
     filter: Res<Shared<FilterTable>>,
-    mut tiles: Query<(
-        &Tile,
-        &SampleNumber,
-        &ActivePixels,
-        &mut RasterPoints,
-        &mut PixelSamples,
-        Option<&mut SampleSigns>,
-    )>,
+    mut tiles: Query<PlacementView>,
 ) {
-    for (tile, &SampleNumber(number), ActivePixels(active), mut raster, mut samples, mut signs) in &mut tiles {
+    for PlacementViewItem {
+        tile,
+        number: &SampleNumber(number),
+        active: ActivePixels(active),
+        mut raster,
+        mut samples,
+        mut signs,
+    } in &mut tiles
+    {
         let (xs, ys) = raster.slices_mut(active.len());
         let (of_pixel, sample) = samples.slices_mut(active.len());
         of_pixel.copy_from_slice(active);

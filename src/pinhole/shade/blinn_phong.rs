@@ -1,10 +1,8 @@
 use super::highlight::{HighlightRow, highlight};
 use super::light::light_evidence;
-use super::{LightRays, Radiance, ShadowHits};
+use super::view::{ReflectionView, ReflectionViewItem};
 use crate::extract::{BlinnPhongTable, MaterialKind, MaterialTable, material_kind_evidence};
-use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Shared, Stage, TileSystems};
-use crate::rays::WorldRays;
 use crate::scene::BlinnPhong;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -25,12 +23,9 @@ pub fn half_vector_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 
 pub fn add_blinn_phong(
     materials: Res<Shared<MaterialTable>>,
     highlights: Res<Shared<BlinnPhongTable>>,
-    mut tiles: Query<(
-        (&WorldRays, &Surfaces, Option<&ShadingNormals>),
-        (&LightRays, Option<&ShadowHits>, &mut Radiance),
-    )>,
+    mut tiles: Query<ReflectionView>,
 ) {
-    for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
+    for ReflectionViewItem { eye, surfaces, shading, light, shadow, mut radiance } in &mut tiles {
         let row = HighlightRow { eye, surfaces, shading, light, shadow };
         row.add_highlights(&materials, MaterialKind::BlinnPhong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = half_vector_cosine(normal, to_light, to_eye);

@@ -6,6 +6,7 @@ use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
 use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::DVec2;
 
 column! {
@@ -31,14 +32,26 @@ impl JoinPoints {
     }
 }
 
+/// The rows that are connected to the camera, and the points on its lens that are sampled for them.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct JoinPointView {
+    tile: &'static Tile,
+    depth: &'static Depth,
+    number: &'static SampleNumber,
+    paths: &'static Paths,
+    list: &'static MaterialRows,
+    points: &'static mut JoinPoints,
+}
+
 /// Samples the points on the lens, a new one at every bounce.
 pub fn sample_join_points(
     lens: Res<Shared<LensTable>>,
     sampling: Res<Shared<SamplingTable>>,
     mut points_of_square: Local<Vec<[f64; 2]>>,
-    mut tiles: Query<(&Tile, &Depth, &SampleNumber, &Paths, &MaterialRows, &mut JoinPoints)>,
+    mut tiles: Query<JoinPointView>,
 ) {
-    for (tile, &depth, number, paths, list, mut points) in &mut tiles {
+    for JoinPointViewItem { tile, depth: &depth, number, paths, list, mut points } in &mut tiles {
         let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), depth };
         draws_of_two(&draws, Purpose::Lens, &list.row, &mut points_of_square);
         let (xs, ys) = points.slices_mut(paths.rows());
@@ -66,19 +79,25 @@ pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64
     if to_camera > 0.0 && falling > 0.0 { to_camera * (falling_by_shading / falling).max(0.0) } else { 0.0 }
 }
 
+/// The surfaces that are connected to the camera, and the rays towards it that are appended.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct ConnectionView {
+    arriving: &'static WorldRays,
+    surfaces: &'static Surfaces,
+    shading: Option<&'static ShadingNormals>,
+    list: &'static MaterialRows,
+    points: Option<&'static JoinPoints>,
+    rays: &'static mut LightRays,
+}
+
 // ANCHOR: connect_to_camera
 /// Appends a ray to the camera from every surface that a light path reaches, with the importance of the pixel there.
 ///
 /// The camera takes the place of a light: the incident power is known, and the light sent to the camera is wanted; the
 /// BSDF is the same in both directions.
-pub fn connect_to_camera(
-    join: Res<Shared<CameraJoinTable>>,
-    mut tiles: Query<(
-        (&WorldRays, &Surfaces, Option<&ShadingNormals>, &MaterialRows, Option<&JoinPoints>),
-        &mut LightRays,
-    )>,
-) {
-    for ((arriving, surfaces, shading, list, points), mut rays) in &mut tiles {
+pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<ConnectionView>) {
+    for ConnectionViewItem { arriving, surfaces, shading, list, points, mut rays } in &mut tiles {
         let receivers = LightRows { surfaces, shading, rows: &list.row };
         append_sampled(&receivers, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);

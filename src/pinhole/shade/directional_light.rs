@@ -1,7 +1,8 @@
+use super::LightRays;
 use super::light::{LightRay, LightRows, ShadowRay, append_rays, cosine_of};
-use super::{LightPdfs, LightRays};
+use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
-use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
+use crate::intersect::{Surface, offset_origin};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
 use bevy_ecs::prelude::*;
@@ -24,11 +25,8 @@ fn shadow_ray_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Shadow
 }
 
 /// Appends shadow rays to directional lights, light after light; they have no end.
-pub fn sample_directional_lights(
-    lights: Res<Shared<DirectionalLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
-) {
-    for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
+pub fn sample_directional_lights(lights: Res<Shared<DirectionalLightTable>>, mut tiles: Query<LightSamplingView>) {
+    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
         let receivers = LightRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
             append_rays(

@@ -1,12 +1,13 @@
 use super::light::{LightRay, LightRows, ShadowRay, append_sampled, cosine_of};
-use super::{LightPdfs, LightRays, environment_radiance, equirectangular, irradiance_from_area};
+use super::view::{LightSamplingView, LightSamplingViewItem};
+use super::{LightRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{
     EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
     material_evidence,
 };
-use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
+use crate::intersect::{Surface, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
+use crate::rays::{DrawsView, DrawsViewItem, Paths, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
 use crate::scene::Sampler;
 use bevy_ecs::prelude::*;
@@ -73,14 +74,14 @@ pub fn sample_environment(
     environment: Res<Shared<EnvironmentTable>>,
     light: Res<Shared<EnvironmentLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    mut tiles: Query<(
-        (&Tile, Option<&SampleNumber>, Option<&Depth>, Option<&PixelSamples>, Option<&Paths>),
-        (&Surfaces, Option<&ShadingNormals>, &MaterialRows),
-        &mut LightRays,
-        Option<&mut LightPdfs>,
-    )>,
+    mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
-    for ((tile, number, depth, samples, paths), (surfaces, shading, list), mut rays, mut pdfs) in &mut tiles {
+    for (
+        LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs },
+        DrawsViewItem { tile, depth, number, samples },
+        paths,
+    ) in &mut tiles
+    {
         let receivers = LightRows { surfaces, shading, rows: &list.row };
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));

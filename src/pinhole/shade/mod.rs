@@ -32,6 +32,7 @@ mod surface_colour;
 mod texture_point;
 mod unintersected;
 mod unlit;
+mod view;
 
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 pub use background::{add_background, background_stage};
@@ -73,3 +74,4 @@ pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
 pub use unintersected::check_shapes_are_intersected;
 pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
+pub use view::{LightSamplingView, LightSamplingViewItem, ReflectionView, ReflectionViewItem};

@@ -1,7 +1,7 @@
+use super::LightRays;
 use super::light::{LightRay, LightRows, RayLists, append_rays, shadow_ray_to, shadow_t_max};
-use super::{LightPdfs, LightRays};
+use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::PointLight;
 use bevy_ecs::prelude::*;
@@ -19,11 +19,8 @@ pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared:
 // ANCHOR_END: irradiance_from_point
 
 /// Appends shadow rays to point lights, light after light.
-pub fn sample_point_lights(
-    lights: Res<Shared<PointLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
-) {
-    for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
+pub fn sample_point_lights(lights: Res<Shared<PointLightTable>>, mut tiles: Query<LightSamplingView>) {
+    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
         let receivers = LightRows { surfaces, shading, rows: &list.row };
         for light in 0..lights.position.len() {
             sample_rows(&receivers, &lights, light, (&mut rays, pdfs.as_deref_mut()));

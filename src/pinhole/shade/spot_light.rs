@@ -1,7 +1,7 @@
 use super::light::{LightRay, LightRows, append_rays, shadow_ray_to, shadow_t_max};
-use super::{LightPdfs, LightRays, irradiance_from_point};
+use super::view::{LightSamplingView, LightSamplingViewItem};
+use super::{LightRays, irradiance_from_point};
 use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::SpotLight;
 use bevy_ecs::prelude::*;
@@ -36,11 +36,8 @@ pub fn spot_falloff(versine: f64, inner: f64, outer: f64) -> f64 {
 // ANCHOR_END: spot_falloff
 
 /// Appends shadow rays to spot lights, light after light; a surface outside the cone gets none.
-pub fn sample_spot_lights(
-    lights: Res<Shared<SpotLightTable>>,
-    mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
-) {
-    for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
+pub fn sample_spot_lights(lights: Res<Shared<SpotLightTable>>, mut tiles: Query<LightSamplingView>) {
+    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
         let receivers = LightRows { surfaces, shading, rows: &list.row };
         for (light, &position) in lights.position.iter().enumerate() {
             let (axis, inner, outer) = (lights.axis[light], lights.inner[light], lights.outer[light]);

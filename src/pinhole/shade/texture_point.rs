@@ -7,6 +7,7 @@ use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 use glam::{DMat3, DVec3};
 
 column! {
@@ -96,22 +97,27 @@ pub fn face_from_space(normal: DVec3) -> DMat3 {
     DMat3::from_cols(right, down, DVec3::ZERO).transpose()
 }
 
+/// The hits on textured surfaces, and the points on their textures.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct TexturePointView {
+    rays: &'static WorldRays,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    list: &'static MaterialRows,
+    uvs: Option<&'static SurfaceUvs>,
+    footprints: Option<&'static Footprints>,
+    points: &'static mut TexturePoints,
+}
+
 /// Computes each row's texture coordinates.
 pub fn compute_texture_points(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
     slopes: Option<Res<Shared<UvSlopes>>>,
-    mut tiles: Query<(
-        &WorldRays,
-        &Hits,
-        &Surfaces,
-        &MaterialRows,
-        Option<&SurfaceUvs>,
-        Option<&Footprints>,
-        &mut TexturePoints,
-    )>,
+    mut tiles: Query<TexturePointView>,
 ) {
-    for (rays, hits, surfaces, list, uvs, footprints, mut points) in &mut tiles {
+    for TexturePointViewItem { rays, hits, surfaces, list, uvs, footprints, mut points } in &mut tiles {
         let (x, y, z, rx, ry, rz, dx, dy, dz) = points.slices_mut(surfaces.rows());
         [&mut *x, y, z, rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
         for &row in &list.row {
