@@ -1,7 +1,7 @@
 //! What `conventions` tells a reader to type makes the same rays there.
 //!
-//! Each program's own way from its words to a ray is written out here from its source or manual, without the kit: the
-//! numbers are read off the printed lines, and the ray through a pixel is compared with the kit's.
+//! Each program's own way from its words to a ray is written out here from its source or manual, without pinhole: the
+//! numbers are read off the printed lines, and the ray through a pixel is compared with pinhole's.
 
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -18,7 +18,7 @@ fn scene(name: &str, width: u32, height: u32) -> World {
     chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() })
 }
 
-/// The kit's own ray through a pixel's centre, in f64.
+/// Pinhole's own ray through a pixel's centre, in f64.
 fn our_ray(camera: &PlacedCamera, pixel: [u32; 2]) -> DVec3 {
     let ndc = ndc_from_raster(raster_from_pixel(pixel[0], pixel[1]), camera.image.size());
     let screen = screen_from_ndc(ndc, camera.image.aspect());

@@ -46,7 +46,7 @@ impl Received {
         let mut first = None;
         for number in 0..tried {
             let mut draws = Draws::new(seed, u64::from(number));
-            // 24 bits, as the kit's own numbers have.
+            // 24 bits, as pinhole's own numbers have.
             let u = [draws.unit(), draws.unit()].map(|u| (u * 16_777_216.0).floor() / 16_777_216.0);
             let point = choose(u);
             let cosine = normal.dot(point.to / point.to.length()).max(0.0);

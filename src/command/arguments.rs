@@ -60,7 +60,7 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
-    /// Measure what theory knows, by whole renders, and how far chance may have moved each number
+    /// Measure what theory knows, by whole renders, and how far each number may be off at random
     ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
@@ -96,7 +96,7 @@ pub struct ReviewSnapshots {
     pub action: Option<ReviewAction>,
     /// Only this chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: Option<String>,
-    /// Show the page as it would look with a bug planted (all: a table of all bugs)
+    /// Show the page as it would look with a mutation of one stage (all: a table of all mutations)
     #[arg(long, value_name = "BUG")]
     pub mutate: Option<String>,
     /// Write one picture instead of the page
@@ -174,7 +174,7 @@ pub struct TryClosedForms {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// One of the groups, such as sphere, film or matter (default: all); another word lists them
+    /// One of the groups, such as sphere, film or material (default: all); another word lists them
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text
@@ -216,7 +216,7 @@ pub struct CompareConventions {
     /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
     pub size: Option<Size>,
-    /// Render what one sees who takes a word of another program for ours: mirrored, upside-down, backwards, too-narrow,
+    /// Render what is seen if a word of another program is read as pinhole's: mirrored, upside-down, backwards, too-narrow,
     /// too-wide or rolled
     #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
     pub mistake: Option<Mistake>,

@@ -182,7 +182,7 @@ mod tests {
 
     fn stats(stages: usize) -> RenderStats {
         let stage = |number: usize| StageStats {
-            stage: ["Aim at lights", "Intersect spheres", "Transform rays to world space", "Classify"][number % 4],
+            stage: ["Sample lights", "Intersect spheres", "Transform rays to world space", "Classify"][number % 4],
             rows: 1,
             milliseconds: number as f64,
             nanoseconds_a_row: None,
@@ -224,7 +224,7 @@ mod tests {
             summary(&stats(5), None).lines(),
             [
                 "out/05_pinhole.png and .exr: 480 × 270 pixels, 1 sample each, 244 thousand rays in 41 ms",
-                "slowest stages: Aim at lights 40 %, Classify 30 %, Transform rays to world space 20 %",
+                "slowest stages: Sample lights 40 %, Classify 30 %, Transform rays to world space 20 %",
                 "5 stages ran, 1 left out: pinhole plan 5 says why",
                 "try next: pinhole trace 5 --pixel 1,1",
             ]

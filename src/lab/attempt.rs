@@ -34,7 +34,7 @@ pub enum Attempt {
     VarianceAndBiasSquared(fn(&[f64], f64) -> Option<[f64; 2]>),
     /// Chapter 16: the middle of a range, its width.
     MeanOfStripes(fn(f64, f64) -> f64),
-    /// Chapter 15: colour, specular and exponent; irradiance, normal, way to the light, way to the eye.
+    /// Chapter 15: colour, specular and exponent; irradiance, normal, direction to the light, direction to the eye.
     PhongRadiance(fn([f64; 3], f64, [f64; 3], [f64; 3], [f64; 3]) -> f64),
     /// Chapter 14: the surface's normal, the corners' normals, their shares, the ways to the eye and to the light.
     FallingCosine(fn([f64; 3], [[f64; 3]; 3], [f64; 3], [f64; 3], [f64; 3]) -> f64),
@@ -52,9 +52,9 @@ pub enum Attempt {
     MovingSphereT(fn([f64; 3], [f64; 3], [f64; 3], f64, [f64; 3], f64) -> Option<f64>),
     /// Chapter 22: two numbers from 0 to below 1.
     CosineDirection(fn(f64, f64) -> [f64; 3]),
-    /// Chapter 25: the share of its light that a way brings, a number from 0 to below 1.
+    /// Chapter 25: the throughput of a path, a number from 0 to below 1.
     AfterRoulette(fn([f64; 3], f64) -> [f64; 3]),
-    /// Chapter 26: two densities, that of the way's own chance first.
+    /// Chapter 26: two pdfs, that of the technique that was sampled first.
     PowerHeuristic(fn(f64, f64) -> f64),
     /// Chapter 27: a point in camera space, the tangent of half the vertical angle, the image's height in pixels.
     PixelFraction(fn([f64; 3], f64, f64) -> f64),

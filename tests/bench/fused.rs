@@ -1,8 +1,8 @@
 //! The hand-written loop that the stages are measured against: one pixel after another, nothing kept in between.
 //!
-//! It calls the kit's own functions of one row and reads the kit's own tables, so that its image is the same to the
+//! It calls pinhole's own functions of one row and reads pinhole's own tables, so that its image is the same to the
 //! last bit and only the arrangement of the work differs.
-//! Its spheres are tested sixteen at a time for one ray, as the kit's stage tests sixteen rays for one sphere.
+//! Its spheres are tested sixteen at a time for one ray, as pinhole's stage tests sixteen rays for one sphere.
 
 use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
@@ -43,7 +43,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads the same tables as the kit.
+    /// Reads the same tables as pinhole.
     ///
     /// # Panics
     /// When the scene holds a shape that this loop does not know.
@@ -85,7 +85,7 @@ pub fn render(world: &World, threads: usize) -> Film {
     film
 }
 
-/// What samplers work out once for all pixels is worked out once a tile, as in the kit.
+/// What samplers work out once for all pixels is worked out once a tile, as in pinhole.
 fn render_tile(scene: &Scene, film: &mut FilmTile) {
     let Some(SamplingTable { samples, sampler, .. }) = scene.sampling else { return add_centres(scene, film) };
     let (numbers, purpose) = (0..samples, Purpose::Pixel);
@@ -178,7 +178,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
             let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
-            // The kit keeps irradiance in a column of f32.
+            // Pinhole keeps irradiance in a column of f32.
             let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;

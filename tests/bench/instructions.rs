@@ -1,7 +1,7 @@
 //! What a feature costs a scene that does not use it, in instructions a ray and in bytes, counted by valgrind.
 //!
-//! `cargo bench --bench instructions` renders each scene with the full kit (the program `pinhole`, every stage on offer)
-//! and with a program that offers only what the scene needs (this one: nothing else of the kit's stages is linked into
+//! `cargo bench --bench instructions` renders each scene with the full pinhole (the program `pinhole`, every stage on offer)
+//! and with a program that offers only what the scene needs (this one: nothing else of pinhole's stages is linked into
 //! it), at two sizes each; the slopes between the sizes leave out all that a program does once.
 //! Instructions are counted by callgrind, bytes allocated by dhat, on one thread; images are compared byte by byte.
 //! valgrind shows its guests no AVX-512, so both programs run the kernels for AVX2.
@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The most that the full kit may take, as a multiple of the program with only what is needed.
+/// The most that the full pinhole may take, as a multiple of the program with only what is needed.
 const MOST: f64 = 1.005;
 
 /// A scene, and the stages that it needs.

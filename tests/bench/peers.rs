@@ -17,7 +17,7 @@ use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling};
 use pinhole_lab::measure::image_error::{Numbers, image_error};
 use pinhole_lab::measure::image_file::read_numbers;
-use pinhole_lab::report::distribution::student_share;
+use pinhole_lab::report::distribution::student_cdf;
 use pinhole_lab::report::run::numbers;
 use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
@@ -150,7 +150,7 @@ fn converged(scene: &str, reference: &Numbers, options: &Options) {
             tests += 1;
             worst = worst.max(z.abs());
             // The renders' own spread is known from as many as there are, so far from 0 chance is no normal variable.
-            apart += usize::from(2.0 * student_share(-z.abs(), (RUNS - 1) as f64) < limit);
+            apart += usize::from(2.0 * student_cdf(-z.abs(), (RUNS - 1) as f64) < limit);
         }
     }
     println!(

@@ -89,9 +89,9 @@ fn angles_are_taken_and_refused_as_page_08_says() {
 #[test]
 fn the_naive_tangent_is_as_far_off_as_page_08_says() {
     let page = "08_field_of_view.md";
-    let (naive, kit) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
-    let steps = ((naive - kit) / kit).abs() * f64::from(1_u32 << 24);
-    // That the kit's own is good to less than a millionth of a step is judged in `src/lab/naive/field_of_view.rs`.
+    let (naive, pinhole) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
+    let steps = ((naive - pinhole) / pinhole).abs() * f64::from(1_u32 << 24);
+    // That pinhole's own is good to less than a millionth of a step is judged in `src/lab/naive/field_of_view.rs`.
     let steps = thousands(steps.round() as usize);
     page_says(page, &format!("the tangent is off by {steps} u"));
     let flipped = field_of_view::tan_half_f32(180.0) / 1e7;

@@ -27,14 +27,14 @@ fn the_message_names_the_stage_of_each_planted_bug() {
 }
 
 #[test]
-fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
+fn every_stage_of_pinhole_that_a_chapter_runs_has_a_planted_bug() {
     let offered = [rays::stages(), intersect::stages(), shade::stages()].concat();
-    let kit = Chapter::new("kit", "all that the kit offers", |_| ()).offer(offered).stages();
+    let pinhole = Chapter::new("pinhole", "all that pinhole offers", |_| ()).offer(offered).stages();
     let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
     for chapter in chapters::all() {
         let plan = pinhole::plan::plan(&chapter.world(&Overrides::default()), &chapter.stages()).expect("a plan");
         let names = plan.stages.iter().map(|stage| stage.name);
-        stages.extend(names.filter(|name| kit.iter().any(|stage| stage.name == *name)).map(String::from));
+        stages.extend(names.filter(|name| pinhole.iter().any(|stage| stage.name == *name)).map(String::from));
     }
     let mutation: BTreeSet<String> = MUTATIONS.iter().map(|mutation| mutation.stage.to_string()).collect();
     assert_eq!(

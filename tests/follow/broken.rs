@@ -57,7 +57,7 @@ fn mistakes_are_noticed_where_theory_knows_the_answer() {
         ("25, the forgotten π", pentagon, matte(cosine_direction, |albedo, _| weight_without_pi(albedo))),
         ("25, the wrong density", pentagon, matte(alike, |albedo, _| albedo)),
         ("25, the cosine twice", pentagon, matte(cosine_direction, |albedo, cosine| albedo * cosine)),
-        ("26, counted in full", "square light overhead, weighed", instead(aimed_light_counted_in_full())),
+        ("26, counted in full", "square light overhead, weighed", instead(light_samples_counted_in_full())),
     ];
     let tried = mistakes.len();
     for (what, name, stages) in mistakes {
@@ -88,7 +88,7 @@ fn mistakes_are_kept_by_the_plan() {
         ("19_mirrors", metal_counted_as_matte()),
         ("20_glass", glass_that_keeps_beams_narrow()),
         ("22_ambient_occlusion", sky_in_all_directions_alike()),
-        ("26_choosing_samples", aimed_light_counted_in_full()),
+        ("26_choosing_samples", light_samples_counted_in_full()),
     ] {
         let scene = chapters::all().into_iter().find(|own| own.name == chapter).expect("a chapter");
         let name = stage.name;

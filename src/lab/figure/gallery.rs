@@ -129,7 +129,7 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let Lens::Perspective(tangent) = subject.lens else { return Err(figure.unsuited("a perspective camera")) };
     let middle = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
     let nearest = middle.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)));
-    let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray meets"))?;
+    let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray hits"))?;
     let scene = chapter.world(&Default::default());
     let target = eye(&scene)? + *centre;
     let up = world_from_entity(&scene, "the figure", camera_entity(&scene)?)?.matrix3.y_axis;
@@ -150,7 +150,7 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, size)))
 }
 
-/// The chapter's angle as the kit takes it, and with three slips.
+/// The chapter's angle as pinhole takes it, and with three mistakes.
 pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let own = own_camera(chapter, figure)?.fov;
     let size = pixels(345.0, 2.0);

@@ -69,7 +69,7 @@ pub use svg::{Drawing, Svg};
 use ::pinhole::Chapter;
 use ::pinhole::{Error, Result};
 
-/// A figure that the kit can draw.
+/// A figure that pinhole can draw.
 #[derive(Clone, Copy)]
 pub struct Figure {
     /// The word on the command line.
@@ -87,7 +87,7 @@ pub fn figures() -> Vec<Figure> {
     vec![
         Figure { name: "two_classes", chapter: "05_pinhole", about: two_classes, draw: two_classes::draw },
         Figure { name: "02_ray", chapter: "02_ray", about: "a ray: a point, a unit vector, and t", draw: ray::draw },
-        Figure { name: "03_hit", chapter: "03_hit", about: "where a ray meets a sphere", draw: hit::draw },
+        Figure { name: "03_hit", chapter: "03_hit", about: "where a ray hits a sphere", draw: hit::draw },
         Figure {
             name: "04_orthographic",
             chapter: "04_orthographic",
@@ -223,7 +223,7 @@ pub fn figures() -> Vec<Figure> {
         Figure {
             name: "21_jacobian",
             chapter: "21_soft_shadows",
-            about: "lamps by the right density, without its cosine, and without its distance too",
+            about: "area lights by the right pdf, without its cosine, and without its squared distance too",
             draw: jacobian::draw,
         },
         Figure {
@@ -263,16 +263,16 @@ pub fn figures() -> Vec<Figure> {
             draw: integrators::draw_distance,
         },
         Figure {
-            name: "25_legs",
+            name: "25_path_lengths",
             chapter: "25_path_tracing",
-            about: "one scene by ray casting, and by ways of light of two, three and many legs",
+            about: "one scene by ray casting, and by paths of two, three and many segments",
             draw: integrators::draw_segments,
         },
         Figure {
-            name: "26_ways",
+            name: "26_strategies",
             chapter: "26_choosing_samples",
-            about: "lamps found by chance, by aiming, and by both, weighed",
-            draw: integrators::draw_ways,
+            about: "area lights by BSDF sampling, by light sampling, and by multiple importance sampling",
+            draw: integrators::draw_strategies,
         },
         Figure {
             name: "27_sides",

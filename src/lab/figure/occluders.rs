@@ -7,7 +7,7 @@ use pinhole::extract::{
 use pinhole::intersect::{cuboid_t, disk_t, ellipsoid_t, plane_t, rectangle_t, sphere_t, triangle_t};
 use pinhole::plan::Table;
 
-/// A scene's shapes, for figures that send rays of their own; the intersection is the kit's.
+/// A scene's shapes, for figures that send rays of their own; the intersection is pinhole's.
 pub struct Occluders {
     spheres: SphereTable,
     ellipsoids: EllipsoidTable,
@@ -32,18 +32,18 @@ impl Occluders {
         })
     }
 
-    /// Whether anything is met before `reach`.
-    pub fn block(&self, origin: DVec3, direction: DVec3, reach: f64) -> bool {
+    /// Whether anything is hit before `t_max`.
+    pub fn block(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
         let spheres = (0..self.spheres.radius.len())
             .map(|row| sphere_t(origin, direction, self.spheres.centre(row), self.spheres.radius[row]));
         let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
-        let triangles = self.triangles.facet.iter().map(|facet| triangle_t(origin, direction, facet));
+        let triangles = self.triangles.facet.iter().map(|triangle| triangle_t(origin, direction, triangle));
         let disks = self.disks.planar.iter().map(|planar| disk_t(origin, direction, planar));
         let rectangles = self.rectangles.planar.iter().map(|planar| rectangle_t(origin, direction, planar));
         let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));
         let round = spheres.chain(ellipsoids);
-        round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < reach)
+        round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < t_max)
     }
 }

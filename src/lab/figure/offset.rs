@@ -15,7 +15,7 @@ const HEIGHT: f64 = 372.0;
 const MIDDLE: f64 = 330.0;
 /// The bound in the magnified part, in units of the drawing.
 const BOUND: f64 = 118.0;
-/// How steeply the way from the sphere's centre to the light rises in the drawing, in radians.
+/// How steeply the direction from the sphere's centre to the light rises in the drawing, in radians.
 const LEAN: f64 = 0.9;
 
 /// A hit and where its shadow ray starts: the sphere cut through, and the hit magnified.
@@ -64,7 +64,7 @@ impl Hit<'_> {
     }
 }
 
-/// Of the hits on the sphere that most rays meet, lit at a middling slant, one that rounding has put deep inside
+/// Of the hits on the sphere that most rays hit, lit obliquely, one that rounding has put deep inside
 /// and whose box of rounding is drawn neither flat nor thin.
 fn telling_hit(subject: &Subject) -> Option<Hit<'_>> {
     let light = *subject.lights.first()?;
@@ -76,13 +76,13 @@ fn telling_hit(subject: &Subject) -> Option<Hit<'_>> {
         let normal = surface.normal.as_dvec3();
         let to_light = (light - point).try_normalize()?;
         let along = (to_light - normal * normal.dot(to_light)).try_normalize()?;
-        let slanted = (0.45..0.8).contains(&normal.dot(to_light));
-        slanted.then_some(Hit { pixel: ray.pixel, ball, point, surface, along, light })
+        let oblique = (0.45..0.8).contains(&normal.dot(to_light));
+        oblique.then_some(Hit { pixel: ray.pixel, ball, point, surface, along, light })
     });
     hits.max_by(|a, b| a.telling().total_cmp(&b.telling()))
 }
 
-/// The sphere, the hit, its normal and the way to the light, at the scene's own scale.
+/// The sphere, the hit, its normal and the direction to the light, at the scene's own scale.
 fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     let frame = Frame { low: DVec2::new(26.0, 44.0), high: DVec2::new(MIDDLE - 26.0, HEIGHT - 56.0) };
     let [centre, light] = [hit.ball.centre, hit.light].map(|place| hit.planar(place - hit.point));
@@ -117,7 +117,7 @@ fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     let normal = DVec2::Y * 46.0 / scale;
     svg.arrow(place(DVec2::ZERO), place(normal), Pen::new(IMAGE, 2.0));
     svg.dot(place(DVec2::ZERO), 4.5, INK);
-    paint_lamp(svg, place(light));
+    paint_light(svg, place(light));
     svg.label(Label::near(place(light), "light", DVec2::X, 16.0));
     svg.label(Label::near(place(DVec2::ZERO), "hit", turned(-DVec2::Y), 9.0));
     svg.label(Label::near(place(normal), "*n*", turned(DVec2::Y), 5.0).coloured(IMAGE));
@@ -128,7 +128,7 @@ fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     svg.label(Label::near(place(centre - up * radius * 0.55), "cos θ < 0: no ray", DVec2::NEG_Y, 0.0).title(0.92));
 }
 
-fn paint_lamp(svg: &mut Svg, at: DVec2) {
+fn paint_light(svg: &mut Svg, at: DVec2) {
     for step in 0..12 {
         let angle = f64::from(step) * std::f64::consts::TAU / 12.0;
         let out = DVec2::new(libm::cos(angle), libm::sin(angle));
@@ -163,18 +163,18 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     let [p, p_off] = [position, start].map(|point| place(point.as_dvec3()));
     let toward = (hit.light - hit.point).normalize_or(hit.along);
     let toward = DVec2::new(hit.planar(toward).x, -hit.planar(toward).y);
-    // The naive ray starts inside and meets its own surface.
+    // The naive ray starts inside and hits its own surface.
     let to_surface = (origin.y - p.y) / toward.y;
     if to_surface > 0.0 {
         svg.line(p, p + toward * to_surface, Pen::new(LIGHT, 1.4).dashed("2 4"));
         svg.dot(p + toward * to_surface, 3.2, LIGHT);
-        let met = p + toward * to_surface;
-        svg.label(Label::near(met, "blocked by its own surface", DVec2::new(1.0, 0.5), 12.0));
+        let at_surface = p + toward * to_surface;
+        svg.label(Label::near(at_surface, "blocked by its own surface", DVec2::new(1.0, 0.5), 12.0));
     }
     let pushed = place(position.as_dvec3() + hit.surface.normal.as_dvec3() * f64::from(hit.surface.bound));
     svg.arrow(p, pushed, Pen::new(IMAGE, 2.0));
-    let reach = ((36.0 - p_off.y) / toward.y).min((right - 10.0 - p_off.x) / toward.x.max(1e-9));
-    svg.arrow(p_off, p_off + toward * reach, Pen::new(LIGHT, 1.9).dashed("7 4"));
+    let length = ((36.0 - p_off.y) / toward.y).min((right - 10.0 - p_off.x) / toward.x.max(1e-9));
+    svg.arrow(p_off, p_off + toward * length, Pen::new(LIGHT, 1.9).dashed("7 4"));
     for (at, radius) in [(origin, 3.6), (p, 4.5), (p_off, 4.5)] {
         svg.dot(at, radius, INK);
     }
@@ -183,7 +183,7 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     svg.label(Label::near(p_off, "start of the shadow ray", DVec2::new(-0.6, -1.0), 20.0));
     let bound = format!("`bound` = {:.2e}", hit.surface.bound);
     svg.label(Label::near(p.lerp(pushed, 0.5), &bound, DVec2::NEG_X, 8.0).coloured(IMAGE));
-    svg.label(Label::near(p_off + toward * reach * 0.75, "to the light", DVec2::NEG_Y, 10.0).coloured(LIGHT));
+    svg.label(Label::near(p_off + toward * length * 0.75, "to the light", DVec2::NEG_Y, 10.0).coloured(LIGHT));
     let corner = DVec2::new(right - 4.0, floor - 10.0);
     svg.label(Label::near(corner, "inside the ball", DVec2::NEG_X, 0.0).title(0.92));
 }

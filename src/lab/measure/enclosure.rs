@@ -1,7 +1,7 @@
 //! Numbers enclosed: a pair of f64, about 106 bits, and a radius that the true number cannot lie beyond.
 //!
 //! Reads: f64 inputs, taken exactly. Writes: signs and rounded values where the radius allows, nothing where it does
-//! not; then exact arithmetic decides. The kit's own pairs in `intersect` share no line with these.
+//! not; then exact arithmetic decides. Pinhole's own pairs in `intersect` share no line with these.
 //!
 //! With u = 2⁻⁵³ and |low| ≤ u|high|, a sum as done here is off by less than 4u² of itself and a product by less than
 //! 8u² (Joldes, Muller and Popescu, *Tight and rigorous error bounds for basic building blocks of double-word

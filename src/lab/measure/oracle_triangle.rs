@@ -2,7 +2,7 @@
 //!
 //! Reads: the f32 ray and the three f64 corners that a kernel sees, in render space. Writes: hit or miss without any
 //! rounding, t and the corners' shares with a relative error below 2^-300.
-//! It asks where the ray meets the plane and on which side of each edge that point lies; the kit's kernels ask for volumes
+//! It asks where the ray meets the plane and on which side of each edge that point lies; pinhole's kernels ask for volumes
 //! between the ray and the edges, so that a slip in one is none in the other.
 
 use super::enclosure::Enclosure;

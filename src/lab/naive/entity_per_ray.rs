@@ -1,6 +1,6 @@
 //! The renderer that bevy_ecs seems to ask for: an entity for every ray, a component for every stage.
 //!
-//! It calls the kit's own functions of one row and reads the kit's own tables, so its image is the kit's to the last bit;
+//! It calls pinhole's own functions of one row and reads pinhole's own tables, so its image is pinhole's to the last bit;
 //! what differs is where the numbers lie.
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
@@ -64,7 +64,7 @@ pub struct EntityPerRay {
 impl EntityPerRay {
     /// Reads the scene's tables and spawns the entities.
     ///
-    /// Errors: what the kit refuses the scene for.
+    /// Errors: what pinhole refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
         pinhole::extract::validate(scene)?;
         let kinds = ShapeTable::extract(scene)?.kind;
@@ -77,14 +77,14 @@ impl EntityPerRay {
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        share::<PerspectiveProjection>(&mut world, scene)?;
-        share::<CameraAxes>(&mut world, scene)?;
-        share::<SphereTable>(&mut world, scene)?;
-        share::<PlaneTable>(&mut world, scene)?;
-        share::<ShapeTable>(&mut world, scene)?;
-        share::<MaterialTable>(&mut world, scene)?;
-        share::<BackgroundTable>(&mut world, scene)?;
-        let image = share::<ImageFrame>(&mut world, scene)?;
+        shared::<PerspectiveProjection>(&mut world, scene)?;
+        shared::<CameraAxes>(&mut world, scene)?;
+        shared::<SphereTable>(&mut world, scene)?;
+        shared::<PlaneTable>(&mut world, scene)?;
+        shared::<ShapeTable>(&mut world, scene)?;
+        shared::<MaterialTable>(&mut world, scene)?;
+        shared::<BackgroundTable>(&mut world, scene)?;
+        let image = shared::<ImageFrame>(&mut world, scene)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -93,7 +93,7 @@ impl EntityPerRay {
         let mut schedule = Schedule::new(Sample);
         schedule.set_executor(SingleThreadedExecutor::new());
         let to_world = (place, free_of_size, centre, aim, turn);
-        schedule.add_systems((to_world.chain(), (meet, describe, shade, add).chain()).chain());
+        schedule.add_systems((to_world.chain(), (intersect, describe, shade, add).chain()).chain());
         Ok(Self { world, schedule, image })
     }
 
@@ -102,7 +102,7 @@ impl EntityPerRay {
         self.schedule.run(&mut self.world);
     }
 
-    /// The light that arrived, as a film of the kit's.
+    /// The light that arrived, as a film of pinhole's.
     pub fn film(&mut self) -> Film {
         let mut film = Film::new(self.image.width, self.image.height, 32);
         let across = self.image.width.div_ceil(32);
@@ -119,7 +119,7 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
+fn shared<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
     let table = T::extract(scene)?;
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
@@ -157,7 +157,7 @@ fn turn(axes: Res<Shared<CameraAxes>>, mut rays: Query<(&CameraRay, &mut WorldRa
     }
 }
 
-fn meet(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut rays: Query<(&WorldRay, &mut Hit)>) {
+fn intersect(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut rays: Query<(&WorldRay, &mut Hit)>) {
     for (ray, mut hit) in &mut rays {
         let [origin, direction] = ray.0.map(|part| part.as_dvec3());
         let inverse = 1.0 / direction.dot(direction);

@@ -3,12 +3,12 @@
 use glam::{DVec3, Vec3};
 
 // ANCHOR: naive_hit_sphere_f32
-/// The nearest t > 0 where the ray meets the sphere: the quadratic formula, straight from school,
+/// The nearest t > 0 where the ray hits the sphere: the quadratic formula, straight from school,
 /// in f32.
 ///
 /// Most first ray tracers hold this function. Far away b² and 4ac are both huge and nearly equal, so
 /// their difference is made of rounding errors: from a thousand radii on, a ray within a few
-/// rounding steps of the silhouette is judged no better than by a coin.
+/// rounding steps of the silhouette is decided no better than by a coin.
 #[must_use]
 pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Option<f32> {
     let from_centre = origin - centre;
@@ -116,14 +116,14 @@ mod tests {
     }
 
     #[test]
-    fn one_root_that_is_no_number_stays() {
+    fn one_root_that_is_nan_stays() {
         let spheres = [(Vec3::new(0.0, 0.0, -3.0), 1.0), (Vec3::new(0.0, 0.0, -9.0), 1.0)];
         assert_eq!(nearest_unless_farther(Vec3::ZERO, Vec3::NEG_Z, &spheres), 2.0);
         assert!(nearest_unless_farther(Vec3::ZERO, Vec3::ZERO, &spheres).is_nan());
         assert_eq!(point_f32(Vec3::X, Vec3::NEG_Z, 2.0), Vec3::new(1.0, 0.0, -2.0));
     }
 
-    /// How many silhouette rays a method judges otherwise than the oracle, both on an f32 sphere.
+    /// How many silhouette rays a method classifies otherwise than the oracle, both on an f32 sphere.
     fn misjudged(rays: u64, distance: f64, hits: impl Fn(AimedRay, Vec3, f32) -> bool) -> usize {
         let wrong = |(ray, sphere): (AimedRay, Sphere)| {
             let sphere = sphere.rounded_to_f32();

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 // ANCHOR: naive_moller_trumbore
-/// The t where the ray meets a triangle (Möller and Trumbore 1997), in f32, with the constant of their paper.
+/// The t where the ray hits a triangle (Möller and Trumbore 1997), in f32, with the constant of their paper.
 ///
 /// Each triangle solves for its own two coordinates, with its own rounding: along an edge that two triangles share, both
 /// may find the ray outside, and light leaks through.

@@ -126,7 +126,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
 
 /// What two faces let through that each reflect this share, with all turns between them: (1 − R)² (1 + R² + R⁴ + …).
 ///
-/// Light is taken to swing both ways alike at each face, as the kit has it; in truth it leaves the first one polarised.
+/// Light is taken to swing both ways alike at each face, as pinhole has it; in truth it leaves the first one polarised.
 fn through(reflected: f64) -> f64 {
     (1.0 - reflected) / (1.0 + reflected)
 }

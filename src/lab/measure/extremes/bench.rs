@@ -1,4 +1,4 @@
-//! The kit's own stages, run on rows that no camera made.
+//! Pinhole's own stages, run on rows that no camera made.
 
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;

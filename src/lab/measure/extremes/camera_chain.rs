@@ -1,4 +1,4 @@
-//! One camera's chain raster → NDC → screen → camera → world through the kit's tables and stages, a pixel at a time.
+//! One camera's chain raster → NDC → screen → camera → world through pinhole's tables and stages, a pixel at a time.
 
 use super::Score;
 use super::bench::Bench;
@@ -157,7 +157,7 @@ pub fn check_world(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, sc
     scores[2].measure(length_error_in_u(wrote.world).abs());
 }
 
-/// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and the kit's axes, rounded to
+/// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and pinhole's axes, rounded to
 /// f32.
 pub fn viewport_error(check: &CameraOracle, eye: DVec3, pixel: [u32; 2]) -> f64 {
     let vertical = 2.0 * libm::atan(check.tan_half_vertical()).to_degrees();

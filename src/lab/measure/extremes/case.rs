@@ -14,7 +14,7 @@ const CHUNK: u64 = 512;
 pub struct Method {
     /// What the table calls it.
     pub name: &'static str,
-    /// Whether it is the kit's own; otherwise it is one of the [naive](crate::naive) ones.
+    /// Whether it is pinhole's own; otherwise it is one of the [naive](crate::naive) ones.
     pub of_pinhole: bool,
     /// The unit of its worst error; empty where right and wrong is all there is.
     pub unit: &'static str,
@@ -23,8 +23,8 @@ pub struct Method {
 }
 
 impl Method {
-    /// The kit's method, which has to keep the bound.
-    pub const fn kit(name: &'static str, unit: &'static str, bound: f64) -> Self {
+    /// Pinhole's method, which has to keep the bound.
+    pub const fn pinhole(name: &'static str, unit: &'static str, bound: f64) -> Self {
         Self { name, of_pinhole: true, unit, bound }
     }
 
@@ -247,7 +247,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// Whether the kit passes in every row.
+    /// Whether pinhole passes in every row.
     pub fn held(&self) -> bool {
         self.outcomes.iter().filter(|outcome| outcome.method.of_pinhole).all(Outcome::passes)
     }

@@ -20,16 +20,16 @@ const AMONG: usize = 32;
 
 /// Rows of a case of hits, and of a case of starts.
 const HITS: [Method; 6] = [
-    Method::kit("kit, one cuboid and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 cuboids and 32 rays", "u of t", T_BOUND),
-    Method::kit("kit, the face that is met", "", 0.0),
+    Method::pinhole("pinhole, one cuboid and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 cuboids and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, the face that is met", "", 0.0),
     Method::naive("naive, slabs by min and max, f32", "u of t", T_BOUND),
     Method::naive("naive, far side widened, f32", "u of t", T_BOUND),
     Method::naive("naive, the face within 1e-4", "", 0.0),
 ];
 const STARTS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
-    Method::kit("kit, past it, outside one 4e-5 smaller", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, past it, outside one 4e-5 smaller", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
@@ -129,7 +129,7 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, slabs: &Slabs, exact: Option<f6
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every cuboid by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every cuboid by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(f64, usize)>], score: &mut Score) {
     bench.share(table(shots.iter().map(|(_, slabs)| *slabs).collect()));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();

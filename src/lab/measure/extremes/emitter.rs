@@ -18,26 +18,26 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 const TINY: [Method; 3] = [
-    Method::kit("kit, s² / (1 + √(1 − s²))", "of itself", 1e-15),
+    Method::pinhole("pinhole, s² / (1 + √(1 − s²))", "of itself", 1e-15),
     Method::naive("naive, 1 − √(1 − s²)", "of itself", 1e-15),
     Method::naive("naive, the same in f32", "of itself", 1e-15),
 ];
 const SLANT: [Method; 3] = [
-    Method::kit("kit, by the solid angle", "of the truth", 1e-3),
+    Method::pinhole("pinhole, by the solid angle", "of the truth", 1e-3),
     Method::naive("naive, without the light's cosine", "of the truth", 1e-3),
     Method::naive("naive, without distance and cosine", "of the truth", 1e-3),
 ];
 const NEAR: [Method; 2] = [
-    Method::kit("kit, evenly over the solid angle", "of the mean", 1.0),
+    Method::pinhole("pinhole, evenly over the solid angle", "of the mean", 1.0),
     Method::naive("naive, evenly over the area", "of the mean", 1.0),
 ];
 const TOUCHING: [Method; 2] = [
-    Method::kit("kit, evenly over the cone", "of the truth", 1e-3),
+    Method::pinhole("pinhole, evenly over the cone", "of the truth", 1e-3),
     Method::naive("naive, evenly over the sphere", "of the truth", 1e-3),
 ];
-const ENDS: [Method; 1] = [Method::kit("kit, every kind of light", "", 0.0)];
+const ENDS: [Method; 1] = [Method::pinhole("pinhole, every kind of light", "", 0.0)];
 const OWN: [Method; 2] = [
-    Method::kit("kit, to where the rounded ray ends", "", 0.0),
+    Method::pinhole("pinhole, to where the rounded ray ends", "", 0.0),
     Method::naive("naive, as far as the point was", "", 0.0),
 ];
 
@@ -158,13 +158,13 @@ fn check_touching(range: Range<u64>) -> Tally {
         let truth = PI / ((1.0 + apart) * (1.0 + apart));
         tally.count(true);
         let sphere = Emitter::Sphere { centre: axis, radius };
-        let kit = grid().map(|u| {
+        let pinhole = grid().map(|u| {
             let point = point_on(&sphere, DVec3::ZERO, u);
             normal.dot(point.to / point.to.length()).max(0.0) / point.pdf
         });
         let naive = grid().map(|u| irradiance_by_whole_sphere(axis, radius, normal, u));
         let off = |sum: f64| (sum / f64::from(SIDE * SIDE) / truth - 1.0).abs();
-        tally.scores[0].measure(off(kit.sum()));
+        tally.scores[0].measure(off(pinhole.sum()));
         tally.scores[1].measure(off(naive.sum()));
     }
     tally

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, least light of each byte", "", 0.0),
+    Method::pinhole("pinhole, least light of each byte", "", 0.0),
     Method::naive("naive, power 1 / 2.2", "", 0.0),
     Method::naive("naive, curve in f32, rounded", "", 0.0),
     Method::naive("naive, curve in f32, cut off", "", 0.0),

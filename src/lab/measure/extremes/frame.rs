@@ -21,7 +21,7 @@ const SIDE: u32 = 16;
 /// Rays of a frame.
 const RAYS: u64 = (SIDE * SIDE) as u64;
 
-const METHODS: [Method; 1] = [Method::kit("kit, frames of 16 x 16 through inspect", "u of t", T_BOUND)];
+const METHODS: [Method; 1] = [Method::pinhole("pinhole, frames of 16 x 16 through inspect", "u of t", T_BOUND)];
 
 /// The one case.
 pub fn trial() -> Trial {

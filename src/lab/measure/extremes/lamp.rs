@@ -17,12 +17,12 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const WALL: [Method; 3] = [
-    Method::kit("kit, reach of the light ray", "", 0.0),
+    Method::pinhole("pinhole, reach of the light ray", "", 0.0),
     Method::naive("naive, reach without end", "", 0.0),
     Method::naive("naive, reach to the light", "", 0.0),
 ];
 const BALL: [Method; 3] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];

@@ -13,24 +13,24 @@ use std::ops::Range;
 /// By how much the sum of |P| and 2|L| is rounded in f64: 4 roundings of 2⁻⁵³ each way.
 const FOCUS: f64 = 1e-15;
 const IN_FOCUS: [Method; 2] = [
-    Method::kit("kit, a plane across the axis", "of |P| + 2|L|", FOCUS),
+    Method::pinhole("pinhole, a plane across the axis", "of |P| + 2|L|", FOCUS),
     Method::naive("naive, so far along the ray", "of |P| + 2|L|", FOCUS),
 ];
 /// Points a shell; with n points a share p is off by 4 √(p (1 − p) / n) at most, in all but one of 16000 inputs.
 const POINTS: u32 = 4096;
 const SPREAD: f64 = 4.5 * 0.5 / 64.0;
 const EVENLY: [Method; 3] = [
-    Method::kit("kit, squares to circles", "of the area", SPREAD),
+    Method::pinhole("pinhole, squares to circles", "of the area", SPREAD),
     Method::naive("naive, a random radius", "of the area", SPREAD),
     Method::naive("naive, a square cut off", "of the area", SPREAD),
 ];
 const POLYGONS: [Method; 2] = [
-    Method::kit("kit, a triangle an edge", "of the area", SPREAD),
+    Method::pinhole("pinhole, a triangle an edge", "of the area", SPREAD),
     Method::naive("naive, the disk instead", "of the area", SPREAD),
 ];
 /// The edge of the circle, f64 and a quotient away.
 const CIRCLE: [Method; 2] = [
-    Method::kit("kit, a plane across the axis", "of the circle", 1e-9),
+    Method::pinhole("pinhole, a plane across the axis", "of the circle", 1e-9),
     Method::naive("naive, so far along the ray", "of the circle", 1e-9),
 ];
 

@@ -16,15 +16,15 @@ use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_s
 use std::ops::Range;
 
 const HIGHLIGHT: [Method; 2] =
-    [Method::kit("kit, Phong in f64", "of its doubt", 1.0), Method::naive("naive, in f32", "of its doubt", 1.0)];
+    [Method::pinhole("pinhole, Phong in f64", "of its doubt", 1.0), Method::naive("naive, in f32", "of its doubt", 1.0)];
 const SPOT: [Method; 3] = [
-    Method::kit("kit, by 1 - cos", "of the whole", 1e-8),
+    Method::pinhole("pinhole, by 1 - cos", "of the whole", 1e-8),
     Method::naive("naive, by cosines", "of the whole", 1e-8),
     Method::naive("naive, by cosines in f32", "of the whole", 1e-8),
 ];
 const SUN: [Method; 2] =
-    [Method::kit("kit, parallel rays", "u", 4.0), Method::naive("naive, a lamp 1e6 away", "u", 4.0)];
-const LIGHT: [Method; 2] = [Method::kit("kit, all its stages", "", 0.0), Method::naive("naive, in f32", "", 0.0)];
+    [Method::pinhole("pinhole, parallel rays", "u", 4.0), Method::naive("naive, a lamp 1e6 away", "u", 4.0)];
+const LIGHT: [Method; 2] = [Method::pinhole("pinhole, all its stages", "", 0.0), Method::naive("naive, in f32", "", 0.0)];
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
@@ -61,8 +61,8 @@ fn check_highlights(range: Range<u64>) -> Tally {
         tally.count(ahead);
         let doubt = exponent * libm::ldexp(1.0, -48) + libm::ldexp(1.0, -46);
         let [n, l, v] = [normal, to_light, to_eye].map(Vec3::as_dvec3);
-        let kit = highlight(phong_peak(exponent), exponent, mirror_cosine(n, l, v)) / phong_peak(exponent);
-        tally.scores[0].measure((kit - exact).abs() / doubt);
+        let pinhole = highlight(phong_peak(exponent), exponent, mirror_cosine(n, l, v)) / phong_peak(exponent);
+        tally.scores[0].measure((pinhole - exact).abs() / doubt);
         let naive = highlight_f32(1.0, exponent as f32, normal, to_light, to_eye);
         tally.scores[1].measure((f64::from(naive) - exact).abs() / doubt);
     }
@@ -104,7 +104,7 @@ fn edge_of(degrees: f64) -> f64 {
     degrees * std::f64::consts::PI / 360.0
 }
 
-/// Irradiance from a sun by the kit's stage, against E cos θ.
+/// Irradiance from a sun by pinhole's stage, against E cos θ.
 fn check_suns(range: Range<u64>) -> Tally {
     let (mut tally, mut bench) =
         (Tally::new(SUN.len()), Bench::new(&[shade::start_light_stage(), shade::directional_light_stage()]));
@@ -132,10 +132,10 @@ fn check_suns(range: Range<u64>) -> Tally {
         });
         bench.run();
         let rays = bench.column::<LightRays>();
-        let (kit, reach) =
+        let (pinhole, reach) =
             rays.r.first().zip(rays.reach.first()).map_or((0.0, f32::INFINITY), |(&r, &reach)| (r, reach));
         tally.scores[0].check(reach == f32::INFINITY);
-        tally.scores[0].measure((f64::from(kit) - exact).abs() / U);
+        tally.scores[0].measure((f64::from(pinhole) - exact).abs() / U);
         let naive = sun_as_a_far_lamp(1.0, to_light.as_vec3(), position, normal);
         tally.scores[1].measure((f64::from(naive.max(0.0)) - exact).abs() / U);
     }

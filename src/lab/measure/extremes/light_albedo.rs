@@ -13,14 +13,14 @@ use std::ops::Range;
 const OFF: f64 = 1e-9;
 
 const SQUARE: [Method; 4] = [
-    Method::kit("kit, Phong", "off 1", OFF),
-    Method::kit("kit, Blinn-Phong", "off 1", OFF),
+    Method::pinhole("pinhole, Phong", "off 1", OFF),
+    Method::pinhole("pinhole, Blinn-Phong", "off 1", OFF),
     Method::naive("naive, Phong without a factor", "off 1", OFF),
     Method::naive("naive, Blinn-Phong, (n + 8) / 8 pi", "off 1", OFF),
 ];
 const SLANT: [Method; 4] = [
-    Method::kit("kit, Phong", "over 1", OFF),
-    Method::kit("kit, Blinn-Phong", "over 1", OFF),
+    Method::pinhole("pinhole, Phong", "over 1", OFF),
+    Method::pinhole("pinhole, Blinn-Phong", "over 1", OFF),
     Method::naive("naive, Phong, slant forgotten", "over 1", OFF),
     Method::naive("naive, Blinn-Phong, (n + 8) / 8 pi", "over 1", OFF),
 ];

@@ -17,31 +17,31 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
 
 const FACING: [Method; 2] = [
-    Method::kit("kit, a sum of squares", "of itself", 1e-6),
+    Method::pinhole("pinhole, a sum of squares", "of itself", 1e-6),
     Method::naive("naive, textbook in f32", "of itself", 1e-6),
 ];
 const DENSER: [Method; 3] = [
-    Method::kit("kit, by g", "of all", 3e-7),
+    Method::pinhole("pinhole, by g", "of all", 3e-7),
     Method::naive("naive, by sines in f32", "of all", 3e-7),
     Method::naive("naive, Schlick", "of all", 3e-7),
 ];
 const THINNER: [Method; 3] = [
-    Method::kit("kit, by g", "of all", 5e-6),
+    Method::pinhole("pinhole, by g", "of all", 5e-6),
     Method::naive("naive, by sines in f32", "of all", 5e-6),
     Method::naive("naive, Schlick", "of all", 5e-6),
 ];
 const CRITICAL: [Method; 2] =
-    [Method::kit("kit, by g", "of all", 3e-4), Method::naive("naive, by sines in f32", "of all", 3e-4)];
+    [Method::pinhole("pinhole, by g", "of all", 3e-4), Method::naive("naive, by sines in f32", "of all", 3e-4)];
 const BENT: [Method; 2] =
-    [Method::kit("kit", "of the sine", 1e-12), Method::naive("naive, root unchecked", "of the sine", 1e-12)];
+    [Method::pinhole("pinhole", "of the sine", 1e-12), Method::naive("naive, root unchecked", "of the sine", 1e-12)];
 const FRAME: [Method; 2] =
-    [Method::kit("kit, Duff and others", "u", 4.0), Method::naive("naive, Frisvad in f32", "u", 4.0)];
+    [Method::pinhole("pinhole, Duff and others", "u", 4.0), Method::naive("naive, Frisvad in f32", "u", 4.0)];
 const SQUARELY: [Method; 2] =
-    [Method::kit("kit", "off 1 - ln 2", 1e-6), Method::naive("naive, no masking", "off 1 - ln 2", 1e-6)];
-const OVER: [Method; 2] = [Method::kit("kit", "over 1", 1e-6), Method::naive("naive, no masking", "over 1", 1e-6)];
+    [Method::pinhole("pinhole", "off 1 - ln 2", 1e-6), Method::naive("naive, no masking", "off 1 - ln 2", 1e-6)];
+const OVER: [Method; 2] = [Method::pinhole("pinhole", "over 1", 1e-6), Method::naive("naive, no masking", "over 1", 1e-6)];
 const WHOLE: [Method; 2] =
-    [Method::kit("kit, several tiny mirrors", "off 1", 1e-2), Method::naive("naive, one tiny mirror", "off 1", 1e-2)];
-const NUMBERS: [Method; 1] = [Method::kit("kit", "", 0.0)];
+    [Method::pinhole("pinhole, several tiny mirrors", "off 1", 1e-2), Method::naive("naive, one tiny mirror", "off 1", 1e-2)];
+const NUMBERS: [Method; 1] = [Method::pinhole("pinhole", "", 0.0)];
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
@@ -165,9 +165,9 @@ fn check_bent(range: Range<u64>) -> Tally {
         let (passes, uncertain) = (squared > 0.0, squared.abs() < 1e-14);
         tally.count(passes);
         let snell = |bent: DVec3| (bent.cross(normal) * eta - direction.cross(normal)).length();
-        let kit = refract(direction, normal, eta);
-        tally.scores[0].check(uncertain || kit.is_some() == passes);
-        if let Some(bent) = kit {
+        let pinhole = refract(direction, normal, eta);
+        tally.scores[0].check(uncertain || pinhole.is_some() == passes);
+        if let Some(bent) = pinhole {
             tally.scores[0].check(bent.is_finite() && bent.dot(normal) <= 0.0);
             tally.scores[0].measure(snell(bent));
         }

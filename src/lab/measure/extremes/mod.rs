@@ -1,7 +1,7 @@
-//! Extremes: the kit's own methods where numbers are hardest, beside the naive ones and the exact truth.
+//! Extremes: pinhole's own methods where numbers are hardest, beside the naive ones and the exact truth.
 //!
 //! Reads: aimed rays and cameras, each a function of (seed, index), so that every failure can be had again.
-//! Writes: [`Case`]s. Every case runs the kit's own functions and stages; nothing is copied here.
+//! Writes: [`Case`]s. Every case runs pinhole's own functions and stages; nothing is copied here.
 //! Zero failures in N rays bound the rate at 3/N (with 95 % confidence), so every case says its N.
 
 mod bench;

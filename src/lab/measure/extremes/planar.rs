@@ -20,13 +20,13 @@ const AMONG: usize = 32;
 
 /// Rows of a case of hits, and of a case of starts.
 const HITS: [Method; 3] = [
-    Method::kit("kit, one piece and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 pieces and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, one piece and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 pieces and 32 rays", "u of t", T_BOUND),
     Method::naive("naive, f32 hit point, then inside", "u of t", T_BOUND),
 ];
 const STARTS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
-    Method::kit("kit, past it, short of one 4e-5 behind", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, past it, short of one 4e-5 behind", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
@@ -79,7 +79,7 @@ impl Kind {
         }
     }
 
-    /// The distance by the kit's function of one ray and one piece.
+    /// The distance by pinhole's function of one ray and one piece.
     fn by_function(self, ray: AimedRay, planar: &Planar) -> f64 {
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         match self {
@@ -168,7 +168,7 @@ fn check_alone(kind: Kind, bench: &mut Bench, ray: AimedRay, planar: &Planar, ex
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every piece by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every piece by pinhole's function, to the last bit.
 fn check_among(kind: Kind, bench: &mut Bench, shots: &[(AimedRay, Planar)], exact: &[Option<f64>], score: &mut Score) {
     kind.share(bench, shots.iter().map(|(_, planar)| *planar).collect());
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();

@@ -55,15 +55,15 @@ impl Case {
     /// The input at which the first naive method that breaks is at its worst, and what is said of it.
     pub fn worst_lines(&self) -> Vec<String> {
         let Some(Worst { method: row, input, scores }) = &self.worst else { return Vec::new() };
-        let (naive, kit, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
+        let (naive, pinhole, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
         let word = if naive.wrong > 0 { "first wrong" } else { "at its worst" };
         let mut lines = vec![format!("{word} at input {input}: {}", method.name)];
-        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, kit.said) {
-            let [naive, kit, exact] = [naive, kit, exact].map(said);
-            lines.push(format!("  naive {naive}, kit {kit}, exact {exact}"));
-        } else if naive.wrong == 0 && kit.wrong == 0 && method.unit == self.outcomes[0].method.unit {
-            let [naive, kit] = [naive, kit].map(|score| short(score.worst));
-            lines.push(format!("  naive off by {naive} {unit}, kit by {kit} {unit}", unit = method.unit));
+        if let (Some([naive, exact]), Some([pinhole, _])) = (naive.said, pinhole.said) {
+            let [naive, pinhole, exact] = [naive, pinhole, exact].map(said);
+            lines.push(format!("  naive {naive}, pinhole {pinhole}, exact {exact}"));
+        } else if naive.wrong == 0 && pinhole.wrong == 0 && method.unit == self.outcomes[0].method.unit {
+            let [naive, pinhole] = [naive, pinhole].map(|score| short(score.worst));
+            lines.push(format!("  naive off by {naive} {unit}, pinhole by {pinhole} {unit}", unit = method.unit));
         }
         lines
     }

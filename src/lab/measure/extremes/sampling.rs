@@ -16,22 +16,22 @@ const WIDTH: u32 = 65_536;
 const MANY: u32 = 64;
 
 const IN_PIXEL: [Method; 2] =
-    [Method::kit("kit, number and 24 bits in f64", "pixel", 0.0), Method::naive("naive, added in f32", "pixel", 0.0)];
+    [Method::pinhole("pinhole, number and 24 bits in f64", "pixel", 0.0), Method::naive("naive, added in f32", "pixel", 0.0)];
 const BELOW_ONE: [Method; 2] =
-    [Method::kit("kit, the first 24 bits", "", 0.0), Method::naive("naive, all 32 bits in f32", "", 0.0)];
+    [Method::pinhole("pinhole, the first 24 bits", "", 0.0), Method::naive("naive, all 32 bits in f32", "", 0.0)];
 const NEIGHBOURS: [Method; 3] = [
-    Method::kit("kit, Sobol", "", 0.0),
-    Method::kit("kit, independent", "", 0.0),
+    Method::pinhole("pinhole, Sobol", "", 0.0),
+    Method::pinhole("pinhole, independent", "", 0.0),
     Method::naive("naive, one pattern for all", "", 0.0),
 ];
 /// An edge of a stripe can be misjudged by one of the 64 samples, and a pixel holds at most five.
 const STRIPES: [Method; 3] = [
-    Method::kit("kit, Sobol, 64 samples", "of full", 5.0 / MANY as f64),
+    Method::pinhole("pinhole, Sobol, 64 samples", "of full", 5.0 / MANY as f64),
     Method::naive("naive, the centre alone", "of full", 5.0 / MANY as f64),
     Method::naive("naive, a grid of 8 × 8", "of full", 5.0 / MANY as f64),
 ];
 const CONSTANT: [Method; 2] = [
-    Method::kit("kit, by the sum of the weights", "of itself", 0.0),
+    Method::pinhole("pinhole, by the sum of the weights", "of itself", 0.0),
     Method::naive("naive, by the number of samples", "of itself", 0.0),
 ];
 

@@ -30,7 +30,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
@@ -118,7 +118,7 @@ fn start_on_sphere(
     Some((side, surface, leave(stages, surface, size, draws)?))
 }
 
-/// Whether the start lies strictly on the viewer's side, and the kit's kernels say of the ray what is exactly so:
+/// Whether the start lies strictly on the viewer's side, and pinhole's kernels say of the ray what is exactly so:
 /// from outside a ray that leaves never comes back, from inside it meets the far side.
 fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;

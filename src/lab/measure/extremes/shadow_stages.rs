@@ -1,4 +1,4 @@
-//! From a ray to the shadow ray that leaves its hit, through the kit's stages.
+//! From a ray to the shadow ray that leaves its hit, through pinhole's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
 use crate::measure::oracle_plane::Plane;

@@ -42,7 +42,7 @@ fn one_by_one<Tool: 'static>(
 fn hit_points() -> Trial {
     const UNIT: &str = "u(|c|+r)";
     const ROWS: [Method; 2] =
-        [Method::kit("kit, hit point from the eye", UNIT, 4.0), Method::naive("naive o + td in the world", UNIT, 4.0)];
+        [Method::pinhole("pinhole, hit point from the eye", UNIT, 4.0), Method::naive("naive o + td in the world", UNIT, 4.0)];
     one_by_one(
         "hit points before an eye at (1e4, 1e4, 1e4)",
         &ROWS,
@@ -66,7 +66,7 @@ fn hit_points() -> Trial {
 /// Two shells 4e-5 of their radius apart: what leaves the inner one outwards meets the outer one.
 fn shells() -> Trial {
     const ROWS: [Method; 3] = [
-        Method::kit("kit, bound of the hit", "", 0.0),
+        Method::pinhole("pinhole, bound of the hit", "", 0.0),
         Method::naive("naive, t > 1e-3", "", 0.0),
         Method::naive("naive, hit + 1e-4 n", "", 0.0),
     ];
@@ -98,8 +98,8 @@ fn shells() -> Trial {
 /// A direction 2ᵏ times as long gives t / 2ᵏ, to the last bit, for spheres and planes.
 fn lengths_of_directions() -> Trial {
     const ROWS: [Method; 4] = [
-        Method::kit("kit, sphere, every bit of t", "", 0.0),
-        Method::kit("kit, plane, every bit of t", "", 0.0),
+        Method::pinhole("pinhole, sphere, every bit of t", "", 0.0),
+        Method::pinhole("pinhole, plane, every bit of t", "", 0.0),
         Method::naive("naive b2 - 4ac, f32", "", 0.0),
         Method::naive("naive, |n.d| > 1e-6, t > 1e-3, f32", "", 0.0),
     ];
@@ -137,7 +137,7 @@ fn sphere_bench() -> Bench {
 /// meet what they meet alone.
 fn no_rays() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, meets nothing, spoils nothing", "", 0.0),
+        Method::pinhole("pinhole, meets nothing, spoils nothing", "", 0.0),
         Method::naive("naive, kept unless farther, f32", "", 0.0),
     ];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, sphere_bench, |bench, index, tally| {
@@ -172,7 +172,7 @@ fn no_rays() -> Trial {
 
 /// A ray that looks without end, and one that looks as far as 1e30: both meet the same at the same distance.
 fn ends() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the same hits", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the same hits", "", 0.0)];
     let bench = || Bench::new(&[sphere_stage()]);
     one_by_one("rays that end at 1e30, and without end", &ROWS, bench, |bench, index, tally| {
         let (ray, sphere) = silhouette(139, index, 1e3);

@@ -16,8 +16,8 @@ use std::ops::Range;
 const AMONG: usize = 32;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, one ellipsoid and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 ellipsoids and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, one ellipsoid and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 ellipsoids and 32 rays", "u of t", T_BOUND),
     Method::naive("naive, unit direction in the object", "u of t", T_BOUND),
     Method::naive("naive b2 - 4ac in the object, f32", "u of t", T_BOUND),
 ];
@@ -80,7 +80,7 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Op
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every ellipsoid by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every ellipsoid by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Option<f64>], score: &mut Score) {
     bench.share(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();

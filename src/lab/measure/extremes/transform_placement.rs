@@ -21,13 +21,13 @@ use std::ops::Range;
 const SCENES: u64 = 200_000;
 
 const PLANES: [Method; 2] = [
-    Method::kit("kit, normal, angle to the exact one", "u", 4.0),
+    Method::pinhole("pinhole, normal, angle to the exact one", "u", 4.0),
     Method::naive("naive, normal as a direction", "u", 4.0),
 ];
-const PIXELS: [Method; 1] = [Method::kit("kit, inverse of each placement", "px", 1e-6)];
-const REFUSALS: [Method; 1] = [Method::kit("kit, refused beyond, taken within", "", 0.0)];
+const PIXELS: [Method; 1] = [Method::pinhole("pinhole, inverse of each placement", "px", 1e-6)];
+const REFUSALS: [Method; 1] = [Method::pinhole("pinhole, refused beyond, taken within", "", 0.0)];
 const LOOK_AT: [Method; 2] =
-    [Method::kit("kit, refused or orthonormal", "u", 4.0), Method::naive("naive, cross and normalize", "u", 4.0)];
+    [Method::pinhole("pinhole, refused or orthonormal", "u", 4.0), Method::naive("naive, cross and normalize", "u", 4.0)];
 
 /// The cases of placements.
 pub fn trials() -> Vec<Trial> {
@@ -117,8 +117,8 @@ fn check_planes(range: Range<u64>) -> Tally {
         let normals = [table.normal[0], normal_as_direction(map.matrix3, normal)].map(|normal| normal.as_vec3());
         let enclosed = Some(normal_through::<Enclosure>(&chain, normal));
         match angles(normals, enclosed, || Some(normal_through::<Dyadic>(&chain, normal))) {
-            Some([kit, naive]) => {
-                tally.scores[0].measure(kit);
+            Some([pinhole, naive]) => {
+                tally.scores[0].measure(pinhole);
                 tally.scores[1].measure(naive);
             }
             None => tally.scores[0].check(false),

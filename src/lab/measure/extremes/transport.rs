@@ -19,22 +19,22 @@ const ERRORS: f64 = 4.0;
 const CAP: u32 = 64;
 
 const WEIGHTS: [Method; 2] = [
-    Method::kit("kit, the ratio squared", "off 1", 2.0 * f64::EPSILON),
+    Method::pinhole("pinhole, the ratio squared", "off 1", 2.0 * f64::EPSILON),
     Method::naive("naive, squares in f32", "off 1", 1e-6),
 ];
 const ROULETTE: [Method; 3] = [
-    Method::kit("kit, ends by chance, weighed", "of itself", 0.0),
+    Method::pinhole("pinhole, ends by chance, weighed", "of itself", 0.0),
     Method::naive("naive, ends after 64 legs", "of itself", 0.0),
     Method::naive("naive, ends by chance, not weighed", "of itself", 0.0),
 ];
 const SKY: [Method; 4] = [
-    Method::kit("kit, as dense as the cosine", "of itself", 1e-10),
+    Method::pinhole("pinhole, as dense as the cosine", "of itself", 1e-10),
     Method::naive("naive, directions alike, no cosine", "of itself", 1e-10),
     Method::naive("naive, pi forgotten", "of itself", 1e-10),
     Method::naive("naive, cosine counted twice", "of itself", 1e-10),
 ];
 const LAMP: [Method; 3] = [
-    Method::kit("kit, as dense as the cosine", "of all", 0.01),
+    Method::pinhole("pinhole, as dense as the cosine", "of all", 0.01),
     Method::naive("naive, density of other directions", "of all", 0.01),
     Method::naive("naive, Jacobian forgotten", "of all", 0.01),
 ];

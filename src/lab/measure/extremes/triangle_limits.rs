@@ -42,7 +42,7 @@ fn at_edge(seed: u64, index: u64) -> (AimedRay, Corners) {
 /// Corners on a grid of eighths and rays along the axes or nearly: by parts of 0 with either sign, and denormal ones.
 fn axes() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, hit or miss, t", "u of t", T_BOUND),
+        Method::pinhole("pinhole, hit or miss, t", "u of t", T_BOUND),
         Method::naive("naive Moller-Trumbore, 1e-6, f32", "u of t", T_BOUND),
     ];
     one_by_one("parts of 0, -0 and denormal, corners on a grid", &ROWS, |bench, index, tally| {
@@ -73,7 +73,7 @@ fn axes() -> Trial {
 /// A direction 2ᵏ times as long gives t / 2ᵏ, to the last bit.
 fn lengths_of_directions() -> Trial {
     const ROWS: [Method; 2] =
-        [Method::kit("kit, every bit of t", "", 0.0), Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0)];
+        [Method::pinhole("pinhole, every bit of t", "", 0.0), Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0)];
     one_by_one("directions 2^-60 to 2^60 long", &ROWS, |_, index, tally| {
         let (ray, corners) = at_edge(262, index);
         let scale = libm::ldexp(1.0, Draws::new(263, index).between(-60.0, 61.0).floor() as i32);
@@ -92,7 +92,7 @@ fn lengths_of_directions() -> Trial {
 /// One ray of a block has a part that is no number or not finite, or no direction: it meets nothing, and its neighbours
 /// meet what they meet alone.
 fn no_rays() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, meets nothing, spoils nothing", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, meets nothing, spoils nothing", "", 0.0)];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, |bench, index, tally| {
         let shot = |component: usize| at_edge(264, index * BLOCK as u64 + component as u64);
         let (mut rays, corners): (Vec<AimedRay>, Vec<Corners>) = (0..BLOCK).map(shot).unzip();
@@ -123,7 +123,7 @@ fn no_rays() -> Trial {
 
 /// A ray that looks without end, and one that looks as far as 1e30: both meet the same at the same distance.
 fn ends() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the same hits", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the same hits", "", 0.0)];
     Trial::new(Group::Triangle, "rays that end at 1e30, and without end", &ROWS, |range| {
         let (mut tally, mut bench) = (Tally::new(ROWS.len()), Bench::new(&[triangle_stage()]));
         for index in range {
@@ -152,7 +152,7 @@ fn ends() -> Trial {
 
 /// The same three corners several times, in any order: the lowest number is met, at the same distance to the last bit.
 fn duplicates() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the lowest number, the same t", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the lowest number, the same t", "", 0.0)];
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     one_by_one("six triangles of the same three corners", &ROWS, |bench, index, tally| {
         let view = View { seed: 266, thinnest: 3.0, aim: SampleLights::Inside, from: From::Anywhere(6.0) };

@@ -17,14 +17,14 @@ const RAYS_A_MESH: u64 = 512;
 const AT_ONCE: usize = 64;
 
 const METHODS: [Method; 3] = [
-    Method::kit("kit, no ray leaks", "", 0.0),
-    Method::kit("kit, faces about the edge or corner", "u of t", T_BOUND),
+    Method::pinhole("pinhole, no ray leaks", "", 0.0),
+    Method::pinhole("pinhole, faces about the edge or corner", "u of t", T_BOUND),
     Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0),
 ];
 /// Rows of the case where rays lie on edges exactly.
 const ON_EDGES: [Method; 3] = [
-    Method::kit("kit, no ray leaks", "", 0.0),
-    Method::kit("kit, every face", "u of t", T_BOUND),
+    Method::pinhole("pinhole, no ray leaks", "", 0.0),
+    Method::pinhole("pinhole, every face", "u of t", T_BOUND),
     Method::naive("naive, strictly inside, f64", "", 0.0),
 ];
 

@@ -18,9 +18,9 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 7] = [
-    Method::kit("kit, shadow rays, bound of the hit", "", 0.0),
-    Method::kit("kit, normal, angle to the exact one", "u", 2.0),
-    Method::kit("kit, hit point, off the exact plane", "u(|p|)", 1.1),
+    Method::pinhole("pinhole, shadow rays, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, normal, angle to the exact one", "u", 2.0),
+    Method::pinhole("pinhole, hit point, off the exact plane", "u(|p|)", 1.1),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
@@ -103,8 +103,8 @@ fn check_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut T
     let [a, b, c] = corners.map(|corner| corner.as_vec3());
     let naive = (b - a).cross(c - a).normalize_or_zero() * turn as f32;
     let exact = || Some(ExactVector::of(scaled));
-    if let Some([kit, naive]) = angles([surface.normal, naive], None, exact) {
-        tally.scores[1].measure(kit);
+    if let Some([pinhole, naive]) = angles([surface.normal, naive], None, exact) {
+        tally.scores[1].measure(pinhole);
         tally.scores[6].measure(naive);
     } else {
         tally.scores[1].check(false);
@@ -112,8 +112,8 @@ fn check_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut T
 }
 
 const SHARES: [Method; 3] = [
-    Method::kit("kit, each corner's share", "u", 1.0),
-    Method::kit("kit, mean of three normals, its length", "u", 1.0),
+    Method::pinhole("pinhole, each corner's share", "u", 1.0),
+    Method::pinhole("pinhole, mean of three normals, its length", "u", 1.0),
     Method::naive("naive, shares by areas from o + td", "u", 1.0),
 ];
 

@@ -1,4 +1,4 @@
-//! Slips between rays and triangles.
+//! Mistakes between rays and triangles.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{ShapeTable, TriangleTable};
@@ -10,8 +10,8 @@ use pinhole::rays::WorldRays;
 pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for row in 0..rays.rows() {
-            for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
-                let ([a, b, c], direction) = (facet.corners, rays.direction_of(row));
+            for (triangle, &number) in triangles.facet.iter().zip(&triangles.shape) {
+                let ([a, b, c], direction) = (triangle.corners, rays.direction_of(row));
                 let (e1, e2, s) = (b - a, c - a, rays.origin_of(row) - a);
                 let (p, q) = (direction.cross(e2), s.cross(e1));
                 let (determinant, t) = (e1.dot(p), e2.dot(q) / e1.dot(p));
@@ -24,7 +24,7 @@ pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&World
     }
 }
 
-/// Each corner's share given to the next one.
+/// Each corner's barycentric coordinate given to the next one.
 pub fn next_corner(
     triangles: Res<Shared<TriangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
@@ -33,11 +33,11 @@ pub fn next_corner(
     for (rays, hits, list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let facet = &triangles.facet[shapes.row[hits.shape[row] as usize] as usize];
-            let mut meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), facet);
+            let triangle = &triangles.facet[shapes.row[hits.shape[row] as usize] as usize];
+            let mut meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), triangle);
             meeting.weights.rotate_left(1);
             let mut surface = surfaces.get(row);
-            surface.position = meeting.mix(&facet.corners).as_vec3();
+            surface.position = meeting.mix(&triangle.corners).as_vec3();
             surfaces.set(row, surface);
         }
     }
