@@ -11,7 +11,7 @@ use pinhole_lab::report::curve::{Curve, Level};
 use pinhole_lab::report::ensemble::{Ensemble, Reference};
 use pinhole_lab::report::interval::LEVEL;
 use pinhole_lab::report::refused::{Refused, disjoint};
-use synthetic::{Noise, BATCHES, Renderer};
+use synthetic::{BATCHES, Noise, Renderer};
 
 /// Repetitions of each case here; `cargo bench --bench coverage` makes 4,000.
 const REPETITIONS: usize = 60;

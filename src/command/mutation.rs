@@ -41,7 +41,8 @@ pub fn mutate(
             let difference = told(&compared);
             let file = keep_page(asked, &page(&heading, intro, &[compared])?)?;
             let (name, mistake) = (mutation.name, mutation.mistake);
-            let mutation = json!({ "mutation": name, "mistake": mistake, "difference": difference, "files": [shown(&file)] });
+            let mutation =
+                json!({ "mutation": name, "mistake": mistake, "difference": difference, "files": [shown(&file)] });
             return print_json(&mutation, out);
         }
         writeln!(out, "{}: {}", compared.name, compared.headline())?;

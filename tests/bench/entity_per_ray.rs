@@ -94,7 +94,8 @@ fn time(resolution: Resolution, pairs: usize, report: &mut String) {
     );
     for (what, logs) in [("spawn and run", all), ("run alone", runs)] {
         let (low, middle, high) = interval(&logs);
-        let _ = writeln!(report, "entities over pinhole, {what}: {middle:.2} [{low:.2}, {high:.2}] with 95 % confidence");
+        let _ =
+            writeln!(report, "entities over pinhole, {what}: {middle:.2} [{low:.2}, {high:.2}] with 95 % confidence");
     }
 }
 

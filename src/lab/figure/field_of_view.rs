@@ -28,8 +28,9 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let angle = libm::atan(tangent);
     arc(&mut svg, eye, scale * 0.62, -angle, angle, Pen::new(INK, 1.1));
     arc(&mut svg, eye, scale * 0.36, 0.0, angle, Pen::new(RAY, 1.8));
-    let along =
-        |fraction: f64, at: f64| eye + scale * at * DVec2::new(libm::cos(fraction * angle), -libm::sin(fraction * angle));
+    let along = |fraction: f64, at: f64| {
+        eye + scale * at * DVec2::new(libm::cos(fraction * angle), -libm::sin(fraction * angle))
+    };
     svg.label(Label::near(along(-0.5, 0.62), "*α*", DVec2::new(1.0, 0.25), 6.0));
     svg.label(Label::near(along(0.5, 0.36), "*α*/2", DVec2::new(1.0, -0.25), 5.0).coloured(RAY));
     svg.label(Label::near(at(0.0, 0.0), "eye", DVec2::new(-1.0, 0.0), 9.0));

@@ -48,8 +48,9 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let half = at(45.0, -0.16);
         svg.label(Label::near(half, &format!("{told}, *η* = {eta:.3}"), DVec2::Y, 4.0).title(0.95));
         if panel == 0 {
-            let named =
-                |degrees: f64, curve_of: fn(f64, f64) -> f64| at(degrees, curve_of(libm::cos(degrees.to_radians()), eta));
+            let named = |degrees: f64, curve_of: fn(f64, f64) -> f64| {
+                at(degrees, curve_of(libm::cos(degrees.to_radians()), eta))
+            };
             let across = named(66.0, |cosine, eta| fresnel_parts(cosine, eta)[0]);
             svg.label(Label::near(across, "*s*-polarised", DVec2::new(-1.0, -1.0), 8.0));
             let within = named(74.0, |cosine, eta| fresnel_parts(cosine, eta)[1]);

@@ -64,7 +64,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let mirrored = direction(degrees.to_radians());
         for ((pen, model), name) in models.iter().zip(&names) {
             let colour = pen.colour;
-            let at = |angle: f64| foot + planar(direction(angle)) * (EXTENT * model([arrives, direction(angle)]) / longest);
+            let at =
+                |angle: f64| foot + planar(direction(angle)) * (EXTENT * model([arrives, direction(angle)]) / longest);
             let across = |angle: f64| {
                 let eye = mirrored * libm::cos(angle) + DVec3::Z * libm::sin(angle);
                 beside + planar(direction(angle)) * (EXTENT * model([arrives, eye]) / longest)

@@ -31,7 +31,8 @@ impl Patch {
         let u = along.try_normalize().unwrap_or_else(|| planar.normal.any_orthonormal_vector());
         let v = planar.normal.cross(u);
         let origin = planar.normal * planar.offset;
-        let foot = |&(centre, extent): &Extent| (DVec2::new((centre - origin).dot(u), (centre - origin).dot(v)), extent);
+        let foot =
+            |&(centre, extent): &Extent| (DVec2::new((centre - origin).dot(u), (centre - origin).dot(v)), extent);
         let feet: Vec<(DVec2, f64)> = things.iter().map(foot).collect();
         let (low, high) = bounds(feet.iter().map(|&(at, _)| at));
         let margin = 0.07 * (high - low).max_element().max(1e-9);
@@ -189,7 +190,9 @@ mod tests {
         let patch = ground();
         let extent = patch.corners().iter().map(|corner| corner.length()).fold(0.0, f64::max);
         assert!(patch.lines().len() >= 10);
-        assert!(patch.lines().iter().flatten().all(|end| end.length() <= extent + 1e-9 && end.length() > 0.95 * extent));
+        assert!(
+            patch.lines().iter().flatten().all(|end| end.length() <= extent + 1e-9 && end.length() > 0.95 * extent)
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::Picture;
 use super::svg::Drawing;
 use crate::naive::mistake::{
-    light_samples_counted_in_full, glass_that_keeps_beams_narrow, metal_counted_as_matte, sky_in_all_directions_alike,
+    glass_that_keeps_beams_narrow, light_samples_counted_in_full, metal_counted_as_matte, sky_in_all_directions_alike,
 };
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;

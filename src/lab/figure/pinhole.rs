@@ -45,7 +45,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn eye_scenery<'s>(subject: &'s Subject, rays: &[&PixelRay], room: Frame) -> Result<Scenery<'s>> {
     let most = drawn_distance(subject);
     // One decimal, since the figure's foot says it.
-    let grids = [1.0, 0.8, 0.65, 0.5].map(|fraction| Grid::of(subject, ((most * fraction * 10.0).floor() / 10.0).max(0.1)));
+    let grids =
+        [1.0, 0.8, 0.65, 0.5].map(|fraction| Grid::of(subject, ((most * fraction * 10.0).floor() / 10.0).max(0.1)));
     best_scenery(subject, &grids, rays, &[(DVec3::ZERO, 0.1)], room)
 }
 
@@ -74,8 +75,9 @@ pub fn chosen_rays(subject: &Subject) -> Vec<&PixelRay> {
             subject.rays.iter().filter(|ray| ray.hit.is_some_and(|(_, shape)| shape == ball.shape)).collect();
         let off = |ray: &PixelRay| (ball.centre - ray.origin).cross(ray.direction).length();
         // A lit ray first; among equals the one that passes nearest the centre.
-        let best =
-            hitting.iter().min_by(|a, b| a.lit().is_none().cmp(&b.lit().is_none()).then_with(|| off(a).total_cmp(&off(b))));
+        let best = hitting
+            .iter()
+            .min_by(|a, b| a.lit().is_none().cmp(&b.lit().is_none()).then_with(|| off(a).total_cmp(&off(b))));
         chosen.extend(best.map(|ray| (hitting.len(), *ray)));
     }
     chosen.sort_by_key(|(count, ray)| (ray.lit().is_none(), std::cmp::Reverse(*count)));

@@ -157,7 +157,11 @@ fn turn(axes: Res<Shared<CameraAxes>>, mut rays: Query<(&CameraRay, &mut WorldRa
     }
 }
 
-fn intersect(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut rays: Query<(&WorldRay, &mut Hit)>) {
+fn intersect(
+    spheres: Res<Shared<SphereTable>>,
+    planes: Res<Shared<PlaneTable>>,
+    mut rays: Query<(&WorldRay, &mut Hit)>,
+) {
     for (ray, mut hit) in &mut rays {
         let [origin, direction] = ray.0.map(|part| part.as_dvec3());
         let inverse = 1.0 / direction.dot(direction);

@@ -45,7 +45,7 @@ mod tests {
             naive.is_some() != plane_hit(ray.origin, ray.direction, plane).is_some()
         };
         let wrong = (0..RAYS).filter(|index| wrong(*index)).count();
-        eprintln!("{RAYS} rays at planes of any offset, {wrong} misjudged by the textbook in f32");
+        eprintln!("{RAYS} rays at planes of any offset, {wrong} misclassified by the textbook in f32");
         assert!(wrong > 0, "the textbook is expected to break");
     }
 }

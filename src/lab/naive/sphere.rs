@@ -28,7 +28,7 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Opti
 /// The same formula, halved, in f64 on f32 rays: the usual first repair.
 ///
 /// It moves the failure away rather than removing it: b² and ac still agree in all but their last
-/// digits when the sphere is far, so at 10^7 radii some silhouette rays are misjudged, and close
+/// digits when the sphere is far, so at 10^7 radii some silhouette rays are misclassified, and close
 /// above a large sphere the near root loses its digits.
 #[must_use]
 pub fn hit_f64_plain(origin: Vec3, direction: Vec3, centre: DVec3, radius: f64) -> Option<f64> {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     /// How many silhouette rays a method classifies otherwise than the oracle, both on an f32 sphere.
-    fn misjudged(rays: u64, distance: f64, hits: impl Fn(AimedRay, Vec3, f32) -> bool) -> usize {
+    fn misclassified(rays: u64, distance: f64, hits: impl Fn(AimedRay, Vec3, f32) -> bool) -> usize {
         let wrong = |(ray, sphere): (AimedRay, Sphere)| {
             let sphere = sphere.rounded_to_f32();
             let (centre, radius) = (sphere.centre.as_vec3(), sphere.radius as f32);
@@ -139,18 +139,18 @@ mod tests {
     fn all_three_break_at_the_silhouette() {
         const RAYS: u64 = 4000;
         for distance in [1e3, 1e5, 1e7] {
-            let plain = misjudged(RAYS, distance, |ray, centre, radius| {
+            let plain = misclassified(RAYS, distance, |ray, centre, radius| {
                 hit_f32(ray.origin, ray.direction, centre, radius).is_some()
             });
-            let haines = misjudged(RAYS, distance, |ray, centre, radius| {
+            let haines = misclassified(RAYS, distance, |ray, centre, radius| {
                 hit_haines_f32(ray.origin, ray.direction, centre, radius).is_some()
             });
-            let double_double = misjudged(RAYS, distance, |ray, centre, radius| {
+            let double_double = misclassified(RAYS, distance, |ray, centre, radius| {
                 let (centre, radius) = (centre.as_dvec3(), f64::from(radius));
                 hit_f64_plain(ray.origin, ray.direction, centre, radius).is_some()
             });
             eprintln!(
-                "{RAYS} silhouette rays at {distance:e} radii, misjudged: \
+                "{RAYS} silhouette rays at {distance:e} radii, misclassified: \
                  {plain} f32, {haines} f32 perpendicular, {double_double} f64"
             );
             assert!(plain > 0, "the textbook is expected to break");

@@ -48,7 +48,8 @@ pub fn bilinear_to_the_edge(image: &Texels, at: DVec2) -> [f64; 3] {
         image.rgb[y * image.width + x].map(f64::from)
     };
     let (corner, fraction) = (point.floor(), point - point.floor());
-    let blend = |a: [f64; 3], b: [f64; 3], fraction: f64| [0, 1, 2].map(|part| a[part] * (1.0 - fraction) + b[part] * fraction);
+    let blend =
+        |a: [f64; 3], b: [f64; 3], fraction: f64| [0, 1, 2].map(|part| a[part] * (1.0 - fraction) + b[part] * fraction);
     let row = |y: f64| blend(texel(corner.x, y), texel(corner.x + 1.0, y), fraction.x);
     blend(row(corner.y), row(corner.y + 1.0), fraction.y)
 }

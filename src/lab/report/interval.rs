@@ -1,6 +1,6 @@
 //! Estimates and the intervals about them.
 
-use super::distribution::{normal_point, normal_cdf, student_point};
+use super::distribution::{normal_cdf, normal_point, student_point};
 use crate::measure::ray_aim::Draws;
 
 /// The level of an interval that stands alone.

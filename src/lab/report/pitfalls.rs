@@ -97,7 +97,8 @@ pub fn pitfalls(variant: &Variant<'_>) -> Result<Vec<Pitfall>> {
         images.push(runs);
     }
     let seeds = SEEDS as usize;
-    let curve = Curve { levels, seeds, batches: BATCHES as usize, reference_samples: BATCHES * u64::from(BATCH_SAMPLES) };
+    let curve =
+        Curve { levels, seeds, batches: BATCHES as usize, reference_samples: BATCHES * u64::from(BATCH_SAMPLES) };
     let right = |level: usize| curve.levels[level].told_mse(LEVEL).map(|mse| mse.interval(LEVEL));
     let mut rows = Vec::new();
     let mut row = |measurement, gives, right| rows.push(Pitfall { measurement, gives, right });

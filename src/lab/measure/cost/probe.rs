@@ -78,7 +78,7 @@ struct Worst {
 #[derive(Clone, Copy, Default)]
 struct OfKind {
     probes: u32,
-    misjudged: u32,
+    misclassified: u32,
     worst: f64,
 }
 
@@ -178,7 +178,7 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Disk(planar) => disk_hit(origin, direction, planar),
             ExactShape::Rectangle(planar) => rectangle_hit(origin, direction, planar),
             ExactShape::Cuboid(slabs) => cuboid_hit(origin, direction, slabs).map(|(t, _)| t),
-            ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
+            ExactShape::Triangle(triangle, _) => triangle_hit(origin, direction, triangle.corners),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
             nearest = Some((number, t));
@@ -213,7 +213,7 @@ fn probe_hit(rays: &WorldRays, hits: &Hits, row: usize, exact: &Exact, worst: &m
             let t = t.to_f64();
             of_kind.worst = of_kind.worst.max((hits.t[row] - t).abs() / t / U);
         }
-        _ => of_kind.misjudged += 1,
+        _ => of_kind.misclassified += 1,
     }
 }
 
@@ -250,8 +250,8 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let farthest = beyond(0).max(beyond(1)).max(beyond(2));
             farthest.abs() / (U * position.as_dvec3().length())
         }
-        ExactShape::Triangle(facet, normal) => {
-            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
+        ExactShape::Triangle(triangle, normal) => {
+            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(triangle.corners[0])));
             above.to_f64().abs() / (U * position.as_dvec3().length())
         }
     };
@@ -281,8 +281,8 @@ impl Worst {
             intersect::triangle_stage(),
         ]
         .map(|stage| stage.name);
-        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
-            let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
+        for (stage, OfKind { probes, misclassified, worst }) in hit_stages.into_iter().zip(self.hits) {
+            let error = format!("{worst:.0e} u of t, {misclassified} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
         let surface_stages = [

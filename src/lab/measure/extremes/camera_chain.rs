@@ -95,14 +95,14 @@ impl CameraChain {
             Pose::Looking(look) => camera.insert((look, Placement::default())),
         };
         let axes = CameraAxes::extract(&self.scene)?;
-        self.bench.share(ImageFrame::extract(&self.scene)?);
-        self.bench.share(PerspectiveProjection::extract(&self.scene)?);
-        self.bench.share(axes);
+        self.bench.insert(ImageFrame::extract(&self.scene)?);
+        self.bench.insert(PerspectiveProjection::extract(&self.scene)?);
+        self.bench.insert(axes);
         self.set = Some((asked, axes.world_from_camera));
         Ok(axes.world_from_camera)
     }
 
-    /// The judge of what was asked, with these axes; its tangent is kept for the next that asks the same.
+    /// The oracle of what was asked, with these axes; its tangent is kept for the next that asks the same.
     pub fn check(&mut self, asked: CameraCase, rotation: DMat3) -> CameraOracle {
         let same = |kept: &CameraCase| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
         if let Some((_, check)) = self.check.as_ref().filter(|(kept, _)| same(kept)) {
@@ -142,7 +142,7 @@ pub fn check_stages(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, s
 }
 
 /// How wide a pixel is where it is narrowest, seen from the eye, in radians: towards the edge of a wide image its plane
-/// is both farther and slanted.
+/// is both farther and oblique.
 pub fn seen_width(check: &CameraOracle, wrote: &PixelChain) -> f64 {
     check.pixel_pitch() * wrote.camera.z * wrote.camera.z
 }

@@ -44,7 +44,7 @@ fn far_eye(index: u64, distance: f64) -> CameraCase {
     CameraCase { size: [1024, 768], fov: 40.0, axis: FovAxis::Vertical, pose: any_pose_at(eye, &mut draws) }
 }
 
-/// A case whose inputs are judged one by one, right or wrong.
+/// A case whose inputs are checked one by one, right or wrong.
 pub(super) fn one_by_one(
     name: &str,
     methods: &[Method],

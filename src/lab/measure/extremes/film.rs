@@ -183,7 +183,7 @@ const THREADS: [Method; 2] = [
     Method::naive("naive, f32 sums a thread, then added", "", 0.0),
 ];
 
-/// A ball and a lamp before a camera of this number.
+/// A ball and a light before a camera of this number.
 fn scene(number: u64) -> World {
     let mut draws = Draws::new(104, number);
     let mut world = World::new();
@@ -199,7 +199,7 @@ fn scene(number: u64) -> World {
     world
 }
 
-/// Every stage up to the light of lamps.
+/// Every stage up to direct light.
 fn offer() -> Vec<Stage> {
     let mut offer = rays::stages();
     offer.extend(intersect::stages());

@@ -72,7 +72,7 @@ fn scene(frame: u64) -> World {
     world
 }
 
-/// Judges the first rays of a frame; a scene that is refused is a failure.
+/// Checks the first rays of a frame; a scene that is refused is a failure.
 fn check_frame(scene: &World, rays: usize, tally: &mut Tally) {
     let (frame, table) = (inspect(scene, &offer(), SIDE), SphereTable::extract(scene));
     let (Ok(frame), Ok(table)) = (frame, table) else {

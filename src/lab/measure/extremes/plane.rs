@@ -99,7 +99,7 @@ pub(super) fn by_function(ray: AimedRay, plane: Plane) -> f64 {
 }
 
 fn check_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64>, score: &mut Score) {
-    bench.share(plane_table(&[plane]));
+    bench.insert(plane_table(&[plane]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -110,7 +110,7 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64
 /// All at once through the stage, against every ray with every plane by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Plane)], score: &mut Score) {
     let (rays, planes): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
-    bench.share(plane_table(&planes));
+    bench.insert(plane_table(&planes));
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();

@@ -75,7 +75,7 @@ pub(super) fn by_function(ray: AimedRay, sphere: Sphere) -> f64 {
 
 /// One ray and one sphere through the stage: no neighbour in the same block can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f64>, score: &mut Score) {
-    bench.share(sphere_table(&[sphere]));
+    bench.insert(sphere_table(&[sphere]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -84,10 +84,10 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f
 }
 
 /// All at once through the stage, against every ray with every sphere by pinhole's function, to the last bit; whoever
-/// meets its own sphere is also judged by the exact distance.
+/// hits its own sphere is also checked by the exact distance.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<f64>], score: &mut Score) {
     let (rays, spheres): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
-    bench.share(sphere_table(&spheres));
+    bench.insert(sphere_table(&spheres));
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();
@@ -100,7 +100,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<
     }
 }
 
-/// The naive methods, each judged on the sphere that it can hold: in f32 that is the sphere rounded to f32.
+/// The naive methods, each checked on the sphere that it can hold: in f32 that is the sphere rounded to f32.
 fn check_naive(ray: AimedRay, sphere: Sphere, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = sphere.rounded_to_f32();
     let exact_f32 = if rounded == sphere { exact_f64 } else { exact(ray, rounded) };

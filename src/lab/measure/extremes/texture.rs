@@ -19,7 +19,7 @@ const MEANS: [Method; 3] = [
 ];
 const STEPS: [Method; 2] = [
     Method::pinhole("pinhole, slope of the tangent plane", "u of it", 1.0),
-    Method::naive("naive, way to the neighbour's hit, f32", "u of it", 1.0),
+    Method::naive("naive, offset to the neighbour's hit, f32", "u of it", 1.0),
 ];
 const ANGLES: [Method; 2] = [
     Method::pinhole("pinhole, arc tangent of both parts", "u of it", 1.0),
@@ -92,8 +92,8 @@ fn check_steps(range: Range<u64>, flattest: f64) -> Tally {
         let moved = DVec3::new(0.0, PIXEL / -direction.y, 0.0);
         tally.count(true);
         let step = step_on_surface(moved, direction, DVec3::Y);
-        let share = Dyadic::of(moved.y).divided_by(&Dyadic::of(direction.y));
-        let exact = |axis: usize| (&Dyadic::of(moved[axis]) - &(&Dyadic::of(direction[axis]) * &share)).to_f64();
+        let fraction = Dyadic::of(moved.y).divided_by(&Dyadic::of(direction.y));
+        let exact = |axis: usize| (&Dyadic::of(moved[axis]) - &(&Dyadic::of(direction[axis]) * &fraction)).to_f64();
         let exact = DVec3::new(exact(0), exact(1), exact(2));
         tally.scores[0].measure((step - exact).length() / exact.length() / U);
         let neighbour = (direction + DVec3::Y * PIXEL).as_vec3();

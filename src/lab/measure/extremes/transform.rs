@@ -72,7 +72,7 @@ fn by_function(ray: AimedRay, ellipsoid: &Ellipsoid) -> f64 {
 
 /// One ray and one ellipsoid through the stage: no neighbour can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Option<f64>, score: &mut Score) {
-    bench.share(ellipsoid_table([ellipsoid]));
+    bench.insert(ellipsoid_table([ellipsoid]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -82,7 +82,7 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Op
 
 /// All at once through the stage, against every ray with every ellipsoid by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Option<f64>], score: &mut Score) {
-    bench.share(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
+    bench.insert(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
     bench.run();
@@ -96,7 +96,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Opti
     }
 }
 
-/// The naive methods; the one in f32 is judged on the ellipsoid that f32 can hold.
+/// The naive methods; the one in f32 is checked on the ellipsoid that f32 can hold.
 fn check_naive(ray: AimedRay, ellipsoid: Ellipsoid, exact_f64: Option<f64>, scores: &mut [Score]) {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     scores[0].check_t(hit_renormalised(origin, direction, ellipsoid.centre, ellipsoid.unit_from_world), exact_f64);

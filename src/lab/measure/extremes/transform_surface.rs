@@ -120,7 +120,7 @@ fn check_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [
 mod tests {
     use super::*;
 
-    /// Enclosures are a short way to what exact arithmetic says, and nothing else.
+    /// Enclosures are a shortcut to what exact arithmetic says, and nothing else.
     #[test]
     fn enclosed_angles_are_the_exact_ones() {
         let (mut tried, mut fell_back) = (0, 0);

@@ -74,13 +74,13 @@ pub(super) fn exact(ray: AimedRay, corners: Corners) -> Option<f64> {
 }
 
 /// The distance by pinhole's function of one ray and one triangle.
-pub(super) fn by_function(ray: AimedRay, facet: &TriangleRow) -> f64 {
-    triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), facet)
+pub(super) fn by_function(ray: AimedRay, triangle: &TriangleRow) -> f64 {
+    triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), triangle)
 }
 
 /// One ray and one triangle through the stage: no neighbour can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option<f64>, score: &mut Score) {
-    bench.share(triangle_table([corners]));
+    bench.insert(triangle_table([corners]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -92,12 +92,12 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option<f64>], score: &mut Score) {
     let table = triangle_table(shots.iter().map(|&(_, corners)| corners));
     let rays: Vec<AimedRay> = shots.iter().map(|&(ray, _)| ray).collect();
-    bench.share(table.clone());
+    bench.insert(table.clone());
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
-        let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+        let nearest = table.facet.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
         score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
             score.check_t(Some(hits.t[row]), exact[row]);
@@ -105,7 +105,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     }
 }
 
-/// The methods in f32, judged on the triangle that f32 can hold.
+/// The methods in f32, checked on the triangle that f32 can hold.
 fn check_naive(ray: AimedRay, corners: Corners, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = corners.map(|corner| corner.as_vec3());
     let held = rounded.map(|corner| corner.as_dvec3());

@@ -60,7 +60,7 @@ fn axes() -> Trial {
         let ray = AimedRay { origin, direction };
         let truth = exact(ray, corners);
         tally.count(truth.is_some());
-        bench.share(triangle_table([corners]));
+        bench.insert(triangle_table([corners]));
         bench.aim(&[ray]);
         bench.run();
         let t = bench.column::<Hits>().t[0];
@@ -72,16 +72,18 @@ fn axes() -> Trial {
 
 /// A direction 2ᵏ times as long gives t / 2ᵏ, to the last bit.
 fn lengths_of_directions() -> Trial {
-    const ROWS: [Method; 2] =
-        [Method::pinhole("pinhole, every bit of t", "", 0.0), Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0)];
+    const ROWS: [Method; 2] = [
+        Method::pinhole("pinhole, every bit of t", "", 0.0),
+        Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0),
+    ];
     one_by_one("directions 2^-60 to 2^60 long", &ROWS, |_, index, tally| {
         let (ray, corners) = at_edge(262, index);
         let scale = libm::ldexp(1.0, Draws::new(263, index).between(-60.0, 61.0).floor() as i32);
         let longer = AimedRay { direction: ray.direction * scale as f32, ..ray };
-        let facet = TriangleRow::new(corners);
-        let t = by_function(ray, &facet);
+        let triangle = TriangleRow::new(corners);
+        let t = by_function(ray, &triangle);
         tally.count(t.is_finite());
-        tally.scores[0].check(t.to_bits() == (by_function(longer, &facet) * scale).to_bits());
+        tally.scores[0].check(t.to_bits() == (by_function(longer, &triangle) * scale).to_bits());
         let rounded = corners.map(|corner| corner.as_vec3());
         let naive = |ray: AimedRay| hit_f32(ray.origin, ray.direction, rounded).map(f64::from);
         let [t, of_longer] = [naive(ray).unwrap_or(-1.0), naive(longer).unwrap_or(-1.0 / scale)];
@@ -89,10 +91,10 @@ fn lengths_of_directions() -> Trial {
     })
 }
 
-/// One ray of a block has a part that is no number or not finite, or no direction: it meets nothing, and its neighbours
-/// meet what they meet alone.
+/// One ray of a block has a part that is NaN or not finite, or no direction: it hits nothing, and its neighbours
+/// hit what they hit alone.
 fn no_rays() -> Trial {
-    const ROWS: [Method; 1] = [Method::pinhole("pinhole, meets nothing, spoils nothing", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, hits nothing, spoils nothing", "", 0.0)];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, |bench, index, tally| {
         let shot = |component: usize| at_edge(264, index * BLOCK as u64 + component as u64);
         let (mut rays, corners): (Vec<AimedRay>, Vec<Corners>) = (0..BLOCK).map(shot).unzip();
@@ -104,13 +106,13 @@ fn no_rays() -> Trial {
             _ => rays[bad].origin[part] = f32::NAN,
         }
         let table = triangle_table(corners);
-        bench.share(table.clone());
+        bench.insert(table.clone());
         bench.aim(&rays);
         bench.run();
         let hits = bench.column::<Hits>();
         tally.count(true);
         for (component, &ray) in rays.iter().enumerate() {
-            let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+            let nearest = table.facet.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
             let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
             tally.scores[0].check(if component == bad {
                 nothing
@@ -121,14 +123,14 @@ fn no_rays() -> Trial {
     })
 }
 
-/// A ray that looks without end, and one that looks as far as 1e30: both meet the same at the same distance.
+/// A ray that looks without end, and one that looks as far as 1e30: both hit the same at the same distance.
 fn ends() -> Trial {
     const ROWS: [Method; 1] = [Method::pinhole("pinhole, the same hits", "", 0.0)];
     Trial::new(Group::Triangle, "rays that end at 1e30, and without end", &ROWS, |range| {
         let (mut tally, mut bench) = (Tally::new(ROWS.len()), Bench::new(&[triangle_stage()]));
         for index in range {
             let (ray, corners) = at_edge(265, index);
-            bench.share(triangle_table([corners]));
+            bench.insert(triangle_table([corners]));
             bench.aim(&[ray]);
             let mut found = [1e30, f64::INFINITY].map(|end| {
                 let mut hits = Hits::default();
@@ -139,9 +141,9 @@ fn ends() -> Trial {
                 let hits = bench.column::<Hits>();
                 (hits.t[0], hits.shape[0])
             });
-            let met = found[0].1 != NO_SHAPE;
-            tally.count(met);
-            if !met {
+            let hit = found[0].1 != NO_SHAPE;
+            tally.count(hit);
+            if !hit {
                 found[0].0 = f64::INFINITY;
             }
             tally.scores[0].check(found[0] == found[1] && found[1].0 == by_function(ray, &TriangleRow::new(corners)));
@@ -150,7 +152,7 @@ fn ends() -> Trial {
     })
 }
 
-/// The same three corners several times, in any order: the lowest number is met, at the same distance to the last bit.
+/// The same three corners several times, in any order: the lowest number is hit, at the same distance to the last bit.
 fn duplicates() -> Trial {
     const ROWS: [Method; 1] = [Method::pinhole("pinhole, the lowest number, the same t", "", 0.0)];
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -160,7 +162,7 @@ fn duplicates() -> Trial {
         let mut table = triangle_table(ORDERS.map(|order| order.map(|corner| corners[corner])));
         let turned = Draws::new(267, index).between(0.0, 6.0) as usize;
         table.shape.rotate_left(turned);
-        bench.share(table);
+        bench.insert(table);
         bench.aim(&[ray]);
         bench.run();
         let hits = bench.column::<Hits>();

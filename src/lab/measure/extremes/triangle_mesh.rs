@@ -1,4 +1,4 @@
-//! Closed meshes: what is inside cannot look out, and what is aimed at an edge or a corner meets one of its faces.
+//! Closed meshes: what is inside cannot look out, and what is aimed at an edge or a corner hits one of its faces.
 
 use super::bench::Bench;
 use super::triangle::{BESIDE, T_BOUND, by_function, exact};
@@ -91,24 +91,24 @@ fn check_mesh(
     range: Range<u64>,
     tally: &mut Tally,
 ) {
-    bench.share(table.clone());
-    let rounded: Vec<[Vec3; 3]> = table.facet.iter().map(|facet| facet.corners.map(|c| c.as_vec3())).collect();
+    bench.insert(table.clone());
+    let rounded: Vec<[Vec3; 3]> = table.facet.iter().map(|triangle| triangle.corners.map(|c| c.as_vec3())).collect();
     let rays: Vec<(AimedRay, [DVec3; 2])> = range.map(|index| aimed(view, table, centre, index)).collect();
     for rays in rays.chunks(AT_ONCE) {
         bench.aim(&rays.iter().map(|&(ray, _)| ray).collect::<Vec<_>>());
         bench.run();
         let hits = bench.column::<Hits>().clone();
         for (row, &(ray, at)) in rays.iter().enumerate() {
-            let met = hits.shape[row] != NO_SHAPE;
-            tally.count(met);
-            let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
-            let must = view.inside || met || table.facet.iter().any(|facet| exact(ray, facet.corners).is_some());
-            tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && met == must);
+            let hit = hits.shape[row] != NO_SHAPE;
+            tally.count(hit);
+            let nearest = table.facet.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
+            let must = view.inside || hit || table.facet.iter().any(|triangle| exact(ray, triangle.corners).is_some());
+            tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && hit == must);
             let found = table.facet.get(hits.shape[row] as usize);
-            let about = table.facet.iter().filter(|facet| at.iter().all(|corner| facet.corners.contains(corner)));
-            for facet in about.chain(found) {
-                let t = by_function(ray, facet);
-                tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+            let about = table.facet.iter().filter(|triangle| at.iter().all(|corner| triangle.corners.contains(corner)));
+            for triangle in about.chain(found) {
+                let t = by_function(ray, triangle);
+                tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
             }
             if must {
                 let by_f32 = rounded.iter().any(|&corners| hit_f32(ray.origin, ray.direction, corners).is_some());
@@ -132,27 +132,27 @@ fn check_on_edges(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ON_EDGES.len());
     let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
     let table = Mesh::octahedron();
-    bench.share(table.clone());
+    bench.insert(table.clone());
     for index in range {
         let mut draws = Draws::new(235, index);
         let mut eighth = |most: f64| draws.between(-most, most + 1.0).floor() / 8.0;
         let origin = DVec3::new(eighth(2.0), eighth(2.0), eighth(2.0));
-        let share = eighth(4.0) + 0.5;
+        let fraction = eighth(4.0) + 0.5;
         let face = &table.facet[(draws.unit() * 8.0) as usize];
-        let target = face.corners[0] * share + face.corners[1] * (1.0 - share);
+        let target = face.corners[0] * fraction + face.corners[1] * (1.0 - fraction);
         let ray = AimedRay { origin: origin.as_vec3(), direction: (target - origin).as_vec3() };
         bench.aim(&[ray]);
         bench.run();
-        let met = bench.column::<Hits>().shape[0] != NO_SHAPE;
-        tally.count(met);
-        tally.scores[0].check(met);
-        for facet in &table.facet {
-            let t = by_function(ray, facet);
-            tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+        let hit = bench.column::<Hits>().shape[0] != NO_SHAPE;
+        tally.count(hit);
+        tally.scores[0].check(hit);
+        for triangle in &table.facet {
+            let t = by_function(ray, triangle);
+            tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
         }
         let strictly =
             |corners| hit_inside_strictly(ray.origin.as_dvec3(), ray.direction.as_dvec3(), corners).is_some();
-        tally.scores[2].check(table.facet.iter().any(|facet| strictly(facet.corners)));
+        tally.scores[2].check(table.facet.iter().any(|triangle| strictly(triangle.corners)));
     }
     tally
 }

@@ -20,7 +20,7 @@ use pinhole::scene::*;
 
 /// Pixels of a picture of the scene.
 const SIZE: [u32; 2] = [144, 81];
-/// Pixels of a picture of a far sphere, each way.
+/// Pixels of a picture of a far sphere, in each direction.
 const FAR: u32 = 56;
 
 /// All strips, of the scene that `make` makes.
@@ -66,7 +66,7 @@ fn rays_of(scene: &World, offer: &[Stage]) -> Result<Vec<AimedRay>> {
     Ok((0..rays.dx.len()).map(ray).collect())
 }
 
-/// A sphere so many radii away, filling the image; grey is how far before its centre it is met.
+/// A sphere so many radii away, filling the image; grey is how far before its centre it is hit.
 fn far_sphere(distance: f64, offer: &[Stage]) -> Result<Strip> {
     let mut scene = World::new();
     let fov = 2.0 * libm::atan(1.15 / distance).to_degrees();
@@ -95,7 +95,7 @@ fn far_sphere(distance: f64, offer: &[Stage]) -> Result<Strip> {
     let (school, perpendicular) = (naive(hit_f32), naive(hit_haines_f32));
     let (wrong, better, all) = (pinhole.differing(&school), pinhole.differing(&perpendicular), pinhole.pixels.len());
     let says = format!(
-        "Grey is how far before its centre the sphere is met. The formula from school in f32 is off in {wrong} of {all} \
+        "Grey is how far before its centre the sphere is hit. The formula from school in f32 is off in {wrong} of {all} \
          pixels, the perpendicular form in f32 in {better}."
     );
     let pictures = vec![
@@ -132,7 +132,7 @@ fn shadows(
     Ok(Some(strip(format!("Shadow rays, {name}: {size}"), says, (&format!("naive, {name}"), naive), pinhole)))
 }
 
-/// What rays from the eye meet, painted by its normal.
+/// What rays from the eye hit, painted by its normal.
 fn painted(scene: &World, rays: &[AimedRay], width: u32) -> Result<Picture> {
     let (spheres, planes) = (SphereTable::extract(scene)?, PlaneTable::extract(scene)?);
     let colour = |ray: &AimedRay| {

@@ -6,8 +6,8 @@
 mod hits;
 mod light;
 mod moving;
-mod shapes;
 mod rays;
+mod shapes;
 mod table;
 mod textures;
 mod triangles;

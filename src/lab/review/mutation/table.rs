@@ -1,4 +1,4 @@
-use super::{Bug, Mutation, hits, light, moving, shapes, rays, textures, triangles};
+use super::{Bug, Mutation, hits, light, moving, rays, shapes, textures, triangles};
 use crate::review::DEVELOP;
 use bevy_ecs::prelude::*;
 
