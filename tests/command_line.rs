@@ -1,4 +1,4 @@
-//! The program as a reader meets it: what they type first, what they see, what is on disk afterwards.
+//! The program as a reader comes to know it: what they type first, what they see, what is on disk afterwards.
 
 #[path = "command_line/meant.rs"]
 mod meant;

@@ -54,8 +54,8 @@ fn transforms_hold() {
 }
 
 #[test]
-fn matter_holds() {
-    holds(Group::Matter, 2048);
+fn materials_hold() {
+    holds(Group::Material, 2048);
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn lights_with_an_area_hold() {
 }
 
 #[test]
-fn ways_of_light_hold() {
+fn light_paths_hold() {
     holds(Group::Transport, 2048);
 }
 
@@ -123,7 +123,7 @@ fn results_do_not_depend_on_threads() {
 }
 
 #[test]
-fn a_kit_that_misses_would_be_seen() {
+fn a_method_that_misses_would_be_seen() {
     let mut cases = try_group(Group::Plane, "", 512, &());
     let first: &mut Outcome = &mut cases[0].outcomes[0];
     first.score.check(false);

@@ -16,13 +16,13 @@ use synthetic::{BATCHES, Noise, Renderer};
 /// Repetitions of each case here; `cargo bench --bench coverage` makes 4,000.
 const REPETITIONS: usize = 60;
 
-/// The share of binomial draws of `of` at `share` that are below `held`.
-fn below(held: usize, of: usize, share: f64) -> f64 {
-    let mut term = (1.0 - share).powi(of as i32);
+/// The probability that binomial draws of `of` at `probability` are below `held`.
+fn below(held: usize, of: usize, probability: f64) -> f64 {
+    let mut term = (1.0 - probability).powi(of as i32);
     let mut sum = 0.0;
     for k in 0..held {
         sum += term;
-        term *= (of - k) as f64 / (k + 1) as f64 * share / (1.0 - share);
+        term *= (of - k) as f64 / (k + 1) as f64 * probability / (1.0 - probability);
     }
     sum
 }
@@ -46,7 +46,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
 }
 
 #[test]
-fn a_planted_bias_is_found_and_an_absent_one_is_not() {
+fn an_injected_bias_is_found_and_an_absent_one_is_not() {
     let (mut found, mut imagined, repetitions) = (0, 0, 40);
     for seed in 0..repetitions {
         for bias in [0.0, 0.1] {
@@ -64,7 +64,7 @@ fn a_planted_bias_is_found_and_an_absent_one_is_not() {
     assert_eq!(found, repetitions as usize);
     // 40 draws at 2.5 %: more than 6 come up once in 10⁵ tests.
     assert!(imagined <= 6, "{imagined} of {repetitions} found a bias that is not there");
-    eprintln!("report: a planted bias found {found} times of {repetitions}, an absent one {imagined} times");
+    eprintln!("report: an injected bias found {found} times of {repetitions}, an absent one {imagined} times");
 }
 
 #[test]

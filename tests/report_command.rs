@@ -91,7 +91,7 @@ fn independent_samples_have_no_bias_and_slope_minus_one() {
 }
 
 #[test]
-fn a_seed_that_runs_and_reference_share_is_refused_by_name() {
+fn a_seed_of_both_runs_and_reference_is_refused_by_name() {
     let chapter = chapter("18_error_and_time");
     let variants = [variant(&chapter, chapter.stages(), Sampler::Independent)];
     // So many runs that their seeds reach those of the reference.
@@ -114,10 +114,7 @@ fn asked(line: &str) -> Result<String, String> {
 fn what_cannot_be_compared_is_refused_in_a_sentence() {
     let cases = [
         ("report 18 --against sampler=magic", "there is no sampler \"magic\"; there are "),
-        (
-            "report 18 --against lights=magic",
-            "there is no way to find lights \"magic\"; there are chance, aimed, weighed",
-        ),
+        ("report 18 --against lights=magic", "there is no light strategy \"magic\"; there are bsdf, light, mis"),
         (
             "report 18 --against lights=light",
             "--against lights=light: 18_error_and_time has no paths to find lights by",

@@ -190,14 +190,14 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
 
 #[inline(always)]
 fn blocked(scene: &Scene, light: usize, origin: Vec3, direction: DVec3, distance: f64) -> bool {
-    let reach = f64::from(shadow_t_max(distance));
-    scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, reach, true).1 != NO_SHAPE
+    let t_max = f64::from(shadow_t_max(distance));
+    scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, t_max, true).1 != NO_SHAPE
 }
 
-/// What the ray meets before `reach`: the nearest, or for `any` the first found.
+/// What the ray hits before `t_max`: the nearest, or for `any` the first found.
 #[inline(always)]
-fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool) -> (f64, u32) {
-    let (mut t, mut shape) = (reach, NO_SHAPE);
+fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, t_max: f64, any: bool) -> (f64, u32) {
+    let (mut t, mut shape) = (t_max, NO_SHAPE);
     for (plane, &normal) in scene.planes.normal.iter().enumerate() {
         let found = plane_t(origin, direction, normal, scene.planes.offset[plane]);
         keep_closest(found, scene.planes.shape[plane], &mut t, &mut shape);

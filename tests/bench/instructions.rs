@@ -79,10 +79,10 @@ const VARIED: &str = r#"[
     (gradient: (top: (0.1, 0.2, 0.5))),
 ]"#;
 
-/// Ways of light beyond the first surface, by the kinds of matter and light that are there and no others.
+/// Light paths beyond the first surface, by the kinds of material and light that are there and no others.
 const FOLLOWED: &str = r#"[
     (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
-        sampling: (samples: 4), integrator: Path(legs: 5, lights: Mis, roulette: 3)),
+        sampling: (samples: 4), integrator: Path(max_depth: 5, lights: Mis, roulette: 3)),
     (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
     (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), mirror: ()),
     (plane: (), matte: (colour: (0.5, 0.5, 0.5))),

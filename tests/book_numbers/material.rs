@@ -10,7 +10,7 @@ fn metal_sends_on_what_page_19_says() {
     assert!((sent - 0.3).abs() < 0.01);
     page_says("19_mirrors.md", "sends on $1 - \\ln 2$, three tenths");
     page_says("19_mirrors.md", &format!("the smooth ball the colour {sent:.2}"));
-    // D falls to half where (tan θ / α)² = √2 − 1, and the mirrored way turns by twice θ.
+    // D falls to half where (tan θ / α)² = √2 − 1, and the mirrored direction turns by twice θ.
     let half = 2.0 * libm::atan(SMOOTHEST_METAL * libm::sqrt(std::f64::consts::SQRT_2 - 1.0)).to_degrees();
     page_says(
         "19_mirrors.md",

@@ -1,4 +1,4 @@
-//! Every bug planted on purpose is found, and the message names the very stage it was planted at.
+//! Every mutation is found, and the message names the very stage that was mutated.
 
 use crate::message::{mismatch, what_to_do};
 use pinhole::{Chapter, Overrides, intersect, rays, shade};
@@ -11,7 +11,7 @@ fn chapter(name: &str) -> Chapter {
 }
 
 #[test]
-fn the_message_names_the_stage_of_each_planted_bug() {
+fn the_message_names_the_stage_of_each_mutation() {
     let mut before: BTreeMap<&str, Snapshots> = BTreeMap::new();
     for mutation in MUTATIONS {
         let chapter = chapter(mutation.chapter);
@@ -23,11 +23,11 @@ fn the_message_names_the_stage_of_each_planted_bug() {
             format!("{}: the first stage whose numbers differ is \"{}\" (column ", chapter.name, mutation.stage);
         assert!(first.starts_with(&expected), "{}: {first}", mutation.name);
     }
-    eprintln!("planted: {} bugs, each named at its stage", MUTATIONS.len());
+    eprintln!("mutations: {}, each named at its stage", MUTATIONS.len());
 }
 
 #[test]
-fn every_stage_of_pinhole_that_a_chapter_runs_has_a_planted_bug() {
+fn every_stage_of_pinhole_that_a_chapter_runs_has_a_mutation() {
     let offered = [rays::stages(), intersect::stages(), shade::stages()].concat();
     let pinhole = Chapter::new("pinhole", "all that pinhole offers", |_| ()).offer(offered).stages();
     let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
@@ -37,22 +37,19 @@ fn every_stage_of_pinhole_that_a_chapter_runs_has_a_planted_bug() {
         stages.extend(names.filter(|name| pinhole.iter().any(|stage| stage.name == *name)).map(String::from));
     }
     let mutation: BTreeSet<String> = MUTATIONS.iter().map(|mutation| mutation.stage.to_string()).collect();
-    assert_eq!(
-        mutation, stages,
-        "the stages with a planted bug (src/lab/review/planted/table.rs), and those there are"
-    );
+    assert_eq!(mutation, stages, "the stages with a mutation (src/lab/review/mutation/table.rs), and those there are");
     let names: BTreeSet<&str> = MUTATIONS.iter().map(|mutation| mutation.name).collect();
     assert_eq!(names.len(), MUTATIONS.len(), "two bugs have one name");
-    eprintln!("planted: {} stages", stages.len());
+    eprintln!("mutations: {} stages", stages.len());
 }
 
 #[test]
-fn a_bug_that_cannot_be_planted_is_refused_in_a_sentence() {
+fn a_mutation_that_cannot_be_made_is_refused_in_a_sentence() {
     let told = Mutation::named("half-pixle").expect_err("no such bug").to_string();
-    assert!(told.starts_with("there is no bug \"half-pixle\" to be planted; the nearest is half-pixel"), "{told}");
+    assert!(told.starts_with("there is no mutation \"half-pixle\"; the nearest is half-pixel"), "{told}");
     let mutation = Mutation::named("no-cosine").expect("a bug");
     let told = mutation.snapshots(&chapter("01_image")).expect_err("no lights").to_string();
-    assert_eq!(told, "01_image does not run \"Sample point lights\", where no-cosine is planted; 05_pinhole does");
+    assert_eq!(told, "01_image does not run \"Sample point lights\", where no-cosine belongs; 05_pinhole does");
 }
 
 /// The page shows a message with lines left out; what it shows must be what is said.
