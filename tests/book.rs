@@ -40,13 +40,13 @@ fn no_page_is_too_long() {
 
 #[test]
 fn the_lists_of_chapters_agree() {
-    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest can be read");
+    let manifest = std::fs::read_to_string(root().join("chapters/Cargo.toml")).expect("the manifest can be read");
     let (examples, problems) = check::lists::example_stems(&manifest);
     none(&problems);
     none(&check::lists::disagreements(&[
         ("chapters/", check::lists::chapter_stems(root())),
         ("book/src/", check::lists::page_stems(&pages())),
-        ("the [[example]] entries of Cargo.toml", examples),
+        ("the [[example]] entries of chapters/Cargo.toml", examples),
         ("the folders with chapters/*/snapshots/*.snap", check::lists::snapshot_stems(root())),
     ]));
 }

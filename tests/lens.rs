@@ -160,8 +160,8 @@ fn circles_of_confusion() {
             let inspection = inspect(&confused(lens, depth, source, fov, seed), &offer(), 32).expect("inspects");
             for &tile in &inspection.tiles {
                 let tile = inspection.world.entity(tile);
-                let (raster, hits) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<Hits>().expect("hits"));
-                for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
+                let (raster, found) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<Hits>().expect("hits"));
+                for row in (0..found.rows()).filter(|&row| found.shape[row] != NO_SHAPE) {
                     // From the image's centre, in units of the plane in focus.
                     let scale = 1.1 * radius / 32.0;
                     let at = DVec2::new(raster.x[row] - 32.0, 32.0 - raster.y[row]) * scale;

@@ -142,7 +142,7 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);
             let times = tile.get::<RayTimes>().expect("times");
-            let (rays, hits) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
+            let (rays, found) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
             for row in 0..rays.rows() {
                 assert!((0.0..0.75).contains(&times.time[row]));
                 let time = 0.25 + times.time[row];
@@ -160,9 +160,9 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
                         if inside { t } else { f64::INFINITY }
                     }
                 };
-                assert_eq!(hits.t[row].is_finite(), expected.is_finite(), "{mover:?} row {row}");
+                assert_eq!(found.t[row].is_finite(), expected.is_finite(), "{mover:?} row {row}");
                 if expected.is_finite() {
-                    worst = worst.max((hits.t[row] - expected).abs() / expected);
+                    worst = worst.max((found.t[row] - expected).abs() / expected);
                     hits += 1;
                 }
                 tried += 1;

@@ -60,6 +60,6 @@ fn scene(world: &mut World) {
     let files: &[(&str, &[u8])] =
         &[("card.png", include_bytes!("card.png")), ("evening.hdr", include_bytes!("evening.hdr"))];
     world.insert_resource(EmbeddedFiles(files));
-    world.insert_resource(SceneFolder::of_chapter("16_textures"));
+    world.insert_resource(SceneFolder(concat!(env!("CARGO_MANIFEST_DIR"), "/16_textures").into()));
 }
 // ANCHOR_END: scene

@@ -8,7 +8,6 @@ use std::sync::OnceLock;
 const BY_CARGO: &str = "cargo run --release --";
 
 static CALLED: OnceLock<String> = OnceLock::new();
-static EXAMPLE: OnceLock<()> = OnceLock::new();
 
 /// A command line of this program, as the one who started it would type it.
 pub fn called(words: &str) -> String {
@@ -16,37 +15,26 @@ pub fn called(words: &str) -> String {
     if words.is_empty() { program.into() } else { format!("{program} {words}") }
 }
 
-/// Whether this program is a chapter's example, which knows no commands but its own options.
-pub fn is_example() -> bool {
-    EXAMPLE.get().is_some()
-}
-
-/// Remembers how this program was started; an example says its name.
-pub fn remember(example: Option<&str>) {
-    if example.is_some() {
-        let _ = EXAMPLE.set(());
-    }
+/// Remembers how this program was started.
+pub fn remember() {
     let started = std::env::args_os().next().unwrap_or_default();
     let exe = std::env::current_exe().unwrap_or_default();
-    let _ = CALLED.set(name(std::env::var_os("CARGO").is_some(), &exe, &started, example));
+    let _ = CALLED.set(name(std::env::var_os("CARGO").is_some(), &exe, &started));
 }
 
 /// Cargo sets `CARGO` for what it runs, and every other program inherits it, so the place of the program counts as well.
-fn name(cargo: bool, exe: &Path, started: &OsStr, example: Option<&str>) -> String {
+fn name(cargo: bool, exe: &Path, started: &OsStr) -> String {
     let built = exe
         .ancestors()
         .skip(1)
         .take(2)
         .filter_map(Path::file_name)
         .any(|folder| ["debug", "release"].iter().any(|profile| folder == *profile));
-    match (cargo && built, example) {
-        (true, None) => BY_CARGO.into(),
-        (true, Some(example)) => format!("cargo run --release --example {example} --"),
-        (false, _) => {
-            let file = Path::new(started).file_name().map(OsStr::to_string_lossy);
-            file.map_or_else(|| "pinhole".into(), |file| quoted(&file))
-        }
+    if cargo && built {
+        return BY_CARGO.into();
     }
+    let file = Path::new(started).file_name().map(OsStr::to_string_lossy);
+    file.map_or_else(|| "pinhole".into(), |file| quoted(&file))
 }
 
 /// A word that a shell takes as it stands.
@@ -61,19 +49,13 @@ mod tests {
 
     #[test]
     fn the_program_is_called_as_it_was_started() {
-        let of = |cargo: bool, exe: &str, started: &str, example: Option<&str>| {
-            name(cargo, Path::new(exe), started.as_ref(), example)
-        };
-        assert_eq!(of(true, "/a/target/release/pinhole", "target/release/pinhole", None), BY_CARGO);
-        assert_eq!(of(true, "/a/b/debug/pinhole", "b/debug/pinhole", None), BY_CARGO);
-        assert_eq!(of(false, "/a/target/release/pinhole", "target/release/pinhole", None), "pinhole");
-        assert_eq!(of(true, "/home/a/.cargo/bin/pinhole", "pinhole", None), "pinhole");
-        assert_eq!(of(false, "/usr/bin/rays", "/usr/bin/rays", None), "rays");
-        assert_eq!(of(false, "", "", None), "pinhole");
-        let example = Some("05_pinhole");
-        let by_cargo = "cargo run --release --example 05_pinhole --";
-        assert_eq!(of(true, "/a/target/release/examples/05_pinhole", "05_pinhole", example), by_cargo);
-        assert_eq!(of(false, "/a/target/release/examples/05_pinhole", "./05_pinhole", example), "05_pinhole");
+        let of = |cargo: bool, exe: &str, started: &str| name(cargo, Path::new(exe), started.as_ref());
+        assert_eq!(of(true, "/a/target/release/pinhole", "target/release/pinhole"), BY_CARGO);
+        assert_eq!(of(true, "/a/b/debug/pinhole", "b/debug/pinhole"), BY_CARGO);
+        assert_eq!(of(false, "/a/target/release/pinhole", "target/release/pinhole"), "pinhole");
+        assert_eq!(of(true, "/home/a/.cargo/bin/pinhole", "pinhole"), "pinhole");
+        assert_eq!(of(false, "/usr/bin/rays", "/usr/bin/rays"), "rays");
+        assert_eq!(of(false, "", ""), "pinhole");
     }
 
     #[test]

@@ -1,12 +1,12 @@
-use super::called::{called, is_example, quoted};
+use super::called::{called, quoted};
 use super::options::RenderOptions;
 use super::subject::Subject;
 
 /// The command that says which stages a render's scene needs, and why the others were left out.
 pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
     match name(subject) {
-        Some(name) if !is_example() => called(&format!("plan {name}{}", options.scene.typed())),
-        _ => "-v".into(),
+        Some(name) => called(&format!("plan {name}{}", options.scene.typed())),
+        None => "-v".into(),
     }
 }
 
@@ -15,9 +15,6 @@ pub fn next(subject: &Subject<'_>, options: &RenderOptions, width: u32, height: 
     let name = name(subject)?;
     let pixel = format!("{},{}", width / 2, height * 3 / 5);
     let size = if options.scene.names_pixels() { format!(" --size {width}x{height}") } else { String::new() };
-    if is_example() {
-        return Some(called(&format!("--trace {pixel}{size}")));
-    }
     Some(called(&format!("trace {name} --pixel {pixel}{size}")))
 }
 

@@ -84,7 +84,7 @@ pub fn run_with_notes(
 
 /// Runs the command line that the program was started with, and gives the status that it ends with.
 pub fn run_program(chapters: &[Chapter]) -> u8 {
-    called::remember(None);
+    called::remember();
     let words: Vec<OsString> = std::env::args_os().skip(1).collect();
     status(with_standard_streams(|streams| perform(chapters, &words, streams)))
 }

@@ -77,7 +77,7 @@ fn narrow_pixels(subject: &Subject<'_>, options: &RenderOptions) -> Result<Optio
     let narrowest = PerspectiveProjection::extract(&scene)?.narrowest_pixel(ImageFrame::extract(&scene)?);
     Ok((narrowest < SMALLEST_PIXEL).then(|| {
         format!(
-            "so double_double an angle leaves pixels in the corners {narrowest:.1e} rad double_double, and world rays in f32 can be off by \
+            "so wide an angle leaves pixels in the corners {narrowest:.1e} rad wide, and world rays in f32 can be off by \
              about {:.2} of such a pixel",
             f64::from(f32::EPSILON) / narrowest
         )

@@ -81,10 +81,10 @@ pub fn example_stems(manifest: &str) -> (Stems, Vec<Problem>) {
             table.lines().find(named).and_then(|line| line.split('"').nth(1)).unwrap_or_default()
         };
         let (name, path) = (value("name"), value("path"));
-        let expected = format!("chapters/{name}/main.rs");
+        let expected = format!("{name}/main.rs");
         if path != expected {
             let what = format!("the example `{name}` has the path `{path}`, and should have `{expected}`.");
-            problems.push(Problem::new("Cargo.toml", 0, what));
+            problems.push(Problem::new("chapters/Cargo.toml", 0, what));
         }
         stems.insert(name.to_owned());
     }
@@ -132,22 +132,27 @@ mod tests {
 
     #[test]
     fn examples_are_chapters() {
-        let manifest = "[package]\nname = \"x\"\n\n[[example]]\nname = \"01_a\"\npath = \"chapters/01_a/main.rs\"\n\n\
+        let manifest = "[package]\nname = \"x\"\n\n[[example]]\nname = \"01_a\"\npath = \"01_a/main.rs\"\n\n\
                         [[example]]\nname = \"cover\"\npath = \"cover.rs\"\n\n[lints]\nname = \"y\"\n";
         let (stems, problems) = example_stems(manifest);
         assert!(stems.iter().map(String::as_str).eq(["01_a", "cover"]));
-        let what = "the example `cover` has the path `cover.rs`, and should have `chapters/cover/main.rs`.";
-        assert_eq!(problems, [Problem::new("Cargo.toml", 0, what)]);
+        let what = "the example `cover` has the path `cover.rs`, and should have `cover/main.rs`.";
+        assert_eq!(problems, [Problem::new("chapters/Cargo.toml", 0, what)]);
     }
 
     #[test]
     fn lists_that_part_are_named() {
         let set = |stems: &[&str]| stems.iter().map(|stem| (*stem).to_owned()).collect::<Stems>();
-        let lists =
-            [("chapters/", set(&["01_a", "02_b"])), ("book/src/", set(&["01_a"])), ("Cargo.toml", set(&["02_b"]))];
+        let lists = [
+            ("chapters/", set(&["01_a", "02_b"])),
+            ("book/src/", set(&["01_a"])),
+            ("chapters/Cargo.toml", set(&["02_b"])),
+        ];
         let found: Vec<String> = disagreements(&lists).iter().map(ToString::to_string).collect();
-        let first = "01_a: is in chapters/, book/src/, but not in Cargo.toml: the lists must name the same chapters.";
-        let second = "02_b: is in chapters/, Cargo.toml, but not in book/src/: the lists must name the same chapters.";
+        let first =
+            "01_a: is in chapters/, book/src/, but not in chapters/Cargo.toml: the lists must name the same chapters.";
+        let second =
+            "02_b: is in chapters/, chapters/Cargo.toml, but not in book/src/: the lists must name the same chapters.";
         assert_eq!(found, [first, second]);
         assert!(is_chapter("12_x") && is_chapter("cover") && !is_chapter("mod.rs") && !is_chapter("123_x"));
     }

@@ -152,7 +152,7 @@ impl Table for PerspectiveProjection {
             let (width, height) = (image.width, image.height);
             let value = format!("{}° over {width} × {height} pixels, {pixel:.1e} rad a pixel", number(fov.0));
             let accepted = format!(
-                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad double_double for world rays in f32: \
+                "a pixel must be at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
                  widen the angle or take fewer pixels"
             );
             return Err(SceneError::new(who, "fov", value, accepted));

@@ -101,7 +101,7 @@ impl Table for LensTable {
                 number(table.focus_distance)
             );
             let accepted = format!(
-                "a pixel on the plane in focus must seem at least {SMALLEST_PIXEL:.0e} rad double_double for world rays in f32: \
+                "a pixel on the plane in focus must seem at least {SMALLEST_PIXEL:.0e} rad wide for world rays in f32: \
                  take a smaller radius, a farther focus or fewer pixels"
             );
             return Err(SceneError::new(who, "aperture", value, accepted));

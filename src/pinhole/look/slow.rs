@@ -38,7 +38,7 @@ pub fn many_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
     (pilot.followed_by >= MANY_BOUNCES).then(|| {
         format!(
             "each ray from the camera is followed by {:.0} more on average, because the surfaces that it comes by absorb \
-             next to no light; darker surfaces, or fewer than the {max_depth} max_depth that the integrator allows, render faster",
+             next to no light; darker surfaces, or a max_depth below the {max_depth} that the integrator allows, render faster",
             pilot.followed_by
         )
     })

@@ -11,11 +11,6 @@ impl SceneFolder {
         Self(scene_file.parent().map(Path::to_path_buf).unwrap_or_default())
     }
 
-    /// The folder of a chapter's sources, where there are any on this machine.
-    pub fn of_chapter(name: &str) -> Self {
-        Self(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../chapters").join(name))
-    }
-
     /// Where a file that the scene names is.
     pub fn path_of(scene: &World, file: &str) -> PathBuf {
         scene.get_resource::<Self>().map_or_else(|| PathBuf::from(file), |folder| folder.0.join(file))

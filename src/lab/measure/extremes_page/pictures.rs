@@ -220,7 +220,7 @@ fn widest(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
     };
     let (near, turned) = (naive(WIDEST as f32)?, naive(180.0)?);
     let says = format!(
-        "At {WIDEST} degrees the tangent in f32 is wrong in its fourth digit, which so double_double an image hardly shows: {} of {} \
+        "At {WIDEST} degrees the tangent in f32 is wrong in its fourth digit, which so wide an image hardly shows: {} of {} \
          pixels differ. At 180 degrees it is negative, and the image stands on its head; pinhole refuses that angle.",
         pinhole.differing(&near),
         pinhole.pixels.len()
