@@ -12,3 +12,4 @@ mod plan;
 mod sampling;
 mod scenes;
 mod textures;
+mod words;

@@ -60,7 +60,7 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
-    /// Measure what theory knows, by whole renders, and how far each number may be off at random
+    /// Measure what theory knows, by whole renders, with the standard error of each number
     ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),

@@ -26,7 +26,7 @@ pub struct ClosedForm {
 /// Where light is grey it is measured in green.
 pub(super) const GREEN: usize = 1;
 
-/// A mean, and how far it may be off at random.
+/// A mean and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// The mean of all samples.
@@ -43,7 +43,7 @@ pub struct Measured {
 pub const ROUNDING: f64 = 1.0 / (1_u64 << 16) as f64;
 
 impl Measured {
-    /// Whether it varies at random by less than rounding may move it; then it is held to rounding instead.
+    /// Whether its noise is below what rounding may do; then it is held to rounding instead.
     pub fn is_exact(&self, truth: f64) -> bool {
         self.standard_error < ROUNDING * truth.abs()
     }
@@ -60,7 +60,7 @@ const SIDE: u32 = 32;
 impl ClosedForm {
     /// Renders the scene twice with at least half as many samples, and takes the mean of one channel over all pixels.
     ///
-    /// A pixel's own mean differs between the two renders at random alone, whatever the picture shows there.
+    /// A pixel's own mean differs between the two renders by noise alone, whatever the picture shows there.
     /// Errors: a refused scene.
     pub fn measure(&self, samples: u32, seed: u64) -> Result<Measured> {
         self.measure_by(&every_stage(), samples, seed)
