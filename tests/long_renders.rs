@@ -261,7 +261,7 @@ fn a_forged_checkpoint_is_refused() {
             film.planned = film.tiles.iter().map(|own| vec![9; own.count.len()]).collect()
         }),
         ("rejected samples", |film| film.tiles[0].rejected = u64::MAX),
-        ("layers", |film| film.layers[0].met[0] = film.layers[0].taken[0] + 1),
+        ("layers", |film| film.layers[0].hits[0] = film.layers[0].taken[0] + 1),
         ("tiles of one pixel", |film| {
             *film = Film { done: vec![10; 960], moments: film.moments.clone(), ..Film::new(40, 24, 1) };
         }),

@@ -27,12 +27,12 @@ const ORDER: &[(&str, &[&str])] = &[
             "prelude",
         ],
     ),
-    ("lab", &["repository", "naive", "attempt", "figure", "review", "measure", "report", "exercise"]),
+    ("lab", &["png_url", "repository", "naive", "attempt", "figure", "review", "measure", "report", "exercise"]),
     ("", &["exercises", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
-const ROOT: [&str; 3] = ["Error", "Result", "repository"];
+const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
 const REEXPORTED: [(&str, &str); 7] = [

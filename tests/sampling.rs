@@ -44,8 +44,8 @@ fn a_constant_comes_back_bit_for_bit_through_every_filter_at_every_count() {
             for (x, y) in (0..7).flat_map(|y| (0..9).map(move |x| (x, y))) {
                 assert_eq!(film.mean(x, y), expected, "{sampling:?}, {samples} samples, pixel {x},{y}");
             }
-            assert_eq!(film.weighed_out().1, 0, "no pixel of a constant rings");
-            without += film.weighed_out().0;
+            assert_eq!(film.filter_artifacts().1, 0, "no pixel of a constant rings");
+            without += film.filter_artifacts().0;
             tried += 1;
         }
     }
@@ -65,7 +65,7 @@ fn a_filter_that_is_negative_in_places_gives_no_nan_and_nothing_below_0() {
         let film = rendered(&scene);
         let parts = (0..33).flat_map(|y| (0..48).map(move |x| (x, y))).flat_map(|(x, y)| film.mean(x, y));
         assert!(parts.into_iter().all(|part| part.is_finite() && part >= 0.0), "{samples} samples");
-        let counted = film.weighed_out();
+        let counted = film.filter_artifacts();
         (without, below) = (without + counted.0, below + counted.1);
         let negative = |tile: &FilmTile| tile.negative_count.iter().sum::<u32>();
         assert!(film.tiles.iter().map(negative).sum::<u32>() > 0, "{samples} samples");

@@ -14,7 +14,7 @@ pub fn plan(subject: &Subject<'_>, options: &RenderOptions) -> String {
 pub fn next(subject: &Subject<'_>, options: &RenderOptions, width: u32, height: u32) -> Option<String> {
     let name = name(subject)?;
     let pixel = format!("{},{}", width / 2, height * 3 / 5);
-    let size = if options.scene.names_pixels() { format!(" --size {width}x{height}") } else { String::new() };
+    let size = if options.scene.sets_resolution() { format!(" --size {width}x{height}") } else { String::new() };
     Some(called(&format!("trace {name} --pixel {pixel}{size}")))
 }
 

@@ -109,7 +109,7 @@ impl SceneOptions {
     }
 
     /// Whether another number of pixels is asked for.
-    pub fn names_pixels(&self) -> bool {
+    pub fn sets_resolution(&self) -> bool {
         self.pixels().is_some()
     }
 

@@ -115,7 +115,7 @@ impl<'c> Subject<'c> {
     pub fn placed(&self, error: pinhole::Error, asked: &Overrides) -> Error {
         let Self::File { file, .. } = self else { return error.into() };
         let place = match &error {
-            pinhole::Error::SceneError(scene_error) if asked.names_pixels() && scene_error.field == "resolution" => {
+            pinhole::Error::SceneError(scene_error) if asked.sets_resolution() && scene_error.field == "resolution" => {
                 return error.into();
             }
             pinhole::Error::SceneError(_) => file.place_of(|world| {

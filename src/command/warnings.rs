@@ -53,7 +53,7 @@ fn empty_layers<'a>(film: &'a Film, plan: &'a Plan) -> impl Iterator<Item = Stri
 
 /// Pixels that a filter that is negative in places has left without weight or below 0.
 fn negative_weights(film: &Film) -> Vec<String> {
-    let (without, below) = film.weighed_out();
+    let (without, below) = film.filter_artifacts();
     let mut told = Vec::new();
     if without > 0 {
         told.push(format!(

@@ -1,5 +1,5 @@
-//! Tells the renderer what it was built from: a checkpoint of another program must not be continued, for its samples were
-//! taken by other code.
+//! Hands the renderer a hash of its own sources: a checkpoint written by another build must not be continued, because
+//! its samples were taken by other code.
 
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
@@ -18,7 +18,8 @@ fn main() -> io::Result<()> {
 
 /// A hash of all sources below a folder, and of the versions that the lock file names, if there is one.
 ///
-/// The same sources are the same program wherever they lie, so neither the folder nor the ends of lines count.
+/// The same sources make the same program wherever they are checked out, so neither the folder nor the line endings
+/// count.
 pub fn hash_of(package: &Path, lock: &Path) -> io::Result<String> {
     let mut hasher = DefaultHasher::new();
     if lock.exists() {
@@ -38,7 +39,7 @@ fn text_of(file: &Path) -> io::Result<String> {
     Ok(fs::read_to_string(file)?.replace("\r\n", "\n"))
 }
 
-/// The sources of a folder and of those in it, in the order of their names.
+/// Collects the sources of a folder and of its subfolders, sorted by name.
 fn list(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     let mut entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
     entries.sort();

@@ -6,39 +6,39 @@ use crate::rays::place_samples_stage;
 use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
 use bevy_ecs::prelude::*;
 
-/// A chapter of the book: a scene and the stages taught so far; the scene picks from them.
+/// A chapter of the book: a scene, and the stages taught so far, of which the plan keeps those that the scene needs.
 #[derive(Clone)]
 pub struct Chapter {
-    /// The stem that its folder, its page and its example share, such as `05_pinhole`.
+    /// The stem shared by its folder, its page and its example, such as `05_pinhole`.
     pub name: &'static str,
-    /// What it is about, in a few words.
+    /// Its title, in a few words.
     pub title: &'static str,
-    /// Stages on offer.
+    /// The stages that the plan may choose from.
     pub offer: Vec<Stage>,
-    /// The column it shows instead of a picture.
+    /// The column to paint instead of the picture, by name.
     pub view: Option<&'static str>,
     scene: fn(&mut World),
 }
 
 impl Chapter {
-    /// A chapter that offers nothing yet.
+    /// A chapter that offers no stages yet.
     pub fn new(name: &'static str, title: &'static str, scene: fn(&mut World)) -> Self {
         Self { name, title, scene, offer: Vec::new(), view: None }
     }
 
-    /// Offers a stage, or several.
+    /// Offers one stage or several.
     pub fn offer(mut self, stages: impl IntoIterator<Item = Stage>) -> Self {
         self.offer.extend(stages);
         self
     }
 
-    /// Shows a column instead of a picture, unless the reader asks for another.
+    /// Paints a column instead of the picture, unless the overrides name another one.
     pub fn show<C: Column>(mut self) -> Self {
         self.view = Some(C::NAME);
         self
     }
 
-    /// The stages on offer, with those that every chapter has: painting a view, and the film.
+    /// The stages offered, with those that every chapter has: painting a view, and the film.
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages = self.offer.clone();
         if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
@@ -49,59 +49,60 @@ impl Chapter {
         stages
     }
 
-    /// The chapter's scene, with what a reader asks of it.
-    pub fn world(&self, asked: &Overrides) -> World {
+    /// The chapter's scene with the overrides applied to its camera.
+    pub fn world(&self, overrides: &Overrides) -> World {
         let mut world = World::new();
         (self.scene)(&mut world);
-        let view = asked.view.clone().or(self.view.map(String::from));
-        Overrides { view, ..asked.clone() }.put_on_camera(&mut world);
+        let view = overrides.view.clone().or(self.view.map(String::from));
+        Overrides { view, ..overrides.clone() }.put_on_camera(&mut world);
         world
     }
 }
 
-/// What a reader may change about a chapter's scene from the command line.
+/// What the command line may override in a scene; everything that is `None` or false leaves the scene as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// Another number of pixels.
+    /// The number of pixels, outright.
     pub resolution: Option<Resolution>,
-    /// Another number of pixels, which may be measured by the one that the scene has.
+    /// The number of pixels, possibly relative to the scene's own.
     pub size: Option<Size>,
-    /// A column to be painted.
+    /// The column to paint instead of the picture, by name.
     pub view: Option<String>,
     /// Whether stages are timed and counted.
     pub statistics: bool,
     /// How pixels are sampled.
     pub sampling: SamplingOverrides,
-    /// Whether samples go on for as long as there is time, where their number is not asked for.
+    /// Whether, if no number of samples is given, sampling continues until time runs out.
     pub endless: bool,
-    /// The error that each pixel is to have.
+    /// The target error of each pixel, as in [`Adaptive`].
     pub error: Option<f64>,
-    /// What else to keep of every pixel.
+    /// The layers to keep beside radiance.
     pub layers: Option<Layers>,
 }
 
-/// How many pixels a reader asks for, outright or measured by what the scene has.
+/// The size of an image in pixels, outright or relative to the scene's own [`Resolution`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Size {
-    /// So many.
+    /// Exactly this size.
     Pixels(Resolution),
-    /// So many from left to right; the scene's shape says how many from top to bottom.
+    /// This width; the height follows from the scene's aspect ratio.
     Width(u32),
-    /// So many from top to bottom; the scene's shape says how many from left to right.
+    /// This height; the width follows from the scene's aspect ratio.
     Height(u32),
-    /// So many for every hundred of the scene's, each way.
+    /// This percentage of the scene's width and of its height.
     Percent(f64),
 }
 
 impl Size {
-    /// What it makes of the number of pixels that a scene has.
+    /// The resolution that results for a scene whose own is given; each side is rounded to a whole number of at least
+    /// 1.
     pub fn of(self, own: Resolution) -> Resolution {
         let [width, height] = [own.width, own.height].map(f64::from);
         let whole = |pixels: f64| (pixels.round() as u32).max(1);
         match self {
             Self::Pixels(resolution) => resolution,
-            Self::Width(asked) => Resolution { width: asked, height: whole(f64::from(asked) * height / width) },
-            Self::Height(asked) => Resolution { width: whole(f64::from(asked) * width / height), height: asked },
+            Self::Width(pixels) => Resolution { width: pixels, height: whole(f64::from(pixels) * height / width) },
+            Self::Height(pixels) => Resolution { width: whole(f64::from(pixels) * width / height), height: pixels },
             Self::Percent(percent) => {
                 Resolution { width: whole(width * percent / 100.0), height: whole(height * percent / 100.0) }
             }
@@ -109,22 +110,23 @@ impl Size {
     }
 }
 
-/// What a reader may change about a camera's [`Sampling`]; where any of it is asked for, a camera without it gets the
-/// default and then what is asked.
+/// What the command line may override in a camera's [`Sampling`].
+///
+/// A camera without that component gets the default with the overrides applied, as soon as there is one of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SamplingOverrides {
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: Option<u32>,
-    /// Another seed.
+    /// The seed of the random numbers.
     pub seed: Option<u64>,
-    /// Where the random numbers come from.
+    /// The sampler.
     pub sampler: Option<Sampler>,
-    /// What a sample counts for.
+    /// The reconstruction filter.
     pub filter: Option<Filter>,
 }
 
 impl SamplingOverrides {
-    /// What it makes of a camera's sampling; nothing where nothing is asked.
+    /// The camera's sampling with the overrides applied; `None` if there are none.
     pub fn of(&self, own: Option<&Sampling>) -> Option<Sampling> {
         let Sampling { samples, seed, sampler, filter } = own.copied().unwrap_or_default();
         (*self != Self::default()).then(|| Sampling {
@@ -137,12 +139,12 @@ impl SamplingOverrides {
 }
 
 impl Overrides {
-    /// Whether another number of pixels is asked for.
-    pub fn names_pixels(&self) -> bool {
+    /// Whether the number of pixels is overridden.
+    pub fn sets_resolution(&self) -> bool {
         self.resolution.is_some() || self.size.is_some()
     }
 
-    /// Puts what is asked onto a scene's camera, if it has one.
+    /// Applies the overrides to a scene's camera, if it has one.
     pub fn put_on_camera(&self, world: &mut World) {
         let Ok(camera) = camera_entity(world) else { return };
         let mut camera = world.entity_mut(camera);
@@ -156,11 +158,11 @@ impl Overrides {
         if let Some(column) = self.view.clone() {
             camera.insert(View { column });
         }
-        let mut asked = self.sampling;
+        let mut sampling = self.sampling;
         if self.endless || self.error.is_some() {
-            asked.samples = asked.samples.or(Some(OPEN_END));
+            sampling.samples = sampling.samples.or(Some(OPEN_END));
         }
-        if let Some(sampling) = asked.of(camera.get::<Sampling>()) {
+        if let Some(sampling) = sampling.of(camera.get::<Sampling>()) {
             camera.insert(sampling);
         }
         if let Some(error) = self.error {
@@ -180,7 +182,7 @@ impl IntoIterator for Stage {
     type Item = Self;
     type IntoIter = std::iter::Once<Self>;
 
-    /// One stage, so that `offer` takes one or many.
+    /// Yields the one stage, so that `offer` takes one or many.
     fn into_iter(self) -> Self::IntoIter {
         std::iter::once(self)
     }

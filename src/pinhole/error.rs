@@ -5,19 +5,19 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// What the kit's functions answer.
+/// The result of pinhole's functions.
 pub type Result<T = ()> = std::result::Result<T, Error>;
 
-/// Everything that can go wrong, each in one sentence.
+/// Everything that can go wrong, each displayed as one sentence.
 #[derive(Error)]
 pub enum Error {
-    /// The scene cannot be rendered.
+    /// The scene cannot be rendered as it is.
     #[error(transparent)]
     SceneError(#[from] SceneError),
     /// A scene file cannot be used.
     #[error(transparent)]
     File(#[from] FileProblem),
-    /// No plan can be made.
+    /// No plan can be made from the stages offered.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// A file cannot be written.
@@ -25,16 +25,16 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// What was asked for cannot be done, or does not hold.
+    /// A request that cannot be carried out, or a check that failed.
     #[error("{0}")]
     Usage(String),
-    /// The reader stopped the render.
+    /// The render was interrupted and nothing was kept.
     #[error("stopped before the picture was done; nothing was written")]
     Interrupted,
-    /// The reader stopped a render that can be continued.
+    /// The render was interrupted and can be continued from its checkpoint.
     #[error("{0}")]
     Stopped(String),
     /// Printing failed.
@@ -42,7 +42,7 @@ pub enum Error {
     Print(#[from] io::Error),
 }
 
-/// The same sentence, so that `fn main() -> pinhole::Result` prints it.
+/// The sentence of `Display`, so that `fn main() -> pinhole::Result` prints that.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

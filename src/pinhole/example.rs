@@ -8,17 +8,17 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What an example takes, and where everything else is found.
+/// The options of an example, and where to find everything else.
 const TAKES: &str = "an example takes --size WIDTHxHEIGHT, --samples N and -o FILE; the program takes the rest: \
                      `cargo run --release -- render";
 
-/// What a chapter's `main` calls: renders the chapter to `out/NAME.png` and `out/NAME.exr`.
+/// Renders a chapter to `out/NAME.png` and `out/NAME.exr`; a chapter's `main` is a call of this.
 ///
-/// The command line may ask for another size, another number of samples or another file; everything else, such as a
-/// trace or a view, is asked of the program.
-/// A failure is printed in one sentence and ends the program with status 1, or 2 where the command line makes no sense.
+/// The command line may set the size, the number of samples and the file; everything else, such as a trace or a view,
+/// is the program's business.
+/// A failure is printed as one sentence and ends the process with status 1, or 2 if the command line makes no sense.
 ///
-/// Errors: none that comes back.
+/// Errors: none is ever returned.
 pub fn run(chapter: Chapter) -> Result {
     let words: Vec<OsString> = std::env::args_os().skip(1).collect();
     let mut errors = std::io::stderr();
@@ -43,11 +43,11 @@ pub fn run(chapter: Chapter) -> Result {
 /// What the command line of an example asks for.
 #[derive(Debug, Default, PartialEq)]
 struct Wanted {
-    asked: Overrides,
+    overrides: Overrides,
     file: Option<PathBuf>,
 }
 
-/// The command line, or its first word that makes no sense.
+/// The parsed command line, or the first word that makes no sense.
 fn parse(words: &[OsString]) -> std::result::Result<Wanted, &OsString> {
     let mut wanted = Wanted::default();
     for pair in words.chunks(2) {
@@ -58,9 +58,9 @@ fn parse(words: &[OsString]) -> std::result::Result<Wanted, &OsString> {
                 let pixels = text.split_once('x').and_then(|(width, height)| {
                     Some(Resolution { width: width.parse().ok()?, height: height.parse().ok()? })
                 });
-                wanted.asked.size = Some(Size::Pixels(pixels.ok_or(value)?));
+                wanted.overrides.size = Some(Size::Pixels(pixels.ok_or(value)?));
             }
-            "--samples" => wanted.asked.sampling.samples = Some(text.parse().map_err(|_| value)?),
+            "--samples" => wanted.overrides.sampling.samples = Some(text.parse().map_err(|_| value)?),
             "-o" => wanted.file = Some(PathBuf::from(value)),
             _ => return Err(option),
         }
@@ -68,13 +68,13 @@ fn parse(words: &[OsString]) -> std::result::Result<Wanted, &OsString> {
     Ok(wanted)
 }
 
-/// Renders the chapter, writes its picture, and says what was done.
+/// Renders the chapter, writes its picture, and returns a sentence that says what was done.
 fn save(chapter: &Chapter, wanted: &Wanted) -> Result<String> {
     let files = match &wanted.file {
         Some(file) => vec![file.clone()],
         None => ["png", "exr"].map(|ending| Path::new("out").join(format!("{}.{ending}", chapter.name))).to_vec(),
     };
-    let scene = chapter.world(&wanted.asked);
+    let scene = chapter.world(&wanted.overrides);
     let rendered = render(&scene, &chapter.stages(), &Execution::default(), &())?;
     let film = &rendered.film;
     for file in &files {
@@ -102,8 +102,8 @@ mod tests {
     fn an_example_takes_a_size_samples_and_a_file() {
         assert_eq!(parsed(&[]), Some(Wanted::default()));
         let wanted = parsed(&["--size", "96x54", "--samples", "4", "-o", "a.png"]).expect("understood");
-        assert_eq!(wanted.asked.size, Some(Size::Pixels(Resolution { width: 96, height: 54 })));
-        assert_eq!(wanted.asked.sampling.samples, Some(4));
+        assert_eq!(wanted.overrides.size, Some(Size::Pixels(Resolution { width: 96, height: 54 })));
+        assert_eq!(wanted.overrides.sampling.samples, Some(4));
         assert_eq!(wanted.file, Some(PathBuf::from("a.png")));
         for words in [&["--size"][..], &["--size", "96"], &["--samples", "-1"], &["trace", "1,2"]] {
             assert_eq!(parsed(words), None, "{words:?}");

@@ -2,19 +2,19 @@
 //!
 //! The scene is a `bevy_ecs` world of plain components; a plan decides from them which stages exist; the stages are
 //! systems that fill the columns of small tiles, one space after another, until light lands on the film.
-//! The modules stand in that order, and each names only those above it:
+//! The modules are listed in that order, and each uses only those above it:
 //!
-//! 1. [`scene`]: what an author writes.
+//! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
-//! 3. [`extract`]: entities → tables.
-//! 4. [`sample`]: random numbers.
+//! 3. [`extract`]: entities → tables, as structures of arrays.
+//! 4. [`sample`]: samplers, random numbers and reconstruction filters.
 //! 5. [`rays`]: raster → NDC → screen → camera → world.
-//! 6. [`intersect`]: rays → nearest surface.
-//! 7. [`shade`]: surface → light.
-//! 8. [`follow`]: light goes on, leg after leg.
-//! 9. [`film`]: light → pixels → files.
+//! 6. [`intersect`]: rays → the closest hit and its surface.
+//! 7. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 8. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 9. [`film`]: radiance → pixels → files.
 //! 10. [`render`]: the loop over tiles.
-//! 11. [`look`]: trace, view, statistics.
+//! 11. [`look`]: traces, views and statistics.
 
 pub mod scene;
 

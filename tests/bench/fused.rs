@@ -13,7 +13,7 @@ use pinhole::extract::{
     SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
-use pinhole::intersect::{NO_SHAPE, Surface, nearness, offset_bound, offset_origin, plane_t, sphere_t, sum_of_parts};
+use pinhole::intersect::{NO_SHAPE, Surface, l1_norm, nearness, offset_bound, offset_origin, plane_t, sphere_t};
 use pinhole::plan::Table;
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
@@ -158,7 +158,7 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
         ShapeKind::Sphere => {
             let centre = scene.spheres.centre(row);
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
-            (outward, sum_of_parts(centre) + scene.spheres.radius[row])
+            (outward, l1_norm(centre) + scene.spheres.radius[row])
         }
         // Nothing but planes is left, as `extract` has made sure.
         _ => (scene.planes.normal[row], scene.planes.offset[row].abs()),

@@ -181,5 +181,5 @@ fn a_pipe_is_no_scene_file() {
     let mut said = String::new();
     child.stderr.take().expect("piped").read_to_string(&mut said).expect("UTF-8");
     assert!(!child.wait().expect("it ends").success());
-    assert_eq!(said, "pinhole: pipe.ron: this is no ordinary file, but a scene file is a text file\n");
+    assert_eq!(said, "pinhole: pipe.ron: this is not a regular file, but a scene file is a text file\n");
 }

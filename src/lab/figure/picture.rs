@@ -1,6 +1,7 @@
+use crate::png_url;
 use bevy_ecs::prelude::*;
 use pinhole::extract::camera_entity;
-use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by, png_url};
+use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by};
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Rendered, render};
 use pinhole::scene::Resolution;

@@ -12,7 +12,7 @@ use pinhole::extract::{
     ShapeTable, SphereTable,
 };
 use pinhole::film::Film;
-use pinhole::intersect::{self, NO_SHAPE, nearness, offset_bound, plane_t, sphere_t, sum_of_parts};
+use pinhole::intersect::{self, NO_SHAPE, l1_norm, nearness, offset_bound, plane_t, sphere_t};
 use pinhole::plan::{Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
@@ -204,7 +204,7 @@ fn describe(
             ShapeKind::Sphere => {
                 let centre = spheres.centre(row);
                 let outward = (point - centre).try_normalize().unwrap_or(-direction);
-                (outward, sum_of_parts(centre) + spheres.radius[row])
+                (outward, l1_norm(centre) + spheres.radius[row])
             }
             // Nothing but planes is left, as `spawn` has made sure.
             _ => (planes.normal[row], planes.offset[row].abs()),

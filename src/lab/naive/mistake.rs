@@ -45,11 +45,11 @@ pub fn scatter_matte_by(sample: MatteSample) -> Stage {
                 scattered.append(&list.row, |number, row| {
                     let surface = surfaces.get(row);
                     let local = (sample.direction)(points[number]);
-                    let (share, colour) = (paths.share(row), materials.colour[surface.material as usize]);
+                    let (throughput, colour) = (paths.throughput(row), materials.colour[surface.material as usize]);
                     ScatteredRay {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,
-                        share: [0, 1, 2].map(|part| share[part] * (sample.weight)(colour[part], local.z)),
+                        share: [0, 1, 2].map(|part| throughput[part] * (sample.weight)(colour[part], local.z)),
                         pdf: cosine_pdf(local.z),
                     }
                 });

@@ -36,7 +36,7 @@ pub struct Span {
     /// The area at its end; the last cell's lies beyond the whole.
     pub end: f64,
     /// 1 / its own area.
-    pub share: f64,
+    pub per_area: f64,
     /// Where it begins, in pixels from the centre.
     pub x: f64,
     /// How wide it is, in pixels.
@@ -181,7 +181,7 @@ impl FilterCells {
                 let [start, end] = ends.map(area);
                 let [first, last] = ends.map(|x| filter_value(filter, x).abs());
                 let slope = first / (first + last);
-                cells.push(Span { start, end, share: 1.0 / (end - start), x, width, slope, negative });
+                cells.push(Span { start, end, per_area: 1.0 / (end - start), x, width, slope, negative });
             }
         }
         if let Some(last) = cells.last_mut() {

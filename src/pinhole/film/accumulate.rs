@@ -4,7 +4,7 @@ use crate::rays::{PixelSamples, SampleSigns, sampling_evidence, signed_evidence}
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 
-/// Adds each row's radiance to its pixel's sum; where no column says which pixel, a row is the pixel of its number.
+/// Adds each row's radiance to its pixel's sum; without [`PixelSamples`], row and pixel coincide.
 pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&SampleSigns>, &mut FilmTile)>) {
     for (radiance, samples, signs, mut film) in &mut tiles {
         let film = &mut *film;
@@ -30,12 +30,12 @@ pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&S
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn film_stage() -> Stage {
     Stage::new("Accumulate film", TileSystems::Film, add_to_film)
         .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<SampleSigns>(signed_evidence)
         .writes::<FilmTile>()
-        .when(|_| Evidence::always("the film is what is asked for"))
+        .when(|_| Evidence::always("every render produces a film"))
 }

@@ -1,11 +1,12 @@
-//! What persists of a render between two runs of the program, as one file.
+//! Checkpoints: the state of a render between two runs of the program, as one file.
 //!
-//! Little-endian: the word `pinhole checkpoint`, the format's version, the key of plan and scene, the film's shape, what
-//! it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples, moments, layers; then what
-//! rays from the lights brought; last the CRC-32 of every number before it.
+//! The format is little-endian: the magic word `pinhole checkpoint`, the format's version, the key of plan and scene,
+//! the film's size and what it keeps; then, tile by tile, steps done, planned samples, sums, counts, rejected samples,
+//! moments and layers; then the splats; last the CRC-32 of every number before it.
 //!
-//! The checksum tells damage, and is no signature: who wants to can write a checkpoint of any picture.
-//! So nothing in the file decides how much memory is asked for, and what no render can have left is refused.
+//! The checksum detects damage but is not a signature: anyone can write a checkpoint of any picture.
+//! Therefore nothing in the file determines how much memory is allocated, and a state that no render can have produced
+//! is an error.
 
 use super::plausible::is_plausible;
 use super::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile, Rejected, write_whole};
@@ -14,24 +15,24 @@ use crate::{Error, Result};
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
-/// What a checkpoint begins with.
+/// The magic word at the start of a checkpoint.
 const WORD: [u8; 20] = *b"pinhole checkpoint\r\n";
-/// A file of another version is refused.
+/// The version of the format; files of other versions are not read.
 const VERSION: u32 = 3;
-/// The largest film with all that can be kept of it stays below this.
+/// The file kind; the largest film with everything that it can keep stays below this size.
 const CHECKPOINT: FileKind = FileKind { name: "a checkpoint", most: 1 << 40 };
-/// Numbers that are read or written at once.
+/// How many numbers are read or written at once.
 const AT_ONCE: usize = 4096;
-// Bits of what a film keeps.
+// Flags for what a film keeps.
 const MOMENTS: u32 = 1;
 const LAYERS: u32 = 2;
 const PILOT: u32 = 4;
 const PLANNED: u32 = 8;
 const SPLATS: u32 = 16;
 
-/// Writes the state of a film whole, under the key of what it is a film of.
+/// Writes the state of a film atomically, with the key that identifies what it is a film of.
 ///
-/// Errors: the path and what the system said; what stood there before is then still there.
+/// Errors: the path and the error of the operating system; a previous file at the path is then unchanged.
 pub fn write_checkpoint(film: &Film, key: u64, path: &Path) -> Result {
     write_whole(path, |file| {
         file.write_all(&WORD)?;
@@ -45,11 +46,11 @@ pub fn write_checkpoint(film: &Film, key: u64, path: &Path) -> Result {
     })
 }
 
-/// Reads the state of a film like `film`, which the render that is to go on has made; `adaptive` where the error decides
-/// how many samples each pixel gets.
+/// Reads the state of a film with the size and contents of `film`, which belongs to the render that is to be continued;
+/// `adaptive` says whether the number of samples depends on the error.
 ///
-/// Errors, each in one sentence: no such file or what the system said, another kind of file, another version, a film of
-/// something else than `key`, a file that is cut or damaged.
+/// Errors, each one sentence: the file does not exist or cannot be read, is not a checkpoint, has another version or
+/// another key, or is truncated or damaged.
 pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Result<Film> {
     let refused = |what: &str| Error::Usage(format!("cannot continue from {}: {what}", printable_path(path)));
     let damaged = || refused("the file is cut short or damaged");
@@ -63,17 +64,17 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let mut word = [0; WORD.len()];
     file.read_exact(&mut word).map_err(unread)?;
     if word != WORD {
-        return Err(refused("it is no checkpoint of pinhole"));
+        return Err(refused("it is not a checkpoint of pinhole"));
     }
     let mut numbers = Numbers { stream: file, sum: crc32fast::Hasher::new() };
     let version = numbers.read_u32().map_err(unread)?;
     if version != VERSION {
-        return Err(refused(&format!("it is of version {version}, but this program reads version {VERSION}")));
+        return Err(refused(&format!("it has version {version}, but this program reads version {VERSION}")));
     }
     if numbers.read_u64().map_err(unread)? != key {
         return Err(refused(
-            "it is of another scene, size, seed, sampler, filter or set of layers than is asked for now, or of another \
-             state of the program; render without --resume to begin anew",
+            "it belongs to another scene, size, seed, sampler, filter or set of layers than the present one, or to another \
+             build of the program; render without --resume to start over",
         ));
     }
     let mut found = [0; 5];
@@ -82,7 +83,7 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let mut expected = shape(film);
     expected[3] = expected[3] & !(PILOT | PLANNED) | extra;
     let least = least_length(film, extra & PLANNED != 0);
-    // What counts negatively is kept from the first such sample on, and of each tile the first rejected samples are.
+    // Negative sums exist from the first sample of negative weight on, and each tile keeps its first rejected samples.
     let most =
         least + film.tiles.iter().map(|tile| 28 * tile.count.len() as u64 + 24 * Rejected::MOST as u64).sum::<u64>();
     if found != expected || !(least..=most).contains(&length) {
@@ -99,7 +100,7 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     if whole && is_plausible(&read) { Ok(read) } else { Err(damaged()) }
 }
 
-/// What the head says of a film: its size, the side of a tile, what it keeps, and of which layers.
+/// The header's description of a film: its size, the side of a tile, what it keeps, and its layers.
 fn shape(film: &Film) -> [u32; 5] {
     let kept = [
         (MOMENTS, !film.moments.is_empty()),
@@ -113,15 +114,15 @@ fn shape(film: &Film) -> [u32; 5] {
     [film.width, film.height, film.tile_side, keeps, kinds]
 }
 
-/// The bytes of the checkpoint of a film like this none of whose samples was rejected or counts negatively.
+/// The length in bytes of the checkpoint of such a film if no sample was rejected or has negative weight.
 fn least_length(film: &Film, planned: bool) -> u64 {
     let pixels = u64::from(film.width) * u64::from(film.height);
     let layers = film.layers.first().map_or(0, |layers| 12 + 8 * layers.sums.len() as u64);
     let moments = if film.moments.is_empty() { 0 } else { 24 };
     let (splats, of_splats) = if film.splats.is_some() { (24, 16) } else { (0, 0) };
     let a_pixel = 28 + layers + moments + splats + if planned { 4 } else { 0 };
-    // The word, the version, the key, the shape and the checksum; of a tile its steps, whether anything counts negatively,
-    // and how many samples were rejected and are remembered.
+    // The magic word, the version, the key, the size and the checksum; per tile its steps, whether it has negative
+    // sums, and how many samples were rejected and are kept.
     WORD.len() as u64 + 4 + 8 + 20 + 4 + of_splats + 20 * film.tiles.len() as u64 + a_pixel * pixels
 }
 
@@ -171,7 +172,7 @@ fn write_film<S: Write>(film: &Film, out: &mut Numbers<S>) -> io::Result<()> {
     Ok(())
 }
 
-/// Fills an empty film.
+/// Reads the contents of an empty film.
 fn read_film<S: Read>(film: &mut Film, numbers: &mut Numbers<S>) -> io::Result<()> {
     for number in 0..film.tiles.len() {
         film.done[number] = numbers.read_u32()?;
@@ -231,7 +232,7 @@ fn read_tile<S: Read>(tile: &mut FilmTile, numbers: &mut Numbers<S>) -> io::Resu
     Ok(())
 }
 
-/// Numbers on their way to or from a file, and the checksum of those that have passed.
+/// A stream of numbers, with the checksum of those that have been read or written.
 struct Numbers<S> {
     stream: S,
     sum: crc32fast::Hasher,

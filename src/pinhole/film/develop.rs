@@ -1,45 +1,46 @@
 use crate::extract::linear_from_srgb;
 use std::sync::LazyLock;
 
-/// How linear numbers become the bytes of a picture.
+/// How linear values are encoded as the bytes of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Curve {
-    /// The sRGB curve: for light.
+    /// The sRGB transfer function: for radiance.
     #[default]
     Srgb,
-    /// None: for a view of a column, whose numbers are data.
+    /// Linear: for a view of a column, whose values are data.
     Straight,
 }
 
 // ANCHOR: srgb_from_linear
-/// The sRGB curve (IEC 61966-2-1): light from 0 to 1 as the number that a screen is sent.
+/// The sRGB transfer function (IEC 61966-2-1): encodes linear light from 0 to 1 as the value that is sent to a display.
 ///
-/// A screen answers the number 0.5 with about a fifth of its light, as the picture tubes did that the standard describes.
-/// The curve undoes that; and since the eye tells dark shades apart better than bright ones, it happens to spend the
-/// 256 steps where they are seen.
+/// A display turns the value 0.5 into about a fifth of its full light, as the cathode ray tubes did that the standard
+/// was written for.
+/// The function compensates for that; and since the eye distinguishes dark shades better than bright ones, it happens
+/// to spend the 256 steps where they are seen.
 pub fn srgb_from_linear(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 // ANCHOR_END: srgb_from_linear
 
-/// A sum's mean as a picture holds it: light is not below 0, and what is more than f32 holds counts as its largest number,
-/// for an infinite pixel spoils every mean that it enters.
+/// A mean as a picture holds it: negative values become 0, and values beyond the range of f32 its largest number, since
+/// an infinite pixel would spoil every mean that it enters.
 #[inline(always)]
 pub(super) fn shown(mean: f64) -> f32 {
     finite(mean.max(0.0))
 }
 
-/// A number in f32, of either sign; the largest that there is where it would be infinite.
+/// Converts to f32, with the largest finite number in place of an infinite one.
 #[inline(always)]
 pub(super) fn finite(number: f64) -> f32 {
     number.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }
 
-/// For each byte above 0, the least light that rounds to it.
+/// For each byte above 0, the smallest linear value that rounds to it.
 static BYTE_STEPS: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|step| linear_from_srgb((step as f64 + 0.5) / 255.0)));
 
-/// The byte of a picture for a linear number; below 0 is 0, above 1 is 255.
+/// Encodes a linear value as a byte; values below 0 give 0, values above 1 give 255.
 pub fn byte_from_linear(linear: f32, curve: Curve) -> u8 {
     let linear = f64::from(linear);
     match curve {
@@ -53,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_byte_comes_back_and_more_light_is_never_darker() {
+    fn bytes_survive_a_round_trip_and_the_curve_is_monotone() {
         for byte in 0..=255_u8 {
             let linear = linear_from_srgb(f64::from(byte) / 255.0);
             assert_eq!(byte_from_linear(linear as f32, Curve::Srgb), byte);
@@ -77,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_outside_goes_to_the_ends() {
+    fn values_out_of_range_are_clamped() {
         assert_eq!(byte_from_linear(-1.0, Curve::Srgb), 0);
         assert_eq!(byte_from_linear(7.0, Curve::Srgb), 255);
         assert_eq!(byte_from_linear(7.0, Curve::Straight), 255);

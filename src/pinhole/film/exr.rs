@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Writes the film's mean radiance as an OpenEXR file of linear 32-bit floats.
 ///
-/// Errors: the path and what the system said; no part of a file is left behind.
+/// Errors: the path and the error of the operating system; no partial file is left behind.
 pub fn write_exr(film: &Film, path: &Path) -> Result {
     write_whole(path, |file| {
         let channels = SpecificChannels::rgb(|at: exr::math::Vec2<usize>| {

@@ -4,38 +4,39 @@ use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 
-/// How many steps of a render the first sample of all pixels takes: one for every eighth, fourth, second and every pixel.
+/// The number of steps in which a render takes the first sample: for every eighth, fourth, second, and finally every
+/// pixel.
 pub const FIRST_SAMPLE_STEPS: u32 = 4;
 
-/// A sample that could not join the film, because a part of it was negative or not finite.
+/// A sample that was not added to the film, because a component was negative or not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rejected {
-    /// The pixel, from the left and from the top.
+    /// The pixel, from the left and from the top of the image.
     pub pixel: [u32; 2],
-    /// The sample's number within the pixel.
+    /// The sample's index within the pixel.
     pub sample: u32,
-    /// The radiance, as it came.
+    /// The offending radiance.
     pub radiance: [f32; 3],
 }
 
 impl Rejected {
-    /// How many of them a tile remembers by their address; all are counted.
+    /// How many of them a tile keeps; all are counted.
     pub const MOST: usize = 4;
 
-    /// What comes first: by the sample, then line by line from the top.
+    /// The order in which they are reported: by sample, then line by line from the top.
     fn place(&self) -> [u32; 3] {
         [self.sample, self.pixel[1], self.pixel[0]]
     }
 }
 
-/// The film of one tile: sums in f64 and the count of samples, a row a pixel.
+/// The film of one tile: sums in f64 and counts of samples, with a row per pixel.
 ///
-/// All samples are summed alike; those that count negatively are summed once more by themselves, so that both their
-/// weighted mean and the plain one can be told, and a tile without any keeps nothing for them.
-/// Sums are added to in the order of the samples, so neither threads nor tile size can change a bit of them.
+/// All samples are summed; those of negative filter weight are also summed separately, so that both the weighted and
+/// the unweighted mean can be computed; a tile without any allocates nothing for them.
+/// Samples are added in order, so neither the number of threads nor the tile size changes a bit of the sums.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
-    /// The pixels it covers.
+    /// The pixels that it covers.
     pub tile: Tile,
     /// Sum of red radiance.
     pub r: Vec<f64>,
@@ -43,16 +44,15 @@ pub struct FilmTile {
     pub g: Vec<f64>,
     /// Sum of blue radiance.
     pub b: Vec<f64>,
-    /// Samples summed.
+    /// Number of samples summed.
     pub count: Vec<u32>,
-    /// Of the samples that count negatively, where the filter is negative in places: the sums of their red, green and
-    /// blue radiance; empty before the first of them.
+    /// Sums of the red, green and blue radiance of samples on a negative lobe of the filter; empty before the first.
     pub negative: [Vec<f64>; 3],
-    /// How many of the samples count negatively; empty before the first.
+    /// Number of samples on a negative lobe; empty before the first.
     pub negative_count: Vec<u32>,
-    /// How many samples could not join.
+    /// Number of samples rejected.
     pub rejected: u64,
-    /// The first of them.
+    /// The first of the rejected samples.
     pub first_rejected: Vec<Rejected>,
 }
 
@@ -64,16 +64,16 @@ impl FilmTile {
         Self { tile, r: zeros(), g: zeros(), b: zeros(), count: vec![0; rows], ..Self::default() }
     }
 
-    /// Whether a sample is light: no part of it negative or not finite.
+    /// Whether a sample is valid: all components are finite and not negative.
     #[inline(always)]
-    pub fn takes(radiance: [f32; 3]) -> bool {
-        radiance.iter().all(|&part| (0.0..f32::INFINITY).contains(&part))
+    pub fn accepts(radiance: [f32; 3]) -> bool {
+        radiance.iter().all(|&value| (0.0..f32::INFINITY).contains(&value))
     }
 
-    /// Adds a sample to a row, or rejects it where a part is negative or not finite.
+    /// Adds a sample to a row, or rejects it if a component is negative or not finite.
     #[inline(always)]
     pub fn add(&mut self, row: usize, radiance: [f32; 3]) {
-        if Self::takes(radiance) {
+        if Self::accepts(radiance) {
             self.r[row] += f64::from(radiance[0]);
             self.g[row] += f64::from(radiance[1]);
             self.b[row] += f64::from(radiance[2]);
@@ -83,7 +83,7 @@ impl FilmTile {
         }
     }
 
-    /// Remembered are those that come first by sample and then by pixel, whatever the order in which they are traced.
+    /// Keeps those that come first by sample and then by pixel, whatever the order in which they are traced.
     #[cold]
     fn reject(&mut self, row: usize, radiance: [f32; 3]) {
         self.rejected += 1;
@@ -93,44 +93,44 @@ impl FilmTile {
         self.first_rejected.truncate(Rejected::MOST);
     }
 
-    /// Adds a sample that counts negatively, or rejects it.
+    /// Adds a sample of negative filter weight, or rejects it.
     #[inline(never)]
     pub fn add_negative(&mut self, row: usize, radiance: [f32; 3]) {
         self.add(row, radiance);
-        if Self::takes(radiance) {
+        if Self::accepts(radiance) {
             let rows = self.rows();
             self.negative_count.resize(rows, 0);
             self.negative_count[row] += 1;
-            for (sums, part) in self.negative.iter_mut().zip(radiance) {
+            for (sums, value) in self.negative.iter_mut().zip(radiance) {
                 sums.resize(rows, 0.0);
-                sums[row] += f64::from(part);
+                sums[row] += f64::from(value);
             }
         }
     }
 
-    /// The radiance of a row as it is developed: the mean of its samples, each counted as the filter weighs it; black where
-    /// no sample joined.
+    /// The radiance of a row as a picture shows it: the mean of its samples, weighted by the filter; black if there are
+    /// none.
     ///
-    /// Where the weights' sum is not above 0, as it can be after a few samples of a filter that is negative in places, it is
-    /// the plain mean.
-    /// Where such a filter rings below 0, it is 0.
+    /// If the sum of weights is not positive, which may happen after a few samples of a filter with negative lobes, it
+    /// is the unweighted mean.
+    /// Negative values, where such a filter rings, become 0.
     pub fn mean(&self, row: usize) -> [f32; 3] {
         self.shown_f64(row).map(shown)
     }
 
-    /// The same, unrounded, and below 0 where a filter rings.
+    /// The same, unrounded, and negative where a filter rings.
     #[inline(always)]
     pub fn shown_f64(&self, row: usize) -> [f64; 3] {
         self.weighted(row).unwrap_or_else(|| self.mean_f64(row))
     }
 
-    /// The sum of a row's weights: its samples, less those that count negatively once, and once more.
+    /// The sum of a row's filter weights, which are 1 or −1.
     pub fn weight(&self, row: usize) -> i64 {
         let negative = self.negative_count.get(row).copied().unwrap_or(0);
         i64::from(self.count[row]) - 2 * i64::from(negative)
     }
 
-    /// The weighted mean of a row, which can be below 0; none where the weights' sum is not above 0.
+    /// The weighted mean of a row, which may be negative; `None` if the sum of weights is not positive.
     pub fn weighted(&self, row: usize) -> Option<[f64; 3]> {
         let weight = self.weight(row);
         if weight <= 0 {
@@ -139,25 +139,25 @@ impl FilmTile {
         Some(self.weighted_sums(row).map(|sum| sum / weight as f64))
     }
 
-    /// The sums of a row, each sample with its sign.
+    /// The weighted sums of a row.
     pub fn weighted_sums(&self, row: usize) -> [f64; 3] {
-        let negative = |part: usize| self.negative[part].get(row).copied().unwrap_or(0.0);
+        let negative = |channel: usize| self.negative[channel].get(row).copied().unwrap_or(0.0);
         [self.r[row] - 2.0 * negative(0), self.g[row] - 2.0 * negative(1), self.b[row] - 2.0 * negative(2)]
     }
 
-    /// The plain mean of a row's samples, unrounded, whatever they count for.
+    /// The unweighted mean of a row's samples, unrounded.
     #[inline(always)]
     pub fn mean_f64(&self, row: usize) -> [f64; 3] {
         let count = f64::from(self.count[row].max(1));
         [self.r[row] / count, self.g[row] / count, self.b[row] / count]
     }
 
-    /// All lanes of sums, for checkpoints.
+    /// All components of sums, for checkpoints.
     pub fn sums(&self) -> [&Vec<f64>; 3] {
         [&self.r, &self.g, &self.b]
     }
 
-    /// The same, to be filled.
+    /// All components of sums, to be filled from a checkpoint.
     pub fn sums_mut(&mut self) -> [&mut Vec<f64>; 3] {
         [&mut self.r, &mut self.g, &mut self.b]
     }
@@ -195,9 +195,9 @@ impl Column for FilmTile {
     }
 }
 
-/// The whole film: its tiles in rows of tiles, so that each can be lent to a worker.
+/// The whole film, divided into tiles so that each can be lent to a worker.
 ///
-/// All of it persists: it is what a checkpoint holds.
+/// All of it is saved in a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Film {
     /// Pixels from left to right.
@@ -206,24 +206,24 @@ pub struct Film {
     pub height: u32,
     /// The side of a full tile, in pixels.
     pub tile_side: u32,
-    /// The tiles, left to right, then down.
+    /// The tiles, from left to right, then downward.
     pub tiles: Vec<FilmTile>,
-    /// The second moments of each tile; none where nothing asks for them.
+    /// The second moments of each tile; empty if nothing needs them.
     pub moments: Vec<FilmMoments>,
-    /// The layers of each tile; none where nothing asks for them.
+    /// The layers of each tile; empty if none are requested.
     pub layers: Vec<FilmLayers>,
-    /// What rays from the lights brought; none where none are traced.
+    /// The splats of light tracing; `None` if there is no light tracing.
     pub splats: Option<FilmSplats>,
-    /// How many steps of the render each tile has behind it.
+    /// How many steps of the render each tile has completed.
     pub done: Vec<u32>,
-    /// Whether its samples are those that only decide how many each pixel gets.
+    /// Whether this is the pilot pass of adaptive sampling, whose samples only decide how many each pixel gets.
     pub pilot: bool,
-    /// Samples that each pixel is to get, tile by tile, where that has been decided.
+    /// The number of samples that adaptive sampling allots to each pixel, tile by tile; empty before that is decided.
     pub planned: Vec<Vec<u32>>,
 }
 
 impl Film {
-    /// An empty film, cut into tiles.
+    /// An empty film, divided into tiles.
     pub fn new(width: u32, height: u32, tile_side: u32) -> Self {
         let mut tiles = Vec::new();
         for y in (0..height).step_by(tile_side as usize) {
@@ -235,7 +235,7 @@ impl Film {
         Self { width, height, tile_side, done: vec![0; tiles.len()], tiles, ..Self::default() }
     }
 
-    /// The same film with no samples in it.
+    /// A film of the same size and contents without samples.
     pub fn emptied(&self) -> Self {
         let mut film = Self::new(self.width, self.height, self.tile_side);
         let rows = |tile: &FilmTile| tile.tile.rows();
@@ -251,12 +251,13 @@ impl Film {
 
     /// The mean radiance of a pixel, linear Rec. 709.
     ///
-    /// While the first samples are under way, a pixel that has none yet shows the nearest one up and to the left that has.
+    /// While the first samples are being taken, a pixel without a sample shows the nearest one up and to the left that
+    /// has one.
     pub fn mean(&self, x: u32, y: u32) -> [f32; 3] {
         let (tile, row) = self.place(x, y);
-        let waits =
+        let waiting =
             self.tiles[tile].count[row] == 0 && self.done.get(tile).is_some_and(|&done| done < FIRST_SAMPLE_STEPS);
-        if !waits {
+        if !waiting {
             return self.with_splats(x, y, &self.tiles[tile], row).map(shown);
         }
         let coarser = [2, 4, 8].map(|side| self.place(x / side * side, y / side * side));
@@ -265,23 +266,23 @@ impl Film {
         self.with_splats(x, y, &self.tiles[tile], row).map(shown)
     }
 
-    /// The mean of a tile's row, and beside it what rays from the lights brought to a pixel.
+    /// The mean of a tile's row plus the splats of a pixel.
     fn with_splats(&self, x: u32, y: u32, tile: &FilmTile, row: usize) -> [f64; 3] {
-        let (seen, brought) = (tile.shown_f64(row), self.splats.as_ref().map(|splats| splats.mean(x, y)));
-        brought.map_or(seen, |brought| [0, 1, 2].map(|part| seen[part] + brought[part]))
+        let (camera, splats) = (tile.shown_f64(row), self.splats.as_ref().map(|splats| splats.mean(x, y)));
+        splats.map_or(camera, |splats| [0, 1, 2].map(|channel| camera[channel] + splats[channel]))
     }
 
-    /// How many pixels have gathered more light than a picture's 32-bit floats hold, and show the most that these do.
+    /// The number of pixels whose radiance exceeds the range of f32, and which are shown with its largest value.
     pub fn too_bright(&self) -> usize {
         let pixels = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
         let is_too_bright = |&(x, y): &(u32, u32)| {
             let (tile, row) = self.place(x, y);
-            self.with_splats(x, y, &self.tiles[tile], row).iter().any(|&part| part > f64::from(f32::MAX))
+            self.with_splats(x, y, &self.tiles[tile], row).iter().any(|&value| value > f64::from(f32::MAX))
         };
         pixels.filter(is_too_bright).count()
     }
 
-    /// The tile that holds a pixel, and the pixel's row in it.
+    /// The index of the tile that contains a pixel, and the pixel's row in it.
     pub fn place(&self, x: u32, y: u32) -> (usize, usize) {
         let across = self.width.div_ceil(self.tile_side);
         let number = (y / self.tile_side * across + x / self.tile_side) as usize;
@@ -289,11 +290,11 @@ impl Film {
         (number, ((y - tile.y) * tile.width + (x - tile.x)) as usize)
     }
 
-    /// How much the mean of a pixel would vary from one render to another with other random numbers: red, green, blue;
-    /// 0 where fewer than two samples tell.
+    /// The estimated variance of a pixel's mean: red, green, blue; 0 with fewer than two samples.
     ///
-    /// Where some of n samples count negatively, so that the weights' sum is W, it is that of a ratio to first order:
-    /// (n V + n (M − R)²) / W² with the variance V of a sample, the plain mean M and the weighted mean R.
+    /// If some of n samples have negative weights, with a sum W of all weights, it is the variance of a ratio estimator
+    /// to first order: (n V + n (M − R)²) / W² with the variance V of a sample, the unweighted mean M and the weighted
+    /// mean R.
     pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
         let film = &self.tiles[tile];
         let (count, weight) = (film.count[row], film.weight(row));
@@ -301,31 +302,31 @@ impl Film {
         let n = f64::from(count.max(1));
         match film.weighted(row) {
             Some(weighted) if weight < i64::from(count) => {
-                let plain = film.mean_f64(row);
-                let apart = [0, 1, 2].map(|part| plain[part] - weighted[part]);
-                let share = n / (weight as f64 * weight as f64);
-                [0, 1, 2].map(|part| (variance[part] + apart[part] * apart[part]) * share)
+                let mean = film.mean_f64(row);
+                let difference = [0, 1, 2].map(|channel| mean[channel] - weighted[channel]);
+                let factor = n / (weight as f64 * weight as f64);
+                [0, 1, 2].map(|channel| (variance[channel] + difference[channel] * difference[channel]) * factor)
             }
-            _ => variance.map(|part| part / n),
+            _ => variance.map(|value| value / n),
         }
     }
 
-    /// Where a filter that is negative in places leaves traces: pixels whose weights' sum is not above 0, though samples
-    /// joined, and pixels a part of which came out below 0.
-    pub fn weighed_out(&self) -> (usize, usize) {
+    /// The artifacts of a filter with negative lobes: the number of pixels whose sum of weights is not positive
+    /// although they have samples, and the number of pixels with a negative component.
+    pub fn filter_artifacts(&self) -> (usize, usize) {
         let signed = self.tiles.iter().filter(|tile| !tile.negative_count.is_empty());
         let (mut without, mut below) = (0, 0);
         for tile in signed {
             for row in 0..tile.rows() {
                 let weighted = tile.weighted(row);
                 without += usize::from(weighted.is_none() && tile.count[row] > 0);
-                below += usize::from(weighted.is_some_and(|parts| parts.iter().any(|&part| part < 0.0)));
+                below += usize::from(weighted.is_some_and(|mean| mean.iter().any(|&value| value < 0.0)));
             }
         }
         (without, below)
     }
 
-    /// All samples that could not join: how many, and the first few.
+    /// All rejected samples: their number, and the first few.
     pub fn rejected(&self) -> (u64, Vec<Rejected>) {
         let of_lights = self.splats.as_ref().map_or(0, |splats| splats.rejected);
         let count = self.tiles.iter().map(|tile| tile.rejected).sum::<u64>() + of_lights;
@@ -335,7 +336,7 @@ impl Film {
         (count, first)
     }
 
-    /// Bytes that its sums, counts, moments, layers and splats take, and what holds them together.
+    /// The memory of its sums, counts, moments, layers and splats, in bytes.
     pub fn bytes(&self) -> usize {
         let a_row = 3 * size_of::<f64>() + size_of::<u32>();
         let rows = |tile: &FilmTile| tile.count.len() + tile.negative_count.len();

@@ -10,20 +10,21 @@ use exr::prelude::{
 use std::io;
 use std::path::Path;
 
-/// Lines, and no tiles: what every reader of layers takes.
+/// Scan lines rather than tiles, which every reader of layers supports.
 const SCAN_LINES: Encoding =
     Encoding { blocks: Blocks::ScanLines, line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
 
-/// What the attribute is called that says which number of the layer `entity` is which shape.
+/// The name of the attribute that maps the numbers of the layer `entity` to the names of shapes.
 pub const ENTITY_NAMES: &str = "entityNames";
 
-/// Writes the film's mean radiance and its layers as one OpenEXR file of one part, a channel a number.
+/// Writes the film's mean radiance and its layers as a single-part OpenEXR file.
 ///
-/// Channels of a layer have its name, a dot and a letter, which is how readers know layers (the OpenEXR project's
-/// "Technical Introduction", channels and layers); 32-bit floats, but for the two that count, which are 32-bit integers.
-/// `names` are the shapes' names in the order of their numbers.
+/// The channels of a layer are named by the layer, a dot and a letter, by which readers recognise layers (the OpenEXR
+/// project's "Technical Introduction", channels and layers); they are 32-bit floats, except `entity` and `samples`,
+/// which are 32-bit integers.
+/// `names` are the names of the shapes in the order of their numbers.
 ///
-/// Errors: the path and what the system said; no part of a file is left behind.
+/// Errors: the path and the error of the operating system; no partial file is left behind.
 pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
     write_whole(path, |file| {
         let size = (film.width as usize, film.height as usize);
@@ -31,9 +32,11 @@ pub fn write_layered_exr(film: &Film, names: &[String], path: &Path) -> Result {
             LayerAttributes { software_name: Some(Text::from("pinhole")), ..LayerAttributes::default() };
         let kinds = film.layers.first().map_or(&[][..], |layers| &layers.kinds);
         if kinds.contains(&LayerKind::Entity) {
-            let told: Vec<String> = names.iter().enumerate().map(|(number, name)| format!("{number} {name}")).collect();
-            let told = Text::new_or_none(told.join("; ")).unwrap_or_else(|| Text::from("names are no plain text"));
-            attributes.other.insert(Text::from(ENTITY_NAMES), AttributeValue::Text(told));
+            let entries: Vec<String> =
+                names.iter().enumerate().map(|(number, name)| format!("{number} {name}")).collect();
+            let entries =
+                Text::new_or_none(entries.join("; ")).unwrap_or_else(|| Text::from("names are not plain text"));
+            attributes.other.insert(Text::from(ENTITY_NAMES), AttributeValue::Text(entries));
         }
         let channels = AnyChannels::sort(channels(film, kinds).into());
         let image = Image::from_layer(Layer::new(size, attributes, SCAN_LINES, channels));
@@ -76,7 +79,7 @@ fn samples(film: &Film, kind: LayerKind, channel: usize) -> FlatSamples {
     }
 }
 
-/// A number of every pixel, line by line from the top.
+/// A value of every pixel, line by line from the top.
 fn pixels<T>(film: &Film, value: impl Fn(u32, u32) -> T) -> Vec<T> {
     let lines = (0..film.height).flat_map(|y| (0..film.width).map(move |x| (x, y)));
     lines.map(|(x, y)| value(x, y)).collect()

@@ -7,33 +7,34 @@ use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// What else is kept of each pixel of a tile, a row a pixel; exists only where layers are asked for.
+/// The layers of one tile's film, with a row per pixel; exists only if layers are requested.
 ///
-/// A sample that meets nothing adds nothing, so that a pixel at an edge tells of the surface alone; how much of the pixel
-/// that is stands in the layer of coverage.
-/// All samples count alike, whatever the filter makes of their light.
+/// A sample whose camera ray misses adds nothing, so that a pixel at an edge describes the surface alone; the coverage
+/// layer says how much of the pixel that is.
+/// All samples have the same weight, whatever the reconstruction filter.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmLayers {
-    /// The kinds, each once, in the order of a file.
+    /// The kinds, each once, in the order in which a file holds them.
     pub kinds: Vec<LayerKind>,
-    /// Samples taken.
+    /// Number of samples taken.
     pub taken: Vec<u32>,
-    /// Those of them that met a surface.
-    pub met: Vec<u32>,
-    /// The number of the shape that the first sample met; none where it met nothing.
+    /// Number of samples whose camera ray hit a surface.
+    pub hits: Vec<u32>,
+    /// The number of the shape that the first sample hit; [`NO_SHAPE`] if it hit nothing.
     pub entity: Vec<u32>,
-    /// Sums over the samples that met a surface: a lane for every channel of every kind that is a mean, in order.
+    /// Sums over the samples that hit a surface: one component for every channel of every kind that is a mean, in
+    /// order.
     pub sums: Vec<Vec<f64>>,
 }
 
 impl FilmLayers {
-    /// Those of no samples.
+    /// Layers without samples.
     pub fn new(rows: usize, kinds: &[LayerKind]) -> Self {
         let components: usize = kinds.iter().filter(|kind| kind.is_mean()).map(|kind| kind.channels().len()).sum();
         Self {
             kinds: kinds.to_vec(),
             taken: vec![0; rows],
-            met: vec![0; rows],
+            hits: vec![0; rows],
             entity: vec![NO_SHAPE; rows],
             sums: vec![vec![0.0; rows]; components],
         }
@@ -44,32 +45,32 @@ impl FilmLayers {
         self.kinds.iter().fold(0, |bits, &kind| bits | 1 << kind as u32)
     }
 
-    /// All lanes that are not sums, for checkpoints.
+    /// All components that are not sums, for checkpoints.
     pub fn counts(&self) -> [&Vec<u32>; 3] {
-        [&self.taken, &self.met, &self.entity]
+        [&self.taken, &self.hits, &self.entity]
     }
 
-    /// The same, to be filled.
+    /// The same components, to be filled from a checkpoint.
     pub fn counts_mut(&mut self) -> [&mut Vec<u32>; 3] {
-        [&mut self.taken, &mut self.met, &mut self.entity]
+        [&mut self.taken, &mut self.hits, &mut self.entity]
     }
 
-    /// The lanes of sums of a kind, and which of all they are.
-    fn components_of(&self, asked: LayerKind) -> std::ops::Range<usize> {
-        let before = self.kinds.iter().filter(|kind| kind.is_mean() && **kind < asked);
+    /// The range of the components of a kind within the sums.
+    fn components_of(&self, wanted: LayerKind) -> std::ops::Range<usize> {
+        let before = self.kinds.iter().filter(|kind| kind.is_mean() && **kind < wanted);
         let first: usize = before.map(|kind| kind.channels().len()).sum();
-        first..first + asked.channels().len()
+        first..first + wanted.channels().len()
     }
 
-    /// A channel of a kind that is a mean, or of coverage: 0 where no sample met anything.
+    /// A channel of a kind that is a mean, or of coverage; 0 if no sample hit a surface.
     pub fn mean(&self, kind: LayerKind, channel: usize, row: usize) -> f64 {
         match kind {
-            LayerKind::Coverage => f64::from(self.met[row]) / f64::from(self.taken[row].max(1)),
-            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.met[row].max(1)),
+            LayerKind::Coverage => f64::from(self.hits[row]) / f64::from(self.taken[row].max(1)),
+            _ => self.sums[self.components_of(kind).start + channel][row] / f64::from(self.hits[row].max(1)),
         }
     }
 
-    /// Bytes that its lanes take.
+    /// Its memory in bytes.
     pub fn bytes(&self) -> usize {
         self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + size_of::<Self>()
     }
@@ -87,7 +88,7 @@ impl Column for FilmLayers {
 
     fn components(&self) -> Vec<ColumnComponent<'_>> {
         let names = self.kinds.iter().filter(|kind| kind.is_mean()).flat_map(|kind| kind.channels());
-        let counts = [("taken", &self.taken), ("met", &self.met), ("entity", &self.entity)];
+        let counts = [("taken", &self.taken), ("hits", &self.hits), ("entity", &self.entity)];
         let counts = counts.map(|(name, component)| ColumnComponent { name, values: ComponentValues::U32(component) });
         let sums = names
             .zip(&self.sums)
@@ -96,13 +97,13 @@ impl Column for FilmLayers {
     }
 
     fn paint(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.met[row] as f32 / self.taken[row].max(1) as f32; 3]
+        [self.hits[row] as f32 / self.taken[row].max(1) as f32; 3]
     }
 }
 
-/// What is known of the row of a tile, as far as it is asked for.
+/// The columns of a tile from which layers are computed, as far as they exist.
 #[derive(Clone, Copy)]
-struct Known<'t> {
+struct LayerInputs<'t> {
     table: &'t LayerTable,
     materials: Option<&'t MaterialTable>,
     rays: Option<&'t WorldRays>,
@@ -113,14 +114,14 @@ struct Known<'t> {
     colours: Option<&'t SurfaceColours>,
 }
 
-impl Known<'_> {
-    /// The channels of a kind at a row that met a surface; those that the kind does not have are 0.
+impl LayerInputs<'_> {
+    /// The channels of a kind at a row that hit a surface; channels that the kind does not have are 0.
     #[inline(always)]
     fn value(&self, kind: LayerKind, row: usize) -> DVec3 {
         let normal = || self.surfaces.map_or(DVec3::ZERO, |surfaces| surfaces.get(row).normal.as_dvec3());
         let shading_normal = || self.shading_normals.map_or_else(normal, |normals| normals.get(row));
         let to_camera = |normal: DVec3| self.table.world_from_camera.transpose() * normal;
-        let alone = |number: f64| DVec3::new(number, 0.0, 0.0);
+        let scalar = |number: f64| DVec3::new(number, 0.0, 0.0);
         match kind {
             LayerKind::Position => {
                 self.surfaces.map_or(DVec3::ZERO, |own| self.table.eye + own.get(row).position.as_dvec3())
@@ -132,11 +133,11 @@ impl Known<'_> {
             LayerKind::Uv => self.uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0)),
             LayerKind::Albedo => self.albedo(row),
             LayerKind::DepthAlongRay => {
-                alone(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length()))
+                scalar(self.hits.t[row] * self.rays.map_or(1.0, |own| own.direction_of(row).length()))
             }
             LayerKind::DepthAlongAxis => {
                 let backward = self.table.world_from_camera.z_axis;
-                alone(self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row]))))
+                scalar(self.rays.map_or(0.0, |rays| -backward.dot(rays.point_at(row, self.hits.t[row]))))
             }
             LayerKind::Coverage | LayerKind::Entity | LayerKind::Samples | LayerKind::Variance => DVec3::ZERO,
         }
@@ -145,7 +146,7 @@ impl Known<'_> {
     fn albedo(&self, row: usize) -> DVec3 {
         match (self.colours, self.materials, self.surfaces) {
             (Some(colours), _, _) => DVec3::new(colours.r[row], colours.g[row], colours.b[row]),
-            // A surface that only emits light has no material, and gives back none.
+            // A surface that only emits has no material, and reflects no light.
             (None, Some(materials), Some(surfaces)) => {
                 let colour = materials.colour.get(surfaces.material[row] as usize);
                 colour.map_or(DVec3::ZERO, |&colour| DVec3::from(colour))
@@ -155,7 +156,7 @@ impl Known<'_> {
     }
 }
 
-/// Adds what is known of each row to its pixel's layers.
+/// Adds each row's values to its pixel's layers.
 pub fn add_to_layers(
     table: Res<Shared<LayerTable>>,
     materials: Option<Res<Shared<MaterialTable>>>,
@@ -178,26 +179,26 @@ pub fn add_to_layers(
         let Some(hits) = hits else { continue };
         for (row, &shape) in hits.shape.iter().enumerate() {
             let pixel = pixel_of(row);
-            layers.met[pixel] += u32::from(shape != NO_SHAPE);
+            layers.hits[pixel] += u32::from(shape != NO_SHAPE);
             if layers.taken[pixel] == 1 {
                 layers.entity[pixel] = shape;
             }
         }
         let materials = materials.as_deref().map(|materials| &**materials);
-        let known = Known { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
+        let inputs = LayerInputs { table: &table, materials, rays, hits, surfaces, shading_normals, uvs, colours };
         let mut components = layers.sums.iter_mut();
         for kind in layers.kinds.iter().copied().filter(|kind| kind.is_mean()) {
             let channels: Vec<&mut Vec<f64>> = components.by_ref().take(kind.channels().len()).collect();
             for (channel, sums) in channels.into_iter().enumerate() {
                 for row in (0..hits.rows()).filter(|&row| hits.shape[row] != NO_SHAPE) {
-                    sums[pixel_of(row)] += known.value(kind, row)[channel];
+                    sums[pixel_of(row)] += inputs.value(kind, row)[channel];
                 }
             }
         }
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn layers_stage() -> Stage {
     Stage::new("Accumulate layers", TileSystems::Layers, add_to_layers)
         .reads::<RasterPoints>()
@@ -238,7 +239,7 @@ fn needs_surfaces(kind: LayerKind) -> bool {
     normal || matches!(kind, LayerKind::Position | LayerKind::Albedo)
 }
 
-/// The column without which a layer is 0 everywhere.
+/// The column without which a layer would be 0 everywhere.
 pub fn column_of_layer(kind: LayerKind) -> Option<&'static str> {
     match kind {
         LayerKind::Samples | LayerKind::Variance => None,

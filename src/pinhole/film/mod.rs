@@ -1,9 +1,9 @@
-//! Light → pixels → files.
+//! Radiance → pixels → files.
 //!
-//! Reads: [`Radiance`](crate::shade::Radiance), what layers show, light from lights that lands on pixels.
-//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; then, once, an image of 8-bit sRGB (PNG) or of linear floats
+//! Reads: [`Radiance`](crate::shade::Radiance), the columns that layers are made of, and the splats of light tracing.
+//! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit sRGB (PNG) or linear floats
 //! (EXR).
-//! Nothing is written to disk anywhere else in the kit's renderer, and no file is ever left half written.
+//! The renderer writes to disk nowhere else, and never leaves a partial file behind.
 
 mod accumulate;
 mod checkpoint;
@@ -27,6 +27,6 @@ pub use film_tile::{FIRST_SAMPLE_STEPS, Film, FilmTile, Rejected};
 pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
-pub use png::{png_bytes, png_bytes_by, png_url, write_png};
+pub use png::{png_bytes, png_bytes_by, write_png};
 pub use splats::{FilmSplats, SplatFilter};
 pub use whole_file::{check_place, write_whole, writes_in_progress};

@@ -6,53 +6,52 @@ use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 
-/// How far the samples of each pixel of a tile lie from their mean: sums of squares in f64, a row a pixel.
+/// The second central moments of one tile's pixels: sums of squared deviations in f64, with a row per pixel.
 ///
-/// Exists only where something asks for it: the layer of variance, or adaptive sampling.
-/// Kept by Welford's recurrence (1962) on the film's own sums, so that no two large sums are subtracted.
+/// Exists only if the variance layer or adaptive sampling needs it.
+/// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct FilmMoments {
-    /// Sum of the squared distances of red radiance from its mean.
+    /// Sum of the squared deviations of red radiance from its mean.
     pub r: Vec<f64>,
-    /// Of green.
+    /// The same for green.
     pub g: Vec<f64>,
-    /// Of blue.
+    /// The same for blue.
     pub b: Vec<f64>,
 }
 
 impl FilmMoments {
-    /// Those of no samples.
+    /// Moments without samples.
     pub fn new(rows: usize) -> Self {
         Self { r: vec![0.0; rows], g: vec![0.0; rows], b: vec![0.0; rows] }
     }
 
-    /// Takes a sample into account that is about to join `film`.
+    /// Adds a sample that is about to be added to `film`.
     #[inline(always)]
     pub fn add(&mut self, film: &FilmTile, row: usize, radiance: [f32; 3]) {
         let n = f64::from(film.count[row]);
-        if n == 0.0 || !FilmTile::takes(radiance) {
+        if n == 0.0 || !FilmTile::accepts(radiance) {
             return;
         }
         let mean = film.shown_f64(row);
-        let share = n / (n + 1.0);
-        let square = |part: usize| {
-            let away = f64::from(radiance[part]) - mean[part];
-            away * away * share
+        let factor = n / (n + 1.0);
+        let square = |channel: usize| {
+            let deviation = f64::from(radiance[channel]) - mean[channel];
+            deviation * deviation * factor
         };
         self.r[row] += square(0);
         self.g[row] += square(1);
         self.b[row] += square(2);
     }
 
-    /// The variance of one sample of a row, red, green, blue: that of the pixel's mean times its number of samples.
+    /// The estimated variance of one sample of a row: red, green, blue; 0 with fewer than two samples.
     ///
-    /// 0 where fewer than two samples tell.
-    /// A mean of samples that count 1 or −1 is a ratio of two sums, and its variance is that of the ratio's linear part.
+    /// The mean of samples with weights of 1 and −1 is a ratio of two sums, whose variance is taken to first order.
     pub fn variance(&self, film: &FilmTile, row: usize) -> [f64; 3] {
         let count = f64::from(film.count[row]);
         let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };
-        let share = ratio * ratio / (count - 1.0).max(1.0);
-        [self.r[row] * share, self.g[row] * share, self.b[row] * share]
+        let factor = ratio * ratio / (count - 1.0).max(1.0);
+        [self.r[row] * factor, self.g[row] * factor, self.b[row] * factor]
     }
 }
 
@@ -79,7 +78,7 @@ impl Column for FilmMoments {
     }
 }
 
-/// Adds each row's radiance to its pixel's second moments, before it joins the film.
+/// Adds each row's radiance to its pixel's second moments, before it is added to the film.
 pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmTile, &mut FilmMoments)>) {
     for (radiance, samples, film, mut moments) in &mut tiles {
         let (r, g, b) = radiance.slices();
@@ -90,14 +89,14 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
     }
 }
 
-/// Whether anyone asks how noisy the pixels are.
+/// Evidence that the variance of pixels is needed.
 pub fn variance_evidence(scene: &World) -> Evidence {
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
     let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn moments_stage() -> Stage {
     Stage::new("Accumulate second moments", TileSystems::Moments, add_to_moments)
         .reads::<Radiance>()

@@ -1,32 +1,26 @@
 use super::{Curve, Film, byte_from_linear, write_whole};
 use crate::Result;
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes the film as an 8-bit RGB PNG, a line at a time, so that no second image stands in memory.
+/// Writes the film as an 8-bit RGB PNG, line by line, so that memory never holds a second image.
 ///
-/// Errors: the path and what the system said; no part of a file is left behind.
+/// Errors: the path and the error of the operating system; no partial file is left behind.
 pub fn write_png(film: &Film, curve: Curve, path: &Path) -> Result {
-    write_whole(path, |file| encode(film, curve, |part| byte_from_linear(part, curve), file))
+    write_whole(path, |file| encode(film, curve, |linear| byte_from_linear(linear, curve), file))
 }
 
-/// The same PNG in memory.
+/// Encodes the film as a PNG in memory.
 pub fn png_bytes(film: &Film, curve: Curve) -> io::Result<Vec<u8>> {
-    png_bytes_by(film, curve, |part| byte_from_linear(part, curve))
+    png_bytes_by(film, curve, |linear| byte_from_linear(linear, curve))
 }
 
-/// The same, each linear number developed by a function of the caller's; the file still names the curve.
+/// Encodes the film as a PNG in memory with a custom mapping from linear values to bytes; the file's metadata still
+/// names the curve.
 pub fn png_bytes_by(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     encode(film, curve, develop, &mut bytes)?;
     Ok(bytes)
-}
-
-/// A PNG as a URL that holds it, for pages and drawings that are one file.
-pub fn png_url(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", BASE64_STANDARD.encode(png))
 }
 
 fn encode(film: &Film, curve: Curve, develop: impl Fn(f32) -> u8, out: impl Write) -> io::Result<()> {

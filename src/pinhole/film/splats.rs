@@ -1,102 +1,102 @@
 use crate::extract::{filter_area, filter_value, radius_of};
 use crate::scene::Filter;
 
-/// What rays from the lights brought to the film: sums in f64 of the whole image, kept apart from the camera's samples.
+/// The splats of light tracing: sums in f64 over the whole image, separate from the camera's samples.
 ///
-/// Exists only where caustics are traced from the lights.
-/// A ray from a light may land on any pixel, so no tile owns these; they are added in the order of the ways.
+/// Exists only with light tracing.
+/// A light path may contribute to any pixel, so no tile owns these; they are added in the order of the paths.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmSplats {
-    /// Pixels from left to right and from top to bottom.
+    /// The width and height of the image in pixels.
     pub size: [u32; 2],
     /// Sums of red, green and blue, line by line from the top.
     pub sums: [Vec<f64>; 3],
-    /// Ways that have started, whether or not they brought anything.
+    /// Number of light paths traced, whether or not they contributed.
     pub paths: u64,
-    /// Splats that could not join, because a part of them was negative or not finite.
+    /// Number of splats rejected, because a component was negative or not finite.
     pub rejected: u64,
 }
 
 impl FilmSplats {
-    /// Those of no ways.
+    /// Splats without light paths.
     pub fn new(width: u32, height: u32) -> Self {
         let zeros = || vec![0.0; width as usize * height as usize];
         Self { size: [width, height], sums: [zeros(), zeros(), zeros()], ..Self::default() }
     }
 
     // ANCHOR: add_splat
-    /// Adds light that lands on a raster point, to every pixel whose filter f reaches so far: f there over its area ∫f.
+    /// Splats a contribution at a raster point onto every pixel within the filter's radius, with weight f / ∫f.
     ///
-    /// A sample of the camera at that point would count so for those pixels on average, so both halves of the light go
-    /// through the same filter.
+    /// A camera sample at that point has the same expected weight in those pixels, so light from both kinds of paths
+    /// passes through the same filter.
     pub fn add(&mut self, filter: &mut SplatFilter, [x, y]: [f64; 2], light: [f64; 3]) {
-        if !light.iter().all(|part| (0.0..f64::INFINITY).contains(part)) {
+        if !light.iter().all(|value| (0.0..f64::INFINITY).contains(value)) {
             self.rejected += 1;
             return;
         }
         let [width, height] = self.size.map(i64::from);
-        let (columns, lines) = (filter.reached(x, width), filter.reached(y, height));
+        let (columns, lines) = (filter.covered(x, width), filter.covered(y, height));
         let mut across = std::mem::take(&mut filter.across);
         across.clear();
-        across.extend(columns.clone().map(|column| filter.share(column as f64 + 0.5 - x)));
+        across.extend(columns.clone().map(|column| filter.weight(column as f64 + 0.5 - x)));
         for line in lines {
-            let down = filter.share(line as f64 + 0.5 - y);
+            let down = filter.weight(line as f64 + 0.5 - y);
             let first = (line * width + columns.start) as usize;
-            for (sums, part) in self.sums.iter_mut().zip(light) {
+            for (sums, value) in self.sums.iter_mut().zip(light) {
                 let along = sums[first..].iter_mut().zip(&across);
-                along.for_each(|(sum, across)| *sum += across * down * part);
+                along.for_each(|(sum, across)| *sum += across * down * value);
             }
         }
         filter.across = across;
     }
     // ANCHOR_END: add_splat
 
-    /// What all ways so far say of a pixel; 0 before the first.
+    /// The estimate of a pixel from all light paths so far; 0 before the first.
     pub fn mean(&self, x: u32, y: u32) -> [f64; 3] {
         let pixel = (y * self.size[0] + x) as usize;
         let paths = self.paths.max(1) as f64;
-        [0, 1, 2].map(|part| self.sums[part][pixel] / paths)
+        [0, 1, 2].map(|channel| self.sums[channel][pixel] / paths)
     }
 
-    /// Bytes that its sums take.
+    /// Its memory in bytes.
     pub fn bytes(&self) -> usize {
         self.sums.iter().map(|sums| size_of_val(&sums[..])).sum::<usize>() + size_of::<Self>()
     }
 }
 
-/// The pixels' filter, as splats are added by it.
+/// The reconstruction filter, as splats are weighted by it.
 #[derive(Clone, Debug)]
 pub struct SplatFilter {
     filter: Filter,
     radius: f64,
-    /// 1 over the area under the filter along one axis.
+    /// 1 over the integral of the filter along one axis.
     scale: f64,
-    /// What a splat counts for in each of the columns that it reaches: memory for one, kept for the next.
+    /// The weight of a splat in each of the columns that it covers; a buffer that is reused.
     across: Vec<f64>,
 }
 
 impl SplatFilter {
-    /// The filter of an author.
+    /// Prepares a filter for splatting.
     pub fn new(filter: Filter) -> Self {
         let radius = radius_of(filter);
         Self { filter, radius, scale: 0.5 / filter_area(filter, radius), across: Vec::new() }
     }
 
-    /// The pixels along an axis of so many whose centres lie within the filter's radius of a place.
+    /// The pixels along an axis whose centres lie within the filter's radius of a coordinate.
     #[inline(always)]
-    fn reached(&self, place: f64, pixels: i64) -> std::ops::Range<i64> {
+    fn covered(&self, place: f64, pixels: i64) -> std::ops::Range<i64> {
         let first = ((place - self.radius - 0.5).ceil().max(0.0) as i64).min(pixels);
         let end = (place + self.radius - 0.5).floor() + 1.0;
         first..(end.max(0.0) as i64).min(pixels)
     }
 
     #[inline(always)]
-    fn share(&self, away: f64) -> f64 {
+    fn weight(&self, offset: f64) -> f64 {
         match self.filter {
-            // A place on the edge between two pixels belongs to the one to the right, as a sample's place does.
-            Filter::Box { radius } if away == -radius => 0.0,
+            // A point on the edge between two pixels belongs to the one on the right, as the position of a sample does.
+            Filter::Box { radius } if offset == -radius => 0.0,
             Filter::Box { .. } => self.scale,
-            filter => filter_value(filter, away.abs()) * self.scale,
+            filter => filter_value(filter, offset.abs()) * self.scale,
         }
     }
 }
@@ -114,9 +114,9 @@ mod tests {
         Filter::BlackmanHarris { radius: 1.5 },
     ];
 
-    /// Splats all over a wide film light every pixel in its middle alike, and as much as they bring.
+    /// Uniform splats over the film give the pixel in its middle exactly their value.
     #[test]
-    fn even_light_is_even_on_the_film() {
+    fn uniform_splats_give_a_uniform_film() {
         const STEPS: u32 = 16;
         for filter in FILTERS {
             let mut film = FilmSplats::new(9, 7);
@@ -131,7 +131,7 @@ mod tests {
             let [r, g, b] = film.mean(4, 3);
             assert!((r - 1.0).abs() < 2e-3 && (g - 2.0 * r).abs() < 1e-12 && b == 0.0, "{filter:?}: {r} {g}");
         }
-        eprintln!("splats: {} filters, 16 × 16 a pixel", FILTERS.len());
+        eprintln!("splats: {} filters, 16 × 16 per pixel", FILTERS.len());
     }
 
     #[test]

@@ -11,19 +11,19 @@ use tempfile::{Builder, NamedTempFile};
 
 const PREFIX: &str = ".pinhole-";
 const SUFFIX: &str = ".part";
-/// A temporary file that is older belongs to nobody who still writes it.
+/// A temporary file older than this is no longer being written by anyone.
 const STALE: Duration = Duration::from_secs(3600);
-/// The most links that lead from a name to a file.
+/// The largest number of symbolic links followed.
 const MOST_LINKS: usize = 40;
 
 static IN_PROGRESS: AtomicUsize = AtomicUsize::new(0);
 
-/// How many files are being written: a program that ends now leaves as many temporary files behind.
+/// The number of files being written; a process that exits now leaves as many temporary files behind.
 pub fn writes_in_progress() -> usize {
     IN_PROGRESS.load(Ordering::SeqCst)
 }
 
-/// Counts a write while it lives.
+/// Counts a write as in progress until it is dropped.
 struct InProgress;
 
 impl InProgress {
@@ -39,21 +39,24 @@ impl Drop for InProgress {
     }
 }
 
-/// Writes a file whole or not at all: into a temporary file beside it, which then takes its name.
+/// Writes a file atomically: to a temporary file beside it, which is then renamed.
 ///
-/// It is on the disk, and not only on its way there, before it takes the name, so that a power cut leaves the old file or
-/// the new one. A link is written through, a file that was there keeps its permissions, and missing folders are made.
-/// Errors: the path and what the system said (no permission, no space, a folder in the way); what stood there before
-/// is then still there.
+/// The data is flushed to disk before the file is renamed, so that a power cut leaves either the old file or the new
+/// one.
+/// Symbolic links are followed, an existing file keeps its permissions, and missing folders are created.
+///
+/// Errors: the path and the error of the operating system (no permission, no space, a folder of that name); a previous
+/// file is then unchanged.
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result {
     let _in_progress = InProgress::begin();
     write_beside(path, write).map_err(|source| Error::Write { path: path.into(), source })
 }
 
-/// Whether a file could be written here: what [`write_whole`] would be refused for, before there is anything to write.
+/// Checks that a file can be written at a path, before there is anything to write.
 ///
-/// Missing folders are made.
-/// Errors: as [`write_whole`].
+/// Missing folders are created.
+///
+/// Errors: as for [`write_whole`].
 pub fn check_place(path: &Path) -> Result {
     let _in_progress = InProgress::begin();
     let place = resolved(path).and_then(|path| place_beside(&path));
@@ -72,14 +75,14 @@ fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Re
         temporary.as_file().set_permissions(before.permissions())?;
     }
     temporary.as_file().sync_all()?;
-    temporary.persist(&path).map_err(|refused| refused.error)?;
-    // The name is kept by the folder. Some file systems cannot be asked for this, and the file is whole without it.
+    temporary.persist(&path).map_err(|failed| failed.error)?;
+    // The name is stored in the folder; some file systems cannot flush one, and the file is intact without that.
     #[cfg(unix)]
     let _ = File::open(folder_of(&path)).and_then(|folder| folder.sync_all());
     Ok(())
 }
 
-/// The file that a name leads to through links, whether or not it is there.
+/// The file that a path leads to through symbolic links, whether or not it exists.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..MOST_LINKS {
@@ -95,7 +98,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// A temporary file in the folder that the file is to stand in.
+/// A temporary file in the folder of the file to be written.
 fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
     if path.is_dir() {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
@@ -113,7 +116,7 @@ fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
     temporary_in(folder).map_err(without_path)
 }
 
-/// A temporary file that will get the permissions a person's own files get, less what their umask takes away.
+/// A temporary file with the usual permissions of new files, subject to the umask.
 fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
@@ -124,14 +127,14 @@ fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// What the system said, without the name of the temporary file, which nobody asked for.
+/// The error of the operating system, without the name of the temporary file, which would confuse the reader.
 fn without_path(error: io::Error) -> io::Error {
     let said = error.to_string();
     let said = said.rsplit_once(" at path ").map_or(said.as_str(), |(said, _)| said);
     io::Error::new(error.kind(), said.to_string())
 }
 
-/// Removes what writes that were killed have left in a folder, the first time that something is written there.
+/// Removes what interrupted writes have left in a folder, the first time that something is written there.
 fn sweep(folder: &Path) {
     static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     if SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.into()) {
@@ -143,10 +146,10 @@ fn remove_stale(folder: &Path, age: Duration) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name();
-        let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        let is_temporary = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
         let old = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
-        if is_ours && old().is_some_and(|old| old > age) {
-            // Whoever cannot remove it did not leave it.
+        if is_temporary && old().is_some_and(|old| old > age) {
+            // A file that cannot be removed belongs to another user.
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -197,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn what_killed_writes_have_left_is_swept_and_what_is_young_is_not() {
+    fn stale_temporary_files_are_removed_and_recent_ones_are_not() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let names = [".pinhole-abc.part", ".pinhole-abc.png", "part.part"];
         names.iter().for_each(|name| fs::write(folder.path().join(name), "x").expect("written"));
@@ -211,7 +214,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_refusal_names_the_file_that_was_asked_for() {
+    fn an_error_names_the_requested_file() {
         let path = Path::new("/proc/picture.png");
         let said = check_place(path).expect_err("refused").to_string();
         assert!(said.starts_with("cannot write /proc/picture.png: ") && said.ends_with(')'), "{said}");

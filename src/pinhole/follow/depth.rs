@@ -13,7 +13,7 @@ pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
     for (paths, radiance, mut light) in &mut tiles {
         let light = &mut *light;
         for row in 0..paths.rows() {
-            let (first, [r, g, b]) = (paths.first[row] as usize, paths.share(row));
+            let (first, [r, g, b]) = (paths.first[row] as usize, paths.throughput(row));
             light.r[first] += r * f64::from(radiance.r[row]);
             light.g[first] += g * f64::from(radiance.g[row]);
             light.b[first] += b * f64::from(radiance.b[row]);

@@ -99,7 +99,7 @@ impl Met<'_> {
         ScatteredRay {
             origin: offset_origin(surface.position, side, surface.bound),
             direction: way.direction,
-            share: self.paths.share(row).map(|part| part * share),
+            share: self.paths.throughput(row).map(|part| part * share),
             pdf: f64::INFINITY,
         }
     }

@@ -52,7 +52,7 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
             let material = surface.material as usize;
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
             let leaves = direction.dot(true_normal) > 0.0 && local.z > 0.0;
-            let mut share = if leaves { paths.share(row) } else { [0.0; 3] };
+            let mut share = if leaves { paths.throughput(row) } else { [0.0; 3] };
             if FROM_LIGHT && shading.is_some() {
                 let falls = falls_by_shading(true_normal, by_shading, -rays.direction_of(row));
                 share = share.map(|part| part * falls);

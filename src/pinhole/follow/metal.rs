@@ -99,7 +99,7 @@ pub fn scatter_metal(
                 return ScatteredRay::default();
             };
             let direction = world_from_local * to_light;
-            let share = if direction.dot(own) > 0.0 { paths.share(row) } else { [0.0; 3] };
+            let share = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,

@@ -24,7 +24,7 @@ pub fn scatter_mirror(
         scattered.append(&list.row, |number, row| {
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let normal = mirroring_normal(shading, row, surface.normal.as_dvec3(), direction);
-            let (share, colour) = (paths.share(row), mirrors.colour[list.of[number] as usize]);
+            let (share, colour) = (paths.throughput(row), mirrors.colour[list.of[number] as usize]);
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction: mirror_direction(direction, normal),

@@ -70,7 +70,7 @@ pub fn splat_light(
             let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
-            let (first, share) = (paths.first[row] as usize, paths.share(row));
+            let (first, share) = (paths.first[row] as usize, paths.throughput(row));
             splats.x.push(joined.raster.x);
             splats.y.push(joined.raster.y);
             splats.r.push(power.r[first] * share[0] * f64::from(sent[0]));

@@ -1,86 +1,15 @@
-use super::hits::shape_evidence;
+use super::evidence::shape_evidence;
+use super::rows::{
+    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows, TriangleRows,
+};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
 use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
 
-column! {
-    /// The rows that hit a sphere, ascending.
-    pub struct SphereRows("sphere rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit an ellipsoid, ascending.
-    pub struct EllipsoidRows("ellipsoid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a plane, ascending.
-    pub struct PlaneRows("plane rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a disk, ascending.
-    pub struct DiskRows("disk rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a rectangle, ascending.
-    pub struct RectangleRows("rectangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a cuboid, ascending.
-    pub struct CuboidRows("cuboid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a triangle, ascending.
-    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows whose surface spreads light that falls on it, ascending: all matter but mirrors and glass.
-    pub struct MaterialRows("material rows", "rows of the tile", "rows", Ray) {
-        /// A row of the surfaces.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows whose surface emits light, ascending.
-    pub struct EmissiveRows("emissive rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-        /// The row of the table of emissive surfaces.
-        emissive: u32,
-    }
-}
-
-/// Lists the rows of each kind of shape and matter, and blanks the surfaces of rows that met nothing.
+/// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
-/// After this each kind visits its own rows only.
+/// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
 pub fn classify_hits(
     shapes: Res<Shared<ShapeTable>>,
     mut tiles: Query<(
@@ -146,7 +75,7 @@ pub fn classify_hits(
             list.emissive.extend(list.row.iter().map(|&row| shapes.emissive[hits.shape[row as usize] as usize]));
         }
         if let Some(mut surfaces) = surfaces {
-            blank_misses(hits, &mut surfaces);
+            clear_misses(hits, &mut surfaces);
         }
         if let Some(mut uvs) = uvs {
             let (u, v) = uvs.slices_mut(hits.rows());
@@ -159,7 +88,7 @@ pub fn classify_hits(
     }
 }
 
-/// Writes every row and keeps those that count, so that no branch depends on what was hit.
+/// Writes every row and keeps those of the kind (stream compaction), so that no branch depends on what was hit.
 fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) {
     list.resize(hits.rows(), 0);
     let mut length = 0;
@@ -170,7 +99,7 @@ fn list_rows(hits: &Hits, list: &mut Vec<u32>, of_kind: impl Fn(usize) -> bool) 
     list.truncate(length);
 }
 
-fn blank_misses(hits: &Hits, surfaces: &mut Surfaces) {
+fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
     let rows = hits.rows();
     let (px, py, pz, nx, ny, nz, bound, material) = surfaces.slices_mut(rows);
     for row in (0..rows).filter(|&row| hits.shape[row] == NO_SHAPE) {
@@ -180,61 +109,7 @@ fn blank_misses(hits: &Hits, surfaces: &mut Surfaces) {
     }
 }
 
-impl SphereRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl EllipsoidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl PlaneRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl EmissiveRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl DiskRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl RectangleRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl CuboidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl TriangleRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl MaterialRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn classify_stage() -> Stage {
     Stage::new("Classify hits", TileSystems::Classify, classify_hits)
         .reads::<Hits>()

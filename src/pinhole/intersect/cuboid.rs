@@ -1,10 +1,10 @@
-use super::classify::CuboidRows;
 use super::double_double_planar::double_double_cuboid_t;
-use super::keep_closest::keep_closest;
-use super::sphere::{Intersection, LANES, RayBlock, nearness, vector};
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest, vector};
+use super::rows::CuboidRows;
+use super::sphere::nearness;
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
 use super::uv::cuboid_uv;
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -13,12 +13,12 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// 2⁻⁵³, the rounding unit of f64.
+/// 2⁻⁵³, the unit roundoff of f64.
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
-/// Half of u: no t is given that may be off by more than this, relative to itself.
+/// Half of u: the largest relative error of a t that counts as certain.
 const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
 
-/// A t and how far rounding can have moved it, as the least and the most that it can be.
+/// A t with an interval that contains its exact value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Between {
     t: f64,
@@ -32,7 +32,7 @@ impl Between {
         Self { t, least: t - error, most: t + error }
     }
 
-    /// Each number the larger one; ordered compares, so that what is not a number never wins.
+    /// The larger of each number; a NaN is never taken over, for comparisons with it are false.
     #[inline(always)]
     fn later(self, other: Self) -> Self {
         let larger = |a: f64, b: f64| if b > a { b } else { a };
@@ -51,15 +51,15 @@ impl Between {
 }
 
 // ANCHOR: slab
-/// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R above 0.
+/// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R > 0.
 ///
-/// A ray along the slab's faces divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, as it should.
-/// What rounding leaves open, n·R of either sign or a ray in the plane of a face, gets the widest bounds there are.
+/// A ray parallel to the slab divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, which is correct.
+/// If rounding leaves the sign of n·R uncertain, or whether the ray lies in a face, the interval is all of ℝ.
 #[inline(always)]
 fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
     let (of_f, of_direction) = (normal * f, normal * direction);
     let (middle, approach) = (of_f.x + of_f.y + of_f.z, of_direction.x + of_direction.y + of_direction.z);
-    let (sum, sum_of_approach) = (sum_of_parts(of_f), sum_of_parts(of_direction));
+    let (sum, sum_of_approach) = (l1_norm(of_f), l1_norm(of_direction));
     // The magnitude, not the negative: −0 and 0 must both give speed 0.
     let (towards, speed) = (if approach < 0.0 { -middle } else { middle }, approach.abs());
     let (over_near, over_far) = (towards - half, towards + half);
@@ -78,7 +78,7 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
 // ANCHOR_END: slab
 
 // ANCHOR: cuboid_intersection
-/// Where O + tR meets a cuboid, in f64: it is inside from where it has entered the last slab to where it leaves the first.
+/// Intersects O + tR with a cuboid, in f64: the ray is inside between entering the last slab and leaving the first.
 #[inline(always)]
 pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Intersection {
     let f = slabs.centre - origin;
@@ -98,8 +98,8 @@ pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> In
     Intersection { t: if surely_not { f64::INFINITY } else { t }, uncertain: !surely_not & !sure }
 }
 
-/// The smallest t > 0 at which O + tR lies on a face of a cuboid, or infinity; right also where f64 alone would leave a
-/// doubt.
+/// The smallest t > 0 at which O + tR intersects a face of a cuboid, or infinity; uncertain cases are decided in
+/// double-double.
 #[inline(always)]
 pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
     let intersection = cuboid_intersection(origin, direction, slabs);
@@ -107,7 +107,7 @@ pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
 }
 // ANCHOR_END: cuboid_intersection
 
-/// The axis of the face that O + tR meets first; of several met at once, the first.
+/// The axis of the face that O + tR hits first; at an edge or a vertex, the first of the axes.
 pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     let f = slabs.centre - origin;
     let all = [0, 1, 2].map(|axis| slab(f, direction, slabs.normal[axis], slabs.half[axis]));
@@ -124,19 +124,19 @@ pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| double_double_cuboid_t(origin, direction, slabs).1)
 }
 
-/// The axis of the face that a point lies on or is nearest to, in halves of the cuboid.
+/// The axis of the face that a point lies on or is nearest to, relative to the cuboid's half extents.
 pub fn face_of_point(slabs: &Slabs, from_centre: DVec3) -> usize {
-    let share = |axis: usize| (slabs.normal[axis].dot(from_centre) / slabs.half[axis]).abs();
-    let first = usize::from(share(1) > share(0));
-    if share(2) > share(first) { 2 } else { first }
+    let coordinate = |axis: usize| (slabs.normal[axis].dot(from_centre) / slabs.half[axis]).abs();
+    let first = usize::from(coordinate(1) > coordinate(0));
+    if coordinate(2) > coordinate(first) { 2 } else { first }
 }
 
 // ANCHOR: cuboid_surface
-/// The surface where O + tR meets a cuboid on the face across an axis, and whether it does from outside.
+/// The surface where O + tR hits the face of a cuboid across an axis, and whether it hits it from outside.
 ///
-/// A face is met from outside or inside, and its normal turned to the ray.
-/// From inside, a hit within rounding of another face is moved back between the two, as far as its own bound and the other
-/// face's: else its shadow rays might start behind that face.
+/// The normal faces the ray on either side.
+/// From inside, a hit within rounding error of another face is moved away from that face by the bounds of both, since
+/// its shadow rays might otherwise start behind it.
 #[inline(always)]
 pub fn cuboid_surface(
     origin: DVec3,
@@ -148,7 +148,7 @@ pub fn cuboid_surface(
 ) -> (Surface, bool) {
     let mut point = origin + t * direction;
     let normal = slabs.normal[axis];
-    let bound = offset_bound(point, origin, sum_of_parts(slabs.centre) + slabs.half[axis]);
+    let bound = offset_bound(point, origin, l1_norm(slabs.centre) + slabs.half[axis]);
     let outside = normal.dot(direction) * normal.dot(point - slabs.centre) <= 0.0;
     if !outside {
         let room = 2.0 * f64::from(bound);
@@ -157,9 +157,9 @@ pub fn cuboid_surface(
             let along = across.dot(point - slabs.centre);
             let lacking = room - (half - along.abs());
             if lacking > 0.0 && room < half {
-                // Along both other faces, so that only this distance changes.
-                let way = slabs.normal[3 - axis - other].cross(normal);
-                point -= way * (lacking * along.signum() / across.dot(way));
+                // Parallel to the other two faces, so that only this distance changes.
+                let edge = slabs.normal[3 - axis - other].cross(normal);
+                point -= edge * (lacking * along.signum() / across.dot(edge));
             }
         }
     }
@@ -167,7 +167,7 @@ pub fn cuboid_surface(
 }
 // ANCHOR_END: cuboid_surface
 
-/// Narrows hits by all cuboids, for any column of rays.
+/// Intersects any column of rays with all cuboids and keeps the closest hits.
 pub fn intersect_cuboids<R: RayColumn, H: HitColumn>(
     cuboids: Res<Shared<CuboidTable>>,
     mut tiles: Query<(&R, &mut H)>,
@@ -178,9 +178,9 @@ pub fn intersect_cuboids<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// A cuboid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+/// Tests one cuboid at a time against all rays; if none of sixteen intersects the bounding sphere, they are skipped.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn cuboid_rows(rays: RayBlockMut<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: &mut [u32]) {
+fn cuboid_rows(rays: RaySlices<'_>, cuboids: &CuboidTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -188,10 +188,9 @@ fn cuboid_rows(rays: RayBlockMut<'_>, cuboids: &CuboidTable, t: &mut [f64], shap
         let block = RayBlock::of(rays, start, end);
         for (slabs, &number) in cuboids.slabs.iter().zip(&cuboids.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
-                let f = slabs.centre - vector(&block.o, component);
-                *nearness_of_component =
-                    nearness(f, vector(&block.d, component), block.inverse[component], slabs.reach);
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = slabs.centre - vector(&block.o, lane);
+                *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], slabs.reach);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let intersection = |origin, direction| cuboid_intersection(origin, direction, slabs);
@@ -260,7 +259,7 @@ pub fn cuboid_surface_stage() -> Stage {
         .when(cuboid_evidence)
 }
 
-/// Evidence that the scene holds a cuboid.
+/// Evidence that the scene contains a cuboid.
 pub fn cuboid_evidence(scene: &World) -> Evidence {
     Evidence::of::<Cuboid>(scene, "cuboid")
 }

@@ -1,10 +1,9 @@
-use super::classify::DiskRows;
 use super::double_double_planar::double_double_disk_t;
-use super::keep_closest::keep_closest;
 use super::planar::{crossing, describe_planar};
-use super::sphere::{Intersection, LANES, RayBlock};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
+use super::rows::DiskRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -14,9 +13,11 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 // ANCHOR: disk_intersection
-/// Where O + tR meets a disk, in f64: where it crosses the plane, if the squares of the coordinates there sum to 1 at most.
+/// Intersects O + tR with a disk, in f64: at the disk's plane, if the squares of the coordinates there sum to at most
+/// 1.
 ///
-/// A point that rounding moved by e each way has |p|² off by 2√2|p|e + 2e² at most, and 2|p| ≤ 1 + |p|².
+/// If rounding moved the point p by at most e along each axis, |p|² is off by at most 2√2|p|e + 2e², and 2|p| ≤ 1 +
+/// |p|².
 #[inline(always)]
 pub fn disk_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
     let crossing = crossing(origin, direction, planar);
@@ -31,7 +32,7 @@ pub fn disk_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> In
     }
 }
 
-/// The t > 0 at which O + tR meets a disk, or infinity; right also where f64 alone would leave a doubt.
+/// The t > 0 at which O + tR hits a disk, or infinity; uncertain cases are decided in double-double.
 #[inline(always)]
 pub fn disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let intersection = disk_intersection(origin, direction, planar);
@@ -39,7 +40,7 @@ pub fn disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
 }
 // ANCHOR_END: disk_intersection
 
-/// Narrows hits by all disks, for any column of rays.
+/// Intersects any column of rays with all disks and keeps the closest hits.
 pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>, mut tiles: Query<(&R, &mut H)>) {
     for (rays, mut hits) in &mut tiles {
         let (t, shape) = hits.hit_components();
@@ -47,9 +48,9 @@ pub fn intersect_disks<R: RayColumn, H: HitColumn>(disks: Res<Shared<DiskTable>>
     }
 }
 
-/// A disk at a time over all rays, so that the arithmetic of many rays is done at once.
+/// Tests one disk at a time against all rays, so that the arithmetic is vectorised over rays.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn disk_rows(rays: RayBlockMut<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
+fn disk_rows(rays: RaySlices<'_>, disks: &DiskTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -102,7 +103,7 @@ pub fn disk_surface_stage() -> Stage {
         .when(disk_evidence)
 }
 
-/// Evidence that the scene holds a disk.
+/// Evidence that the scene contains a disk.
 pub fn disk_evidence(scene: &World) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Disk>>(scene, "disk", |disk| !moves(disk))

@@ -1,21 +1,21 @@
-//! Sums and products of f64 in pairs, about 106 bits: for the few rays whose verdict f64 alone leaves in doubt.
+//! Double-double arithmetic, with about 106 bits: for the few intersections that f64 leaves uncertain.
 //!
-//! No fused multiply-add is used, so every machine gives the same bits.
+//! It does not use fused multiply-add, so every machine gives the same bits.
 
 use crate::extract::{Ellipsoid, two_product, two_sum};
 use glam::DVec3;
 
-/// A number as the unevaluated sum of two f64.
+/// A double-double: a number as the unevaluated sum of two f64.
 pub(super) type DoubleDouble = (f64, f64);
 
 // ANCHOR: double_double_sphere_t
-/// The smallest t > 0 at which O + tR lies on a sphere, or infinity, to about 100 bits before rounding.
+/// The smallest t > 0 at which O + tR intersects a sphere, or infinity; computed to about 100 bits, then rounded.
 ///
-/// With so many bits the quadratic of the schoolbook needs no other form.
+/// With that many bits the textbook quadratic formula is good enough.
 #[cold]
 #[inline(never)]
 pub fn double_double_sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> f64 {
-    let d = direction.to_array().map(|part| (part, 0.0));
+    let d = direction.to_array().map(|component| (component, 0.0));
     let f = [0, 1, 2].map(|axis| two_sum(centre[axis], -origin[axis]));
     let (a, b) = (dot(d, d), dot(f, d));
     let c = add(dot(f, f), negated(two_product(radius, radius)));
@@ -23,7 +23,7 @@ pub fn double_double_sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, ra
 }
 // ANCHOR_END: double_double_sphere_t
 
-/// The smallest t > 0 with at² − 2bt + c = 0, or infinity, where the discriminant is b² − ac.
+/// The smallest t > 0 with at² − 2bt + c = 0, or infinity; the discriminant is b² − ac.
 fn smallest_root(a: f64, b: f64, c: f64, discriminant: f64) -> f64 {
     if discriminant < 0.0 {
         return f64::INFINITY;
@@ -40,32 +40,31 @@ fn smallest_root(a: f64, b: f64, c: f64, discriminant: f64) -> f64 {
     }
 }
 
-/// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity, to about 100 bits before rounding.
-///
+/// The smallest t > 0 at which O + tR intersects an ellipsoid, or infinity; computed to about 100 bits, then rounded.
 #[cold]
 #[inline(never)]
 pub fn double_double_ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
     let p = to_unit(ellipsoid, from_centre(origin, ellipsoid));
-    let q = to_unit(ellipsoid, direction.to_array().map(|part| (part, 0.0)));
+    let q = to_unit(ellipsoid, direction.to_array().map(|component| (component, 0.0)));
     let (a, b, c) = (dot(q, q), dot(p, q), excess(p));
     smallest_root(a.0, -b.0, c, discriminant(p, q))
 }
 
-/// How much further than t the ray meets the ellipsoid, to the last bits, and the point there in the space of the unit
-/// sphere.
+/// The correction to t that leads to the ellipsoid to the last bits, and the hit point in the space where the ellipsoid
+/// is the unit sphere.
 ///
-/// From afar one step of t can be longer than the way through the ellipsoid: so the point where the ray comes nearest the
-/// centre is looked for from t, and half the chord is taken back to where it enters, or added to where it leaves.
+/// From afar the spacing of t can exceed the chord through the ellipsoid, so the ray's closest point to the centre is
+/// computed relative to t, and half the chord is subtracted for the entry or added for the exit.
 #[cold]
 #[inline(never)]
 pub fn double_double_ellipsoid_point(origin: DVec3, direction: DVec3, t: f64, ellipsoid: &Ellipsoid) -> (f64, DVec3) {
-    let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().map(|part| (part, 0.0)));
+    let (from_centre, d) = (from_centre(origin, ellipsoid), direction.to_array().map(|component| (component, 0.0)));
     let at = |t: DoubleDouble| to_unit(ellipsoid, [0, 1, 2].map(|axis| add(from_centre[axis], multiply(t, d[axis]))));
     let (g, q) = (at((t, 0.0)), to_unit(ellipsoid, d));
     let half_chord = discriminant(g, q).max(0.0).sqrt();
     let enters = excess(at((0.0, 0.0))) > 0.0;
     let further = (-dot(g, q).0 + if enters { -half_chord } else { half_chord }) / dot(q, q).0;
-    (further, DVec3::from(at(two_sum(t, further)).map(|part| part.0)))
+    (further, DVec3::from(at(two_sum(t, further)).map(|component| component.0)))
 }
 
 /// |p|² − 1.
@@ -73,8 +72,8 @@ fn excess(p: [DoubleDouble; 3]) -> f64 {
     add(dot(p, p), (-1.0, 0.0)).0
 }
 
-/// (p·q)² − q·q (p·p − 1), as q·q − |p × q|²: the same from every point of the ray, and nothing cancels but what the ray
-/// itself makes small.
+/// (p·q)² − q·q (p·p − 1), computed as q·q − |p × q|², which has the same value at every point of the ray and cancels
+/// only as far as the ray is close to tangent.
 fn discriminant(p: [DoubleDouble; 3], q: [DoubleDouble; 3]) -> f64 {
     let area = |i: usize, j: usize| add(multiply(p[i], q[j]), negated(multiply(p[j], q[i])));
     let across = [area(1, 2), area(2, 0), area(0, 1)];
@@ -86,9 +85,9 @@ fn from_centre(origin: DVec3, ellipsoid: &Ellipsoid) -> [DoubleDouble; 3] {
     [0, 1, 2].map(|axis| two_sum(origin[axis], -ellipsoid.centre[axis]))
 }
 
-/// A vector of render space in the space where the ellipsoid is the unit sphere.
+/// Transforms a vector from render space to the space where the ellipsoid is the unit sphere.
 fn to_unit(ellipsoid: &Ellipsoid, v: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
-    let row = |row| ellipsoid.unit_from_world.row(row).to_array().map(|part| (part, 0.0));
+    let row = |row| ellipsoid.unit_from_world.row(row).to_array().map(|component| (component, 0.0));
     [0, 1, 2].map(|axis| dot(row(axis), v))
 }
 

@@ -1,10 +1,11 @@
-//! Flat pieces and slabs in pairs of f64: for the few rays whose verdict f64 alone leaves in doubt.
+//! Planar shapes and slabs in double-double: for the few intersections that f64 leaves uncertain.
 
 use super::double_double::{DoubleDouble, add, dot, multiply, negated};
 use crate::extract::{Planar, Slabs, two_sum};
 use glam::DVec3;
 
-/// Where a ray crosses the plane of a flat piece: t is `distance` / `approach`, and so are the coordinates times `approach`.
+/// Where a ray crosses the plane of a planar shape: t is `distance` / `approach`, and the coordinates are `at` /
+/// `approach`.
 struct DoubleDoubleCrossing {
     distance: DoubleDouble,
     approach: DoubleDouble,
@@ -15,59 +16,59 @@ impl DoubleDoubleCrossing {
     fn of(origin: DVec3, direction: DVec3, planar: &Planar) -> Self {
         let (f, d, n) = (offset(origin, planar.centre), exact(direction), exact(planar.normal));
         let (distance, approach) = (dot(n, f), dot(n, d));
-        let way = [0, 1, 2].map(|axis| add(multiply(d[axis], distance), negated(multiply(f[axis], approach))));
-        Self { distance, approach, at: planar.along.map(|along| dot(exact(along), way)) }
+        let scaled = [0, 1, 2].map(|axis| add(multiply(d[axis], distance), negated(multiply(f[axis], approach))));
+        Self { distance, approach, at: planar.along.map(|along| dot(exact(along), scaled)) }
     }
 
-    /// t where it is above 0 and the coordinates pass, or infinity.
+    /// t if it is positive and the point is inside the shape, or infinity.
     fn t_if(&self, inside: bool) -> f64 {
         let t = self.distance.0 / self.approach.0;
         if inside && t > 0.0 && t < f64::INFINITY { t } else { f64::INFINITY }
     }
 }
 
-/// The t > 0 at which O + tR meets a disk, or infinity, to about 100 bits before rounding.
+/// The t > 0 at which O + tR hits a disk, or infinity; computed to about 100 bits, then rounded.
 #[cold]
 #[inline(never)]
 pub fn double_double_disk_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let crossing = DoubleDoubleCrossing::of(origin, direction, planar);
-    let [x, z] = crossing.at.map(|part| multiply(part, part));
+    let [x, z] = crossing.at.map(|coordinate| multiply(coordinate, coordinate));
     let beyond = add(add(x, z), negated(multiply(crossing.approach, crossing.approach)));
     crossing.t_if(beyond.0 <= 0.0)
 }
 
-/// The t > 0 at which O + tR meets a rectangle, or infinity, to about 100 bits before rounding.
+/// The t > 0 at which O + tR hits a rectangle, or infinity; computed to about 100 bits, then rounded.
 #[cold]
 #[inline(never)]
 pub fn double_double_rectangle_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let crossing = DoubleDoubleCrossing::of(origin, direction, planar);
     let most = magnitude(crossing.approach);
-    crossing.t_if(crossing.at.iter().all(|&part| add(magnitude(part), negated(most)).0 <= 0.0))
+    crossing.t_if(crossing.at.iter().all(|&coordinate| add(magnitude(coordinate), negated(most)).0 <= 0.0))
 }
 
-/// A t as a quotient of two numbers, the lower one above 0; and the axis of the face where it is.
+/// A t as a quotient with positive denominator, and the axis of the face there.
 #[derive(Clone, Copy)]
 struct Fraction {
-    over: DoubleDouble,
-    under: DoubleDouble,
+    numerator: DoubleDouble,
+    denominator: DoubleDouble,
     axis: usize,
 }
 
 impl Fraction {
-    /// The sign of this less another.
-    fn less(&self, other: &Self) -> f64 {
-        add(multiply(self.over, other.under), negated(multiply(other.over, self.under))).0
+    /// A number with the sign of the difference to another t.
+    fn minus(&self, other: &Self) -> f64 {
+        add(multiply(self.numerator, other.denominator), negated(multiply(other.numerator, self.denominator))).0
     }
 
     fn t(&self) -> f64 {
-        self.over.0 / self.under.0
+        self.numerator.0 / self.denominator.0
     }
 }
 
-/// The smallest t > 0 at which O + tR lies on a face of a cuboid, or infinity, to about 100 bits before rounding; and the
-/// axis of that face.
+/// The smallest t > 0 at which O + tR intersects a face of a cuboid, or infinity, computed to about 100 bits, then
+/// rounded; and the axis of that face.
 ///
-/// Where two faces are met at once, the axis is the first of theirs.
+/// At an edge or a vertex it is the first of the axes.
 #[cold]
 #[inline(never)]
 pub fn double_double_cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> (f64, usize) {
@@ -87,15 +88,17 @@ pub fn double_double_cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) ->
             }
             continue;
         }
-        let (near, far) =
-            (Fraction { over: near, under: approach, axis }, Fraction { over: far, under: approach, axis });
-        enters = Some(enters.filter(|enters| near.less(enters) <= 0.0).unwrap_or(near));
-        leaves = Some(leaves.filter(|leaves| far.less(leaves) >= 0.0).unwrap_or(far));
+        let (near, far) = (
+            Fraction { numerator: near, denominator: approach, axis },
+            Fraction { numerator: far, denominator: approach, axis },
+        );
+        enters = Some(enters.filter(|enters| near.minus(enters) <= 0.0).unwrap_or(near));
+        leaves = Some(leaves.filter(|leaves| far.minus(leaves) >= 0.0).unwrap_or(far));
     }
     let (Some(enters), Some(leaves)) = (enters, leaves) else { return MISS };
-    let found = if enters.over.0 > 0.0 { enters } else { leaves };
+    let found = if enters.numerator.0 > 0.0 { enters } else { leaves };
     let t = found.t();
-    if enters.less(&leaves) <= 0.0 && t > 0.0 && t < f64::INFINITY { (t, found.axis) } else { MISS }
+    if enters.minus(&leaves) <= 0.0 && t > 0.0 && t < f64::INFINITY { (t, found.axis) } else { MISS }
 }
 
 /// C − O, exactly.
@@ -104,7 +107,7 @@ fn offset(origin: DVec3, centre: DVec3) -> [DoubleDouble; 3] {
 }
 
 fn exact(v: DVec3) -> [DoubleDouble; 3] {
-    v.to_array().map(|part| (part, 0.0))
+    v.to_array().map(|component| (component, 0.0))
 }
 
 fn magnitude(a: DoubleDouble) -> DoubleDouble {

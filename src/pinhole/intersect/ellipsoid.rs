@@ -1,9 +1,10 @@
-use super::classify::EllipsoidRows;
 use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t};
-use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
+use super::rows::EllipsoidRows;
+use super::sphere::nearness;
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
 use super::uv::sphere_uv;
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{
     Ellipsoid, EllipsoidTable, ShapeTable, direction_object_from_world, normal_world_from_object,
     point_object_from_world, unevenly_scaled,
@@ -15,15 +16,16 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// 2⁻⁵³, the rounding unit of f64.
+/// 2⁻⁵³, the unit roundoff of f64.
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
 
 // ANCHOR: ellipsoid_intersection
-/// Where O + tR meets an ellipsoid, in f64: the ray is taken to the space where the ellipsoid is the unit sphere.
+/// Intersects O + tR with an ellipsoid, in f64: the ray is transformed to the space where the ellipsoid is the unit
+/// sphere.
 ///
-/// p = A (O − C) and q = A R are transformed as a point and as a direction are, and q keeps the length that A gives it:
-/// then p + tq is A (O + tR − C) for the same t.
-/// The discriminant is 1 − |p − (p·q / q·q) q|², the part of p across the ray, as a sphere's is.
+/// p = A (O − C) is transformed as a point and q = A R as a direction, and q is not normalised, so that p + tq is
+/// A (O + tR − C) for the same t.
+/// The discriminant is 1 − |p − (p·q / q·q) q|², with the component of p perpendicular to the ray, as for a sphere.
 #[inline(always)]
 pub fn ellipsoid_intersection(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> Intersection {
     let p = point_object_from_world(ellipsoid.unit_from_world, ellipsoid.centre, origin);
@@ -50,21 +52,24 @@ pub fn ellipsoid_intersection(origin: DVec3, direction: DVec3, ellipsoid: &Ellip
     Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }
 }
 
-/// How far rounding can have moved p + sq, in the space of the unit sphere; and what sums of about 1 lose.
+/// A bound on the rounding error of p + sq, in the space of the unit sphere.
 ///
-/// With ε = 2⁻⁵³ and ‖A‖ the root of the sum of A's squares: O − C is rounded by ε of itself and each part of A (O − C) by
-/// 3ε of what it sums, so p is off by 4ε‖A‖|O − C| and sq by 3ε‖A‖|sR|; the product sq and the sum by ε each of what they
-/// are, which is no more than ‖A‖|O − C|.
-/// That is 6ε‖A‖|O − C| + 3ε‖A‖|sR|; an error of s itself moves along the ray only and enters squared.
-/// Eight times leaves room for that, and for the rounding of the squares.
-/// So |p + sq|² is off by twice its length times this, and by this squared; 2|l| ≤ 1 + |l|².
+/// Let ε = 2⁻⁵³ and ‖A‖ be the Frobenius norm of A.
+/// O − C has a relative error of ε, and each component of A (O − C) an error of 3ε relative to the terms summed, so p
+/// is off by 4ε‖A‖|O − C| and q by 3ε‖A‖|R|; the product sq and the sum add ε each, relative to values of at most
+/// ‖A‖|O − C|.
+/// Together that is 6ε‖A‖|O − C| + 3ε‖A‖|sR|; an error of s itself moves the point along the ray and enters squared
+/// only.
+/// A factor of 8 leaves room for that, and for the rounding of the squares.
+/// Hence |p + sq|² is off by twice its length times this bound, plus the bound squared; and 2|l| ≤ 1 + |l|².
 #[inline(always)]
 fn mapping_error(ellipsoid: &Ellipsoid, origin: DVec3, s: f64, direction: DVec3) -> f64 {
-    let lengths = sum_of_parts(origin - ellipsoid.centre) + s * sum_of_parts(direction);
+    let lengths = l1_norm(origin - ellipsoid.centre) + s * l1_norm(direction);
     8.0 * EPSILON * (1.0 + ellipsoid.norm * lengths)
 }
 
-/// The smallest t > 0 at which O + tR lies on an ellipsoid, or infinity; right also where f64 alone would leave a doubt.
+/// The smallest t > 0 at which O + tR intersects an ellipsoid, or infinity; uncertain cases are decided in
+/// double-double.
 #[inline(always)]
 pub fn ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f64 {
     let intersection = ellipsoid_intersection(origin, direction, ellipsoid);
@@ -72,7 +77,7 @@ pub fn ellipsoid_t(origin: DVec3, direction: DVec3, ellipsoid: &Ellipsoid) -> f6
 }
 // ANCHOR_END: ellipsoid_intersection
 
-/// Narrows hits by all ellipsoids, for any column of rays.
+/// Intersects any column of rays with all ellipsoids and keeps the closest hits.
 pub fn intersect_ellipsoids<R: RayColumn, H: HitColumn>(
     ellipsoids: Res<Shared<EllipsoidTable>>,
     mut tiles: Query<(&R, &mut H)>,
@@ -83,9 +88,9 @@ pub fn intersect_ellipsoids<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// An ellipsoid at a time over all rays; where none of sixteen comes near the sphere about it, no more is asked.
+/// Tests one ellipsoid at a time against all rays; if none of sixteen intersects the bounding sphere, they are skipped.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn ellipsoid_rows(rays: RayBlockMut<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64], shape: &mut [u32]) {
+fn ellipsoid_rows(rays: RaySlices<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -93,9 +98,9 @@ fn ellipsoid_rows(rays: RayBlockMut<'_>, ellipsoids: &EllipsoidTable, t: &mut [f
         let RayBlock { o, d, inverse } = RayBlock::of(rays, start, end);
         for (ellipsoid, &number) in ellipsoids.ellipsoid.iter().zip(&ellipsoids.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
-                let f = ellipsoid.centre - vector(&o, component);
-                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], ellipsoid.reach);
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = ellipsoid.centre - vector(&o, lane);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], ellipsoid.reach);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 keep_closest(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);
@@ -115,37 +120,37 @@ fn keep_closest(
     shape: &mut [u32],
 ) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
-    for component in 0..LANES {
-        let intersection = ellipsoid_intersection(vector(o, component), vector(d, component), ellipsoid);
-        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
+    for lane in 0..LANES {
+        let intersection = ellipsoid_intersection(vector(o, lane), vector(d, lane), ellipsoid);
+        (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
-    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if uncertain[component] {
-            found[component] = double_double_ellipsoid_t(vector(o, component), vector(d, component), ellipsoid);
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[lane] {
+            found[lane] = double_double_ellipsoid_t(vector(o, lane), vector(d, lane), ellipsoid);
         }
-        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
-            (*t, *shape) = (found[component], number);
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
         }
     }
 }
 
 // ANCHOR: ellipsoid_surface
-/// The surface where O + tR meets an ellipsoid, and whether it does from outside.
+/// The surface where O + tR hits an ellipsoid, and whether it hits it from outside.
 ///
-/// In the space of the unit sphere the normal at g is g itself; it goes out to the world by Aᵀ, and |Aᵀg| is the number of
-/// steps of the unit space that one scene unit along the normal makes.
+/// In the space of the unit sphere the normal at g is g itself; Aᵀ transforms it to the world, and |Aᵀg| is the length
+/// in unit space of one scene unit along the normal.
 ///
 /// The bound.
-/// Let g be where the computed t leads, exactly, and m = Aᵀg / |Aᵀg|.
-/// The ellipsoid touches the plane with normal m through the point that g / |g| stands for, and lies wholly behind it;
-/// g's own point lies behind that plane by |g| (1 − |g|) / |Aᵀg|, which is half of (1 − |g|²) / |Aᵀg|.
-/// So a start that is moved along m by more than this, and by what rounding takes, is off the surface for certain, be the
-/// surface as sharply bent as it likes: nothing but this distance to a plane counts.
-/// The residual |g|² − 1 is measured, up to twice the error of g; both are taken twice over.
-/// From inside, the start lies inside while the bound is less than a seventh of the sharpest bend's radius, the shortest
-/// half axis squared over the longest; below that no room is left to start in.
-/// Where that error would turn the normal by more than u or reach farther than u of the shortest half axis, g is found
-/// again in twice as many digits.
+/// Let g be the exact point at the computed t, and m = Aᵀg / |Aᵀg|.
+/// The tangent plane at the image of g / |g| has normal m, and the ellipsoid lies entirely behind it; the image of g
+/// lies behind that plane by |g| (1 − |g|) / |Aᵀg|, which is about half of (1 − |g|²) / |Aᵀg|.
+/// An origin that is moved along m by more than this, and by the rounding errors, is therefore off the surface whatever
+/// the curvature, since nothing but the distance to a plane matters.
+/// The residual |g|² − 1 is measured to within twice the error of g; both are doubled.
+/// From inside, the origin stays inside while the bound is less than a seventh of the smallest radius of curvature,
+/// which is the shortest semi-axis squared over the longest; a thinner ellipsoid has no room for an origin.
+/// If that error would rotate the normal by more than u or exceed u times the shortest semi-axis, g is computed again
+/// in double-double.
 #[inline(always)]
 pub fn ellipsoid_surface(
     origin: DVec3,
@@ -168,7 +173,7 @@ pub fn ellipsoid_surface(
     let steps = across.length();
     let behind = ((g.dot(g) - 1.0).abs() + 2.0 * error) / steps;
     let bound = offset_bound(point, origin, 0.0) + behind as f32;
-    // The side is told where g and q are known best: along a limb of the unit space.
+    // The side is decided in unit space, where g and q are known best.
     let away = g.dot(direction_object_from_world(map, direction)) > 0.0;
     let normal = if away { -across / steps } else { across / steps };
     (Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }, !away)
@@ -237,7 +242,7 @@ pub fn ellipsoid_surface_stage() -> Stage {
         .when(ellipsoid_evidence)
 }
 
-/// Evidence that the scene holds a sphere that its placement scales unevenly.
+/// Evidence that the scene contains a sphere with a non-uniform scale.
 pub fn ellipsoid_evidence(scene: &World) -> Evidence {
     let uneven = |sphere| unevenly_scaled(scene, sphere);
     Evidence::of_kind::<With<Sphere>>(scene, "unevenly scaled sphere", uneven)
@@ -248,14 +253,14 @@ mod tests {
     use super::*;
     use glam::{DMat3, Vec3};
 
-    /// Half axes 1, 2, 4 along x, y, z, ten units ahead.
+    /// Semi-axes 1, 2, 4 along x, y, z, ten units ahead.
     fn egg() -> Ellipsoid {
         let unit_from_world = DMat3::from_diagonal(DVec3::new(1.0, 0.5, 0.25));
         Ellipsoid::new(DVec3::new(0.0, 0.0, -10.0), unit_from_world, 4.0)
     }
 
     #[test]
-    fn poles_are_met_where_the_half_axes_end() {
+    fn rays_hit_the_poles_at_the_ends_of_the_semi_axes() {
         let t = |origin, direction| ellipsoid_t(origin, direction, &egg());
         assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z), 6.0);
         assert_eq!(t(DVec3::ZERO, DVec3::NEG_Z * 2.0), 3.0);
@@ -267,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_are_outward_also_where_the_map_mirrors() {
+    fn normals_point_outward_under_a_mirroring_transform() {
         let origin = DVec3::new(0.3, 0.7, 0.0);
         let at = |ellipsoid: &Ellipsoid| {
             let t = ellipsoid_t(origin, DVec3::NEG_Z, ellipsoid);
@@ -285,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn where_f64_is_in_doubt_the_wide_point_lies_on_the_surface() {
+    fn where_f64_is_uncertain_the_double_double_point_lies_on_the_surface() {
         let long = Ellipsoid::new(DVec3::new(0.0, 3e9, -4e9), DMat3::from_diagonal(DVec3::new(1.0, 1e-4, 1.0)), 1e4);
         let direction = DVec3::new(0.0, 0.6, -0.8);
         let t = ellipsoid_t(DVec3::ZERO, direction, &long);

@@ -1,9 +1,9 @@
-//! Rays → the nearest surface.
+//! Rays → the closest hit and its surface.
 //!
 //! Reads: a ray column ([`WorldRays`], later shadow rays) and the tables of shapes.
 //! Writes: [`Hits`], the lists of rows of each kind, and [`Surfaces`].
-//! Space: render space. Each kind of shape runs one after the other over the whole tile and narrows the hits; among
-//! equal distances the lowest shape number wins, so the order of the kinds does not matter.
+//! Space: render space. The kinds of shapes run one after another over the whole tile, and each keeps the closest hits;
+//! at equal distances the lowest shape number wins, so the order of the kinds does not affect the result.
 
 mod classify;
 mod cuboid;
@@ -11,24 +11,24 @@ mod disk;
 mod double_double;
 mod double_double_planar;
 mod ellipsoid;
+mod evidence;
 mod hits;
-mod keep_closest;
 mod moving;
 mod planar;
 mod plane;
+mod ray_block;
 mod rectangle;
+mod rows;
 mod shading_normal;
 mod sphere;
+mod start;
 mod surface;
 mod triangle;
 mod triangle_exact;
 mod triangle_surface;
 mod uv;
 
-pub use classify::{
-    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows,
-    TriangleRows, classify_hits, classify_stage,
-};
+pub use classify::{classify_hits, classify_stage};
 pub use cuboid::{
     cuboid_evidence, cuboid_face, cuboid_intersection, cuboid_stage, cuboid_surface, cuboid_surface_stage, cuboid_t,
     face_of_point, intersect_cuboids,
@@ -40,33 +40,38 @@ pub use ellipsoid::{
     ellipsoid_evidence, ellipsoid_intersection, ellipsoid_stage, ellipsoid_surface, ellipsoid_surface_stage,
     ellipsoid_t, intersect_ellipsoids,
 };
-pub use hits::{HitColumn, Hits, NO_SHAPE, RayBlockMut, RayColumn, shape_evidence, start_hits, start_stage};
+pub use evidence::shape_evidence;
+pub use hits::{HitColumn, Hits, NO_SHAPE, RayColumn, RaySlices};
 pub use moving::{at_rest, intersect_moving, moving_stage, moving_surface_stage};
 pub use planar::{Crossing, crossing};
 pub use plane::{intersect_planes, plane_stage, plane_surface_stage, plane_t};
+pub use ray_block::Intersection;
 pub use rectangle::{
     intersect_rectangles, rectangle_evidence, rectangle_intersection, rectangle_stage, rectangle_surface_stage,
     rectangle_t,
+};
+pub use rows::{
+    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows, TriangleRows,
 };
 pub use shading_normal::{
     ShadingNormals, falling_cosine, interpolate_normals, shading_normal, shading_normal_stage, vertex_normal_evidence,
 };
 pub use sphere::{
-    Intersection, intersect_spheres, nearness, sphere_evidence, sphere_intersection, sphere_stage,
-    sphere_surface_stage, sphere_t,
+    intersect_spheres, nearness, sphere_evidence, sphere_intersection, sphere_stage, sphere_surface_stage, sphere_t,
 };
-pub use surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, offset_origin, sum_of_parts};
+pub use start::{start_hits, start_stage};
+pub use surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound, offset_origin};
 pub use triangle::{
     Edges, Shear, edges, intersect_triangles, longest_axis, triangle_evidence, triangle_intersection, triangle_stage,
     triangle_t,
 };
 pub use triangle_exact::exact_triangle_t;
-pub use triangle_surface::{Meeting, triangle_surface, triangle_surface_stage};
+pub use triangle_surface::{TriangleHit, triangle_surface, triangle_surface_stage};
 pub use uv::{cuboid_uv, planar_uv, sphere_uv};
 
 use crate::plan::Stage;
 
-/// Intersection of camera rays, every kind of shape, up to the surface that was hit.
+/// All stages that intersect camera rays with shapes and compute the surfaces they hit.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![start_stage(), sphere_stage(), ellipsoid_stage(), plane_stage()];
     stages.extend([disk_stage(), rectangle_stage(), cuboid_stage(), classify_stage()]);

@@ -1,11 +1,11 @@
 use super::disk::disk_intersection;
 use super::double_double::double_double_sphere_t;
 use super::double_double_planar::{double_double_disk_t, double_double_rectangle_t};
-use super::keep_closest::keep_closest;
+use super::ray_block::{LANES, RayBlock, keep_closest, vector};
 use super::rectangle::rectangle_intersection;
-use super::sphere::{LANES, RayBlock, sphere_intersection, vector};
-use super::surface::{Surface, SurfaceSides, Surfaces, offset_bound, sum_of_parts};
-use super::{HitColumn, Hits, NO_SHAPE, RayBlockMut, RayColumn};
+use super::sphere::sphere_intersection;
+use super::surface::{Surface, SurfaceSides, Surfaces, l1_norm, offset_bound};
+use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RaySlices};
 use crate::extract::{Body, MovingTable, ShapeKind, ShapeTable, moving_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
@@ -14,17 +14,16 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 // ANCHOR: at_rest
-/// The origin of a ray as it looks to something that moves: both run on, so only the difference counts, and at time τ it is
-/// O − vτ.
+/// The origin of a ray relative to a moving shape, which at time τ is O − vτ.
 ///
-/// There the thing stands still, where it was when the shutter opened; t is the same in both.
+/// In that frame the shape stays where it was when the shutter opened; t is the same in both frames.
 #[inline(always)]
 pub fn at_rest(origin: DVec3, velocity: DVec3, time: f64) -> DVec3 {
     origin - velocity * time
 }
 // ANCHOR_END: at_rest
 
-/// Narrows hits by all moving shapes, for any column of rays, each at its own time.
+/// Intersects any column of rays, each at its own time, with all moving shapes and keeps the closest hits.
 pub fn intersect_moving<R: RayColumn, H: HitColumn>(
     moving: Res<Shared<MovingTable>>,
     mut tiles: Query<(&R, &RayTimes, &mut H)>,
@@ -35,10 +34,10 @@ pub fn intersect_moving<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// A shape at a time over all rays, so that the arithmetic of many rays is done at once.
+/// Tests one shape at a time against all rays, so that the arithmetic is vectorised over rays.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn moving_rows(
-    rays: RayBlockMut<'_>,
+    rays: RaySlices<'_>,
     (times_of_paths, path): (&[f64], Option<&[u32]>),
     moving: &MovingTable,
     t: &mut [f64],
@@ -50,15 +49,15 @@ fn moving_rows(
         let end = rows.min(start + LANES);
         let block = RayBlock::of(rays, start, end);
         let mut times = [0.0; LANES];
-        for (component, row) in (start..end).enumerate() {
-            times[component] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
+        for (lane, row) in (start..end).enumerate() {
+            times[lane] = times_of_paths[path.map_or(row, |path| path[row] as usize)];
         }
         let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
         for ((body, velocity), &number) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
             let mut own = RayBlock { o: block.o, d: block.d, inverse: block.inverse };
-            for (component, &time) in times.iter().enumerate() {
-                let origin = at_rest(vector(&own.o, component), *velocity, time);
-                (own.o[0][component], own.o[1][component], own.o[2][component]) = origin.into();
+            for (lane, &time) in times.iter().enumerate() {
+                let origin = at_rest(vector(&own.o, lane), *velocity, time);
+                (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
             }
             match body {
                 &Body::Sphere { centre, radius } => keep_closest(
@@ -91,7 +90,7 @@ fn moving_rows(
     }
 }
 
-/// Fills the surface of every row that hit a moving shape: where it was at the ray's time.
+/// Fills the surface of every row that hit a moving shape, at the shape's position at the ray's time.
 pub fn fill_moving_surfaces(
     moving: Res<Shared<MovingTable>>,
     shapes: Res<Shared<ShapeTable>>,
@@ -103,15 +102,15 @@ pub fn fill_moving_surfaces(
             let shape = hits.shape[row] as usize;
             let mover = shapes.row[shape] as usize;
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
-            let way = moving.velocity[mover] * times.time[row];
+            let displacement = moving.velocity[mover] * times.time[row];
             let point = origin + hits.t[row] * direction;
             let (normal, size) = match &moving.body[mover] {
                 Body::Sphere { centre, radius } => {
-                    ((point - way - *centre).try_normalize().unwrap_or(-direction), sum_of_parts(*centre) + radius)
+                    ((point - displacement - *centre).try_normalize().unwrap_or(-direction), l1_norm(*centre) + radius)
                 }
-                Body::Disk(planar) | Body::Rectangle(planar) => (planar.normal, sum_of_parts(planar.centre)),
+                Body::Disk(planar) | Body::Rectangle(planar) => (planar.normal, l1_norm(planar.centre)),
             };
-            let bound = offset_bound(point, origin, size + sum_of_parts(way));
+            let bound = offset_bound(point, origin, size + l1_norm(displacement));
             let surface = Surface::facing(direction, point, normal, bound, shapes.material[shape]);
             surfaces.set(row, surface);
             if let Some(sides) = &mut sides {

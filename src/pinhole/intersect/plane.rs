@@ -1,6 +1,6 @@
-use super::classify::PlaneRows;
+use super::rows::PlaneRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -10,9 +10,9 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 // ANCHOR: plane_t
-/// The t > 0 at which O + tR lies on the plane n·x = k, or infinity.
+/// The t > 0 at which O + tR intersects the plane n·x = k, or infinity.
 ///
-/// A ray along the plane divides by 0; what comes of it is infinite or not a number, and neither passes the test.
+/// A ray parallel to the plane divides by 0; the result is infinite or NaN, and neither passes the test.
 #[inline(always)]
 pub fn plane_t(origin: DVec3, direction: DVec3, normal: DVec3, offset: f64) -> f64 {
     let t = (offset - normal.dot(origin)) / normal.dot(direction);
@@ -20,7 +20,7 @@ pub fn plane_t(origin: DVec3, direction: DVec3, normal: DVec3, offset: f64) -> f
 }
 // ANCHOR_END: plane_t
 
-/// Narrows hits by all planes, for any column of rays.
+/// Intersects any column of rays with all planes and keeps the closest hits.
 pub fn intersect_planes<R: RayColumn, H: HitColumn>(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&R, &mut H)>) {
     for (rays, mut hits) in &mut tiles {
         let (t, shape) = hits.hit_components();
@@ -29,7 +29,7 @@ pub fn intersect_planes<R: RayColumn, H: HitColumn>(planes: Res<Shared<PlaneTabl
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn plane_rows(rays: RayBlockMut<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mut [u32]) {
+fn plane_rows(rays: RaySlices<'_>, planes: &PlaneTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let [ox, oy, oz] = rays.origin.map(|component| &component[..rows]);
     let [dx, dy, dz] = rays.direction.map(|component| &component[..rows]);
@@ -114,7 +114,7 @@ pub fn plane_surface_stage() -> Stage {
         .when(plane_evidence)
 }
 
-/// Evidence that the scene holds a plane.
+/// Evidence that the scene contains a plane.
 pub fn plane_evidence(scene: &World) -> Evidence {
     Evidence::of::<Plane>(scene, "plane")
 }

@@ -1,10 +1,9 @@
-use super::classify::RectangleRows;
 use super::double_double_planar::double_double_rectangle_t;
-use super::keep_closest::keep_closest;
 use super::planar::{crossing, describe_planar};
-use super::sphere::{Intersection, LANES, RayBlock};
+use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
+use super::rows::RectangleRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{Planar, RectangleTable, ShapeTable, moves_while_open};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -13,7 +12,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// Where O + tR meets a rectangle, in f64: where it crosses the plane, if both coordinates there lie from −1 to 1.
+/// Intersects O + tR with a rectangle, in f64: at the rectangle's plane, if both coordinates there are in [−1, 1].
 #[inline(always)]
 pub fn rectangle_intersection(origin: DVec3, direction: DVec3, planar: &Planar) -> Intersection {
     let crossing = crossing(origin, direction, planar);
@@ -27,14 +26,14 @@ pub fn rectangle_intersection(origin: DVec3, direction: DVec3, planar: &Planar) 
     }
 }
 
-/// The t > 0 at which O + tR meets a rectangle, or infinity; right also where f64 alone would leave a doubt.
+/// The t > 0 at which O + tR hits a rectangle, or infinity; uncertain cases are decided in double-double.
 #[inline(always)]
 pub fn rectangle_t(origin: DVec3, direction: DVec3, planar: &Planar) -> f64 {
     let intersection = rectangle_intersection(origin, direction, planar);
     if intersection.uncertain { double_double_rectangle_t(origin, direction, planar) } else { intersection.t }
 }
 
-/// Narrows hits by all rectangles, for any column of rays.
+/// Intersects any column of rays with all rectangles and keeps the closest hits.
 pub fn intersect_rectangles<R: RayColumn, H: HitColumn>(
     rectangles: Res<Shared<RectangleTable>>,
     mut tiles: Query<(&R, &mut H)>,
@@ -45,9 +44,9 @@ pub fn intersect_rectangles<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// A rectangle at a time over all rays, so that the arithmetic of many rays is done at once.
+/// Tests one rectangle at a time against all rays, so that the arithmetic is vectorised over rays.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn rectangle_rows(rays: RayBlockMut<'_>, rectangles: &RectangleTable, t: &mut [f64], shape: &mut [u32]) {
+fn rectangle_rows(rays: RaySlices<'_>, rectangles: &RectangleTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -107,7 +106,7 @@ pub fn rectangle_surface_stage() -> Stage {
         .when(rectangle_evidence)
 }
 
-/// Evidence that the scene holds a rectangle.
+/// Evidence that the scene contains a rectangle.
 pub fn rectangle_evidence(scene: &World) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Rectangle>>(scene, "rectangle", |rectangle| !moves(rectangle))

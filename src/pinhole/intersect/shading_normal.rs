@@ -1,5 +1,5 @@
-use super::classify::TriangleRows;
-use super::triangle_surface::Meeting;
+use super::rows::TriangleRows;
+use super::triangle_surface::TriangleHit;
 use super::{Hits, Surfaces};
 use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
 use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
@@ -9,11 +9,11 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 column! {
-    /// The normal by which light falls on what each ray hit; all 0 where nothing is met.
+    /// The shading normal at each hit, in world space; zero for a miss.
     ///
-    /// It is the surface's own but on triangles whose corners have normals; exists where there are such.
+    /// It is the geometric normal except on triangles with vertex normals; exists if the scene has such triangles.
     pub struct ShadingNormals("shading", "world", "unit vector", Ray) {
-        /// On the side of the surface's own normal or nearly, x.
+        /// x; the normal is on the side of the ray, or nearly so.
         nx: f32,
         /// y.
         ny: f32,
@@ -23,10 +23,10 @@ column! {
 }
 
 impl ShadingNormals {
-    /// Each part from −1 to 1 becomes 0 to 1; black where nothing is met.
+    /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let normal = [self.nx[row], self.ny[row], self.nz[row]];
-        if normal == [0.0; 3] { normal } else { normal.map(|part| 0.5 + 0.5 * part) }
+        if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
     }
 
     /// Reads a row, in f64.
@@ -37,18 +37,18 @@ impl ShadingNormals {
 }
 
 // ANCHOR: shading_normal
-/// The normal between the corners' normals, a unit vector on their side.
+/// The shading normal, interpolated from the vertex normals; a unit vector.
 ///
-/// All three point to one side of the triangle, so that no mean of them is 0.
+/// All three vertex normals point to one side of the triangle, so no weighted mean of them is 0.
 #[inline(always)]
-pub fn shading_normal(normals: &[DVec3; 3], meeting: &Meeting) -> DVec3 {
-    meeting.mix(normals).normalize()
+pub fn shading_normal(normals: &[DVec3; 3], triangle_hit: &TriangleHit) -> DVec3 {
+    triangle_hit.interpolate(normals).normalize()
 }
 // ANCHOR_END: shading_normal
 
 // ANCHOR: falling_cosine
-/// The cosine of the angle at which light falls: by the shading normal; not above 0 where it comes from below the surface
-/// itself, whatever the shading normal says.
+/// The cosine of the angle of incidence with respect to the shading normal; 0 if the light is below the geometric
+/// surface, whatever the shading normal is.
 #[inline(always)]
 pub fn falling_cosine(geometric: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
     let above = geometric.dot(to_light) > 0.0;
@@ -71,20 +71,20 @@ pub fn interpolate_normals(
         for &row in &list.row {
             let row = row as usize;
             let triangle = shapes.row[hits.shape[row] as usize] as usize;
-            let corners = &normals.normals[triangle];
-            if corners[0] == DVec3::ZERO {
+            let vertex_normals = &normals.normals[triangle];
+            if vertex_normals[0] == DVec3::ZERO {
                 continue;
             }
-            let meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), &triangles.facet[triangle]);
-            let leaves_by_normal = meeting.along != triangles.turned[triangle];
-            let normal = shading_normal(corners, &meeting);
+            let triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.facet[triangle]);
+            let leaves_by_normal = triangle_hit.along != triangles.turned[triangle];
+            let normal = shading_normal(vertex_normals, &triangle_hit);
             let normal = if leaves_by_normal { -normal } else { normal };
             (nx[row], ny[row], nz[row]) = normal.as_vec3().into();
         }
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn shading_normal_stage() -> Stage {
     Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
         .reads::<WorldRays>()
@@ -98,7 +98,7 @@ pub fn shading_normal_stage() -> Stage {
         .when(vertex_normal_evidence)
 }
 
-/// Evidence that the scene holds a triangle whose corners have normals.
+/// Evidence that the scene contains a triangle with vertex normals.
 pub fn vertex_normal_evidence(scene: &World) -> Evidence {
     let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
     Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)

@@ -1,8 +1,9 @@
-use super::classify::SphereRows;
 use super::double_double::double_double_sphere_t;
-use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound, sum_of_parts};
+use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
+use super::rows::SphereRows;
+use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offset_bound};
 use super::uv::sphere_uv;
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -11,26 +12,12 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// Rays tested together before it is asked whether any of them came near.
-pub(super) const LANES: usize = 16;
-/// u, half the spacing of f32 numbers from 1 on.
-pub(super) const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
-
-/// What the quick method says of a ray and a sphere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Intersection {
-    /// The smallest t > 0 at which they meet, or infinity.
-    pub t: f64,
-    /// Whether rounding could have changed whether they meet, or t by more than 2⁻²⁴ of itself.
-    pub uncertain: bool,
-}
-
 // ANCHOR: sphere_intersection
-/// Where O + tR meets a sphere, f = C − O, in f64.
+/// Intersects O + tR with a sphere, in f64; f = C − O.
 ///
-/// The discriminant is taken from the part of f across the ray, r² − |f − sR|², so that nothing of the size of the
-/// distance is squared and cancelled (Haines et al., *Ray Tracing Gems* ch. 7).
-/// The nearer root is taken as c / (R·R (s + h)), c = f·f − r², where s − h would cancel.
+/// The discriminant is computed from the component of f perpendicular to the ray, as r² − |f − sR|², which avoids the
+/// cancellation of squared distances (Haines et al., *Ray Tracing Gems* ch. 7).
+/// The nearer root is computed as c / (R·R (s + h)) with c = f·f − r², because s − h would cancel.
 #[inline(always)]
 pub fn sphere_intersection(f: DVec3, direction: DVec3, radius: f64) -> Intersection {
     let (dd, ff, rr) = (direction.dot(direction), f.dot(f), radius * radius);
@@ -52,17 +39,18 @@ pub fn sphere_intersection(f: DVec3, direction: DVec3, radius: f64) -> Intersect
     Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }
 }
 
-/// How far rounding can have moved the discriminant.
+/// A bound on the rounding error of the discriminant.
 ///
-/// With ε = 2⁻⁵³, f and sR are each rounded by ε|f|, an error of s acts along R only, and the squares add 3ε|l|² + εr²:
-/// at most 9ε|f||l| + εr² together, and 50ε²|f|² of second order.
+/// With ε = 2⁻⁵³, f and sR each have an error of ε|f|, an error of s acts along R only, and the squares add 3ε|l|² +
+/// εr²:
+/// together at most 9ε|f||l| + εr², plus second-order terms of 50ε²|f|².
 #[inline(always)]
 fn discriminant_error(ff: f64, rr: f64, ll: f64) -> f64 {
     const TWO_TO_MINUS_50: f64 = 1.0 / (1_u64 << 50) as f64;
     TWO_TO_MINUS_50 * (2.0 * ff * (rr + ll + TWO_TO_MINUS_50 * TWO_TO_MINUS_50 * ff)).sqrt()
 }
 
-/// The smallest t > 0 at which O + tR lies on a sphere, or infinity; right also where f64 alone would leave a doubt.
+/// The smallest t > 0 at which O + tR intersects a sphere, or infinity; uncertain cases are decided in double-double.
 #[inline(always)]
 pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> f64 {
     let intersection = sphere_intersection(centre - origin, direction, radius);
@@ -70,9 +58,9 @@ pub fn sphere_t(origin: DVec3, direction: DVec3, centre: DVec3, radius: f64) -> 
 }
 // ANCHOR_END: sphere_intersection
 
-/// At least 0 where a ray may meet the sphere or be in doubt, below 0 where it passes by for certain.
+/// A conservative test: negative only if the ray's line certainly misses the sphere.
 ///
-/// `inverse` is 1 / R·R, taken once a ray; the slack is many times what its rounding can do.
+/// `inverse` is 1 / R·R, computed once per ray; the slack is many times its rounding error.
 #[inline(always)]
 pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
     const SLACK: f64 = 1.0 / (1_u64 << 47) as f64;
@@ -81,7 +69,7 @@ pub fn nearness(f: DVec3, direction: DVec3, inverse: f64, radius: f64) -> f64 {
     rr - across.dot(across) + SLACK * (ff + rr)
 }
 
-/// Narrows hits by all spheres, for any column of rays.
+/// Intersects any column of rays with all spheres and keeps the closest hits.
 pub fn intersect_spheres<R: RayColumn, H: HitColumn>(
     spheres: Res<Shared<SphereTable>>,
     mut tiles: Query<(&R, &mut H)>,
@@ -92,9 +80,9 @@ pub fn intersect_spheres<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// A sphere at a time over all rays, so that the arithmetic of many rays is done at once.
+/// Tests one sphere at a time against all rays, so that the arithmetic is vectorised over rays.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sphere_rows(rays: RayBlockMut<'_>, spheres: &SphereTable, t: &mut [f64], shape: &mut [u32]) {
+fn sphere_rows(rays: RaySlices<'_>, spheres: &SphereTable, t: &mut [f64], shape: &mut [u32]) {
     let rows = t.len();
     let mut start = 0;
     while start < rows {
@@ -103,9 +91,8 @@ fn sphere_rows(rays: RayBlockMut<'_>, spheres: &SphereTable, t: &mut [f64], shap
         for sphere in 0..spheres.x.len() {
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
-                *nearness_of_component =
-                    nearness(centre - vector(&o, component), vector(&d, component), inverse[component], radius);
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                *nearness_of_lane = nearness(centre - vector(&o, lane), vector(&d, lane), inverse[lane], radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let (t, shape) = (&mut t[start..end], &mut shape[start..end]);
@@ -114,59 +101,6 @@ fn sphere_rows(rays: RayBlockMut<'_>, spheres: &SphereTable, t: &mut [f64], shap
         }
         start = end;
     }
-}
-
-/// Rays tested together, in f64: origins, directions, 1 / R·R; lanes beyond the last row hold a ray of no meaning.
-pub(super) struct RayBlock {
-    pub o: [[f64; LANES]; 3],
-    pub d: [[f64; LANES]; 3],
-    pub inverse: [f64; LANES],
-}
-
-impl RayBlock {
-    #[inline(always)]
-    pub fn of(rays: RayBlockMut<'_>, start: usize, end: usize) -> Self {
-        let [ox, oy, oz] = rays.origin.map(|component| &component[..end]);
-        let [dx, dy, dz] = rays.direction.map(|component| &component[..end]);
-        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (component, row) in (start..end).enumerate() {
-            (o[0][component], o[1][component], o[2][component]) =
-                (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][component], d[1][component], d[2][component]) =
-                (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
-        }
-        Self::measured(o, d)
-    }
-
-    /// The rays of some rows, at most as many as there are lanes.
-    #[inline(always)]
-    pub fn of_rows(rays: RayBlockMut<'_>, rows: &[u32]) -> Self {
-        let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
-        let (mut o, mut d) = ([[0.0_f64; LANES]; 3], [[1.0_f64; LANES]; 3]);
-        for (component, &row) in rows.iter().enumerate() {
-            let row = row as usize;
-            (o[0][component], o[1][component], o[2][component]) =
-                (f64::from(ox[row]), f64::from(oy[row]), f64::from(oz[row]));
-            (d[0][component], d[1][component], d[2][component]) =
-                (f64::from(dx[row]), f64::from(dy[row]), f64::from(dz[row]));
-        }
-        Self::measured(o, d)
-    }
-
-    #[inline(always)]
-    fn measured(o: [[f64; LANES]; 3], d: [[f64; LANES]; 3]) -> Self {
-        let mut inverse = [1.0_f64; LANES];
-        for (component, inverse) in inverse.iter_mut().enumerate() {
-            *inverse = 1.0 / vector(&d, component).dot(vector(&d, component));
-        }
-        Self { o, d, inverse }
-    }
-}
-
-/// Three lanes' numbers as a vector.
-#[inline(always)]
-pub(super) fn vector(components: &[[f64; LANES]; 3], component: usize) -> DVec3 {
-    DVec3::new(components[0][component], components[1][component], components[2][component])
 }
 
 #[inline(always)]
@@ -180,16 +114,16 @@ fn keep_closest(
     shape: &mut [u32],
 ) {
     let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
-    for component in 0..LANES {
-        let intersection = sphere_intersection(centre - vector(o, component), vector(d, component), radius);
-        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
+    for lane in 0..LANES {
+        let intersection = sphere_intersection(centre - vector(o, lane), vector(d, lane), radius);
+        (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
-    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if uncertain[component] {
-            found[component] = double_double_sphere_t(vector(o, component), vector(d, component), centre, radius);
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[lane] {
+            found[lane] = double_double_sphere_t(vector(o, lane), vector(d, lane), centre, radius);
         }
-        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
-            (*t, *shape) = (found[component], number);
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
         }
     }
 }
@@ -216,9 +150,9 @@ pub fn fill_sphere_surfaces(
             let (centre, radius) = (spheres.centre(sphere), spheres.radius[sphere]);
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let point = origin + hits.t[row] * direction;
-            // A sphere smaller than the spacing of numbers at its place may have no normal left; any serves it.
+            // A sphere smaller than the spacing of f64 at its position may have no meaningful normal; any will do.
             let outward = (point - centre).try_normalize().unwrap_or(-direction);
-            let bound = offset_bound(point, origin, sum_of_parts(centre) + radius);
+            let bound = offset_bound(point, origin, l1_norm(centre) + radius);
             surfaces.set(row, Surface::facing(direction, point, outward, bound, shapes.material[shape]));
         }
         if let Some(mut sides) = sides {
@@ -266,7 +200,7 @@ pub fn sphere_surface_stage() -> Stage {
         .when(sphere_evidence)
 }
 
-/// Evidence that the scene holds a sphere that stays one.
+/// Evidence that the scene contains a static sphere that is not scaled to an ellipsoid.
 pub fn sphere_evidence(scene: &World) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere) && !moves(sphere))

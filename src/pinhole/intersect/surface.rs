@@ -3,7 +3,7 @@ use crate::rays::WorldRays;
 use glam::{DVec3, Vec3};
 
 column! {
-    /// What is known of the surface that each ray hit; all 0 where nothing is met.
+    /// The surface at each hit, in render space; all zero for a miss.
     pub struct Surfaces("surface", "world, from the eye", "scene units", Ray) {
         /// Position, x.
         px: f32,
@@ -11,13 +11,13 @@ column! {
         py: f32,
         /// Position, z.
         pz: f32,
-        /// Normal on the side the ray came from, x; the three are a unit vector.
+        /// Geometric normal, facing the ray, x; a unit vector.
         nx: f32,
         /// Normal, y.
         ny: f32,
         /// Normal, z.
         nz: f32,
-        /// How far along the normal a new ray must start to be off the surface for certain.
+        /// How far along the normal a spawned ray must start to be certainly off the surface.
         bound: f32,
         /// The row of the material table.
         material: u32,
@@ -25,11 +25,11 @@ column! {
 }
 
 column! {
-    /// Where on its shape each ray hit, in the shape's own two coordinates; exists where something reads it.
+    /// The texture coordinates of each hit, in the shape's own parametrisation; exists if a stage reads it.
     pub struct SurfaceUvs("uv", "on the shape", "of the shape's own", Ray) {
-        /// The first coordinate.
+        /// u.
         u: f64,
-        /// The second.
+        /// v.
         v: f64,
     }
 }
@@ -41,30 +41,30 @@ impl SurfaceUvs {
         [self.u[row], self.v[row]] = uv;
     }
 
-    /// Each coordinate's part after the point.
+    /// Paints the fractional parts of u and v.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.u[row], self.v[row], 0.0].map(|part| (part - part.floor()) as f32)
+        [self.u[row], self.v[row], 0.0].map(|coordinate| (coordinate - coordinate.floor()) as f32)
     }
 }
 
 column! {
-    /// From which side each ray met its shape; exists where something reads it.
+    /// The side from which each ray hit its shape; exists if a stage reads it.
     ///
-    /// A shape's own outward side is: for a sphere (also an unevenly scaled one) and a cuboid the outside; for a plane the
-    /// side of its `normal`; for a disk and a rectangle the side of the entity's +y; for a triangle the side of its
-    /// corners' normals, or else the one from which its corners go round anticlockwise.
-    /// It stays that side where a placement mirrors; mirrored corners of a triangle without normals go round the other
-    /// way.
-    /// It says which way the normal in [`Surfaces`], which is always on the ray's side, was turned.
+    /// A shape's outward side is the outside of a sphere, ellipsoid or cuboid; the side of a plane's `normal`; the side
+    /// of the entity's +y for a disk and a rectangle; and for a triangle the side of its vertex normals or, without
+    /// them, the one from which its vertices run anticlockwise.
+    /// A mirroring placement does not change the side, except that it reverses the orientation of a triangle without
+    /// normals.
+    /// The column records whether the normal in [`Surfaces`], which always faces the ray, was flipped.
     pub struct SurfaceSides("side", "on the shape", "1 or 0", Ray) {
-        /// 1 where the ray came from the shape's own outward side, so a ray that goes on enters; 0 where it came from
-        /// inside or behind, and where nothing is met.
+        /// 1 if the ray arrived on the shape's outward side, so that a transmitted ray enters the shape; 0 if it
+        /// arrived from inside or behind, and for a miss.
         outside: u32,
     }
 }
 
 impl SurfaceSides {
-    /// White where met from outside, black from inside or behind and where nothing is met.
+    /// Paints hits from outside white; hits from inside or behind, and misses, black.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.outside[row] as f32; 3]
     }
@@ -73,11 +73,11 @@ impl SurfaceSides {
 /// One row of [`Surfaces`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Where, in render space.
+    /// The hit point, in render space.
     pub position: Vec3,
-    /// The unit normal on the side that the ray came from.
+    /// The unit geometric normal, facing the ray.
     pub normal: Vec3,
-    /// The hit's error bound along the normal.
+    /// The error bound of the hit point along the normal; see [`offset_bound`].
     pub bound: f32,
     /// The row of the material table.
     pub material: u32,
@@ -85,7 +85,7 @@ pub struct Surface {
 
 impl Surface {
     // ANCHOR: facing
-    /// The surface at an f64 point, its normal turned to the side that a ray of this direction came from.
+    /// The surface at an f64 point, with the normal flipped if necessary to face a ray of this direction.
     #[inline(always)]
     pub fn facing(direction: DVec3, point: DVec3, normal: DVec3, bound: f32, material: u32) -> Self {
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
@@ -94,29 +94,29 @@ impl Surface {
     // ANCHOR_END: facing
 }
 
-/// |x| + |y| + |z|.
+/// The L₁ norm, |x| + |y| + |z|.
 #[inline(always)]
-pub fn sum_of_parts(v: DVec3) -> f64 {
+pub fn l1_norm(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
 // ANCHOR: offset_bound
-/// How far along its normal a hit must be moved for the next ray to start off the surface for certain.
+/// How far along its normal a hit point must be moved for a spawned ray to start certainly off the surface.
 ///
-/// With u = 2⁻²⁴: rounding a point p to f32 moves it by at most u(|x| + |y| + |z|), and rounding the moved point by as
-/// much again; twice that sum is the first part.
-/// The second is what f64 lost on the way to p, from numbers as large as the ray's origin and the shape's own
-/// (a sphere's centre and radius, a plane's offset); the third is the floor of f32.
-/// The bound grows and shrinks with the scene: it has no length in it.
+/// With u = 2⁻²⁴, rounding a point p to f32 moves it by at most u(|x| + |y| + |z|), and rounding the offset point by as
+/// much again; twice that sum is the first term.
+/// The second term bounds the error of p itself in f64, which depends on the size of the ray's origin and of the
+/// shape's own numbers (a sphere's centre and radius, a plane's offset); the third covers the subnormals of f32.
+/// The bound scales with the scene, because it contains no absolute length.
 #[inline(always)]
 pub fn offset_bound(point: DVec3, origin: DVec3, shape_size: f64) -> f32 {
     const ROUNDING: f64 = 4.0 / (1_u64 << 24) as f64;
     const COMPUTING: f64 = 1.0 / (1_u64 << 48) as f64;
     const FLOOR: f64 = f32::from_bits(8) as f64;
-    (ROUNDING * sum_of_parts(point) + COMPUTING * (sum_of_parts(origin) + shape_size) + FLOOR) as f32
+    (ROUNDING * l1_norm(point) + COMPUTING * (l1_norm(origin) + shape_size) + FLOOR) as f32
 }
 
-/// Where a new ray from a surface starts: its position, moved along the normal by its bound.
+/// The origin of a ray spawned from a surface: the hit point, offset along the normal by the bound.
 #[inline(always)]
 pub fn offset_origin(position: Vec3, normal: Vec3, bound: f32) -> Vec3 {
     position + normal * bound
@@ -124,10 +124,10 @@ pub fn offset_origin(position: Vec3, normal: Vec3, bound: f32) -> Vec3 {
 // ANCHOR_END: offset_bound
 
 impl Surfaces {
-    /// The normal: each part from −1 to 1 becomes 0 to 1; black where nothing is met.
+    /// Paints the normal: each component from −1 to 1 is mapped to 0 to 1; black for a miss.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let normal = [self.nx[row], self.ny[row], self.nz[row]];
-        if normal == [0.0; 3] { normal } else { normal.map(|part| 0.5 + 0.5 * part) }
+        if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
     }
 
     /// Writes a row.

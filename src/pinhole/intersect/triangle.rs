@@ -1,6 +1,7 @@
-use super::sphere::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, nearness, vector};
+use super::ray_block::{Intersection, LANES, RayBlock, UNIT_ROUNDOFF, vector};
+use super::sphere::nearness;
 use super::triangle_exact::exact_triangle_t;
-use super::{HitColumn, Hits, RayBlockMut, RayColumn};
+use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{TriangleRow, TriangleTable};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
@@ -10,10 +11,10 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 // ANCHOR: shear
-/// What takes a ray's direction to (0, 0, 1): the axis z along which it is longest is kept, x and y are sheared.
+/// The shear and scale that map a ray's direction to (0, 0, 1), with z the axis of its largest component.
 ///
-/// Made once a ray, whatever the number of triangles (Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection*,
-/// 2013).
+/// It is computed once per ray, whatever the number of triangles (Woop, Benthin and Wald, *Watertight Ray/Triangle
+/// Intersection*, 2013).
 #[derive(Clone, Copy, Debug)]
 pub struct Shear {
     /// Rx / Rz, from −1 to 1.
@@ -25,17 +26,17 @@ pub struct Shear {
 }
 
 impl Shear {
-    /// The shear of a direction that is longest along `Z`; the axes that follow it are x and y.
+    /// The shear of a direction whose largest component is along `Z`; the next axes, cyclically, are x and y.
     #[inline(always)]
     pub fn along<const Z: usize>(direction: DVec3) -> Self {
-        let [x, y, z] = turned::<Z>(direction);
+        let [x, y, z] = permuted::<Z>(direction);
         Self { x: x / z, y: y / z, z: 1.0 / z }
     }
 }
 
-/// A vector's parts as x, y, z where `Z` is z.
+/// The components of a vector, cyclically permuted so that axis `Z` becomes z.
 #[inline(always)]
-fn turned<const Z: usize>(v: DVec3) -> [f64; 3] {
+fn permuted<const Z: usize>(v: DVec3) -> [f64; 3] {
     match Z {
         0 => [v.y, v.z, v.x],
         1 => [v.z, v.x, v.y],
@@ -43,7 +44,7 @@ fn turned<const Z: usize>(v: DVec3) -> [f64; 3] {
     }
 }
 
-/// The axis along which a direction is longest.
+/// The axis of a direction's largest component.
 #[inline(always)]
 pub fn longest_axis(direction: DVec3) -> usize {
     let DVec3 { x, y, z } = direction.abs();
@@ -51,30 +52,30 @@ pub fn longest_axis(direction: DVec3) -> usize {
 }
 // ANCHOR_END: shear
 
-/// A triangle as a ray sees it that looks along z from the origin.
+/// A triangle in the sheared space of a ray, which starts at the origin and goes along z.
 #[derive(Clone, Copy, Debug)]
 pub struct Edges {
-    /// Twice the areas, with their signs, that the ray's point cuts off opposite each corner.
+    /// The edge functions: twice the signed areas opposite each vertex.
     pub areas: [f64; 3],
-    /// The depth of each corner along the axis z, not yet divided by Rz.
+    /// The depth of each vertex along axis z, not yet divided by Rz.
     pub depths: [f64; 3],
-    /// What rounding can have done to each area.
+    /// A bound on the rounding error of each area.
     pub error: f64,
 }
 
 // ANCHOR: edges
 /// The three edge functions of a triangle in the sheared space of a ray, in f64.
 ///
-/// With ε = 2⁻⁵³ and s the size of the numbers, |O|₁ + |corner|₁: a corner's sheared x is off by 5εs, which is ε for
-/// O taken away, 3ε for the product, ε for the difference and some for the second order.
-/// An area takes two of those times its corners' sheared lengths, and the rounding of two products: 10εs(m + 5εs), where
-/// m is the sum of the six sheared lengths.
-/// Two triangles with two corners in common reckon with the same numbers there, so that no ray slips between.
+/// With ε = 2⁻⁵³ and s = |O|₁ + |vertex|₁, a vertex's sheared x is off by 5εs: ε for subtracting O, 3ε for the product,
+/// ε for the difference, and a little for second-order terms.
+/// An area multiplies two such coordinates twice and adds the rounding of the products, which is at most 10εs(m + 5εs),
+/// where m is the sum of the six sheared coordinates' magnitudes.
+/// Two triangles with a common edge compute it from the same numbers, so no ray passes between them.
 #[inline(always)]
 pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Edges {
     const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
     let seen = |corner: DVec3| {
-        let [x, y, z] = turned::<Z>(corner - origin);
+        let [x, y, z] = permuted::<Z>(corner - origin);
         (x - shear.x * z, y - shear.y * z, z)
     };
     let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = facet.corners.map(seen);
@@ -87,12 +88,12 @@ pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, r
 // ANCHOR_END: edges
 
 // ANCHOR: triangle_intersection
-/// Where O + tR meets a triangle.
+/// Intersects O + tR with a triangle, in f64.
 ///
-/// It does where the three areas have one sign, 0 counted with either; their sum is the whole area as the ray sees it, and
-/// t is the mean of the corners' depths by their shares.
-/// In doubt are areas that rounding could have given their sign, and a t that it could have moved by 2⁻²⁵ of itself or
-/// across 0.
+/// It is a hit if the three areas have the same sign, where 0 counts as either; t is the mean of the vertices' depths
+/// with the areas as weights.
+/// The result is uncertain if rounding could have changed the sign of an area, or t by more than 2⁻²⁵ relative to
+/// itself or across 0.
 #[inline(always)]
 pub fn intersection<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Intersection {
     let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, facet, ray_size);
@@ -105,13 +106,13 @@ pub fn intersection<const Z: usize>(origin: DVec3, shear: Shear, facet: &Triangl
     let sum_error = 2.0 * error * (az.abs() + bz.abs() + cz.abs());
     let unsure = (sum_error >= 0.25 * UNIT_ROUNDOFF * sum.abs()) | (4.0 * error >= 0.25 * UNIT_ROUNDOFF * whole.abs());
     let behind = (t <= 0.0) & (sum.abs() > sum_error);
-    // A ray that is none has no error that is a number.
+    // A ray that is not finite has an error that is not finite, and misses.
     let uncertain = !misses & !(inside & (behind | !unsure)) & (error < f64::INFINITY);
     Intersection { t: if inside & (t > 0.0) { t } else { f64::INFINITY }, uncertain }
 }
 // ANCHOR_END: triangle_intersection
 
-/// What f64 says of a ray and a triangle.
+/// Intersects a ray with a triangle, in f64.
 pub fn triangle_intersection(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Intersection {
     let size = origin.abs().element_sum();
     match longest_axis(direction) {
@@ -121,13 +122,13 @@ pub fn triangle_intersection(origin: DVec3, direction: DVec3, facet: &TriangleRo
     }
 }
 
-/// The t > 0 at which O + tR meets a triangle, or infinity; exact arithmetic judges where f64 alone would leave a doubt.
+/// The t > 0 at which O + tR hits a triangle, or infinity; uncertain cases are decided by exact arithmetic.
 pub fn triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
     let intersection = triangle_intersection(origin, direction, facet);
     if intersection.uncertain { exact_triangle_t(origin, direction, facet) } else { intersection.t }
 }
 
-/// Narrows hits by all triangles, for any column of rays.
+/// Intersects any column of rays with all triangles and keeps the closest hits.
 pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
     triangles: Res<Shared<TriangleTable>>,
     mut tiles: Query<(&R, &mut H)>,
@@ -138,17 +139,17 @@ pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
     }
 }
 
-/// Rays that are put in order together.
+/// The number of rays that are sorted together.
 const CHUNK: usize = 1024;
 
-/// Rays of a block that are asked together whether they meet a triangle: as many as fit a register.
+/// The number of rays of a block that are intersected together: as many as fit a SIMD register.
 const GROUP: usize = 4;
 
-/// A triangle at a time over all rays; where none of four comes near the sphere about it, no more is asked of them.
+/// Tests one triangle at a time against all rays; if none of four intersects the bounding sphere, they are skipped.
 ///
-/// Rays are taken in the order of the axes along which they are longest, so that sixteen together need one kind of shear.
+/// Rays are sorted by the axis of their largest component, so that each block of sixteen needs one kind of shear.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn triangle_rows(rays: RayBlockMut<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
+fn triangle_rows(rays: RaySlices<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
     let mut start = 0;
     while start < t.len() {
         let end = t.len().min(start + CHUNK);
@@ -160,7 +161,7 @@ fn triangle_rows(rays: RayBlockMut<'_>, triangles: &TriangleTable, t: &mut [f64]
     }
 }
 
-/// Rows in the order of the axes along which their rays are longest, and where each axis ends.
+/// Rows sorted by the axis of their rays' largest component, and the end of each axis's range.
 struct ByAxis {
     order: [u32; CHUNK],
     ends: [usize; 3],
@@ -168,7 +169,7 @@ struct ByAxis {
 
 impl ByAxis {
     #[inline(always)]
-    fn of(rays: RayBlockMut<'_>, start: usize, end: usize) -> Self {
+    fn of(rays: RaySlices<'_>, start: usize, end: usize) -> Self {
         let mut axes = [0_u8; CHUNK];
         let mut counts = [0_usize; 3];
         let [dx, dy, dz] = rays.direction;
@@ -187,10 +188,10 @@ impl ByAxis {
     }
 }
 
-/// Narrows the hits of some rows, whose rays are all longest along `Z`.
+/// Keeps the closest hits of the listed rows, whose rays all have their largest component along `Z`.
 #[inline(always)]
 fn rows_along<const Z: usize>(
-    rays: RayBlockMut<'_>,
+    rays: RaySlices<'_>,
     rows: &[u32],
     triangles: &TriangleTable,
     t: &mut [f64],
@@ -200,18 +201,18 @@ fn rows_along<const Z: usize>(
         let RayBlock { o, d, inverse } = RayBlock::of_rows(rays, rows);
         let (mut x, mut y, mut z, mut size) = ([0.0; LANES], [0.0; LANES], [1.0; LANES], [0.0; LANES]);
         let (mut own_t, mut own_shape) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
-        for (component, &row) in rows.iter().enumerate() {
-            let shear = Shear::along::<Z>(vector(&d, component));
-            (x[component], y[component], z[component]) = (shear.x, shear.y, shear.z);
-            size[component] = vector(&o, component).abs().element_sum();
-            (own_t[component], own_shape[component]) = (t[row as usize], shape[row as usize]);
+        for (lane, &row) in rows.iter().enumerate() {
+            let shear = Shear::along::<Z>(vector(&d, lane));
+            (x[lane], y[lane], z[lane]) = (shear.x, shear.y, shear.z);
+            size[lane] = vector(&o, lane).abs().element_sum();
+            (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
         for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
-            for (component, nearness_of_component) in nearest.iter_mut().enumerate() {
-                let f = facet.centre - vector(&o, component);
-                *nearness_of_component = nearness(f, vector(&d, component), inverse[component], facet.reach);
+            for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
+                let f = facet.centre - vector(&o, lane);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
             }
             let (near, _) = nearest.as_chunks::<GROUP>();
             let t = own_t[..rows.len()].chunks_mut(GROUP);
@@ -221,16 +222,16 @@ fn rows_along<const Z: usize>(
                 }
             }
         }
-        for (component, &row) in rows.iter().enumerate() {
-            (t[row as usize], shape[row as usize]) = (own_t[component], own_shape[component]);
+        for (lane, &row) in rows.iter().enumerate() {
+            (t[row as usize], shape[row as usize]) = (own_t[lane], own_shape[lane]);
         }
     }
 }
 
-/// The shears of a block of rays: x, y and z; and |O|₁.
+/// The shears x, y and z of a block of rays, and |O|₁.
 type Sheared = [[f64; LANES]; 4];
 
-/// Narrows the hits of one group of a block's rays, which are all longest along `Z`.
+/// Keeps the closest hits of one group of a block's rays, which all have their largest component along `Z`.
 #[inline(always)]
 fn keep_closest<const Z: usize>(
     o: &[[f64; LANES]; 3],
@@ -245,19 +246,19 @@ fn keep_closest<const Z: usize>(
     let of_group = |components: &[f64; LANES]| components.as_chunks::<GROUP>().0[group];
     let ([ox, oy, oz], [x, y, z, size]) = (o.each_ref().map(of_group), sheared.each_ref().map(of_group));
     let (mut found, mut uncertain) = ([f64::INFINITY; GROUP], [false; GROUP]);
-    for component in 0..GROUP {
-        let shear = Shear { x: x[component], y: y[component], z: z[component] };
-        let origin = DVec3::new(ox[component], oy[component], oz[component]);
-        let intersection = intersection::<Z>(origin, shear, facet, size[component]);
-        (found[component], uncertain[component]) = (intersection.t, intersection.uncertain);
+    for lane in 0..GROUP {
+        let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
+        let origin = DVec3::new(ox[lane], oy[lane], oz[lane]);
+        let intersection = intersection::<Z>(origin, shear, facet, size[lane]);
+        (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
-    for (component, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
-        if uncertain[component] {
-            let row = group * GROUP + component;
-            found[component] = exact_triangle_t(vector(o, row), vector(d, row), facet);
+    for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
+        if uncertain[lane] {
+            let row = group * GROUP + lane;
+            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), facet);
         }
-        if found[component] < *t || (found[component] == *t && number < *shape && found[component] < f64::INFINITY) {
-            (*t, *shape) = (found[component], number);
+        if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
+            (*t, *shape) = (found[lane], number);
         }
     }
 }
@@ -272,7 +273,7 @@ pub fn triangle_stage() -> Stage {
         .when(triangle_evidence)
 }
 
-/// Evidence that the scene holds a triangle.
+/// Evidence that the scene contains a triangle.
 pub fn triangle_evidence(scene: &World) -> Evidence {
     Evidence::of::<Triangle>(scene, "triangle")
 }
@@ -291,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn both_sides_are_met_and_only_before_the_ray() {
+    fn both_sides_are_hit_and_only_in_front_of_the_origin() {
         let t = |origin, direction| triangle_t(origin, direction, &half());
         let at = DVec3::new(-0.5, -0.25, 0.0);
         assert_eq!(t(at, DVec3::NEG_Z), 3.0);
@@ -299,11 +300,11 @@ mod tests {
         assert_eq!(t(at - DVec3::Z * 4.0, DVec3::Z), 1.0);
         assert_eq!(t(at, DVec3::Z), f64::INFINITY);
         assert_eq!(t(at, DVec3::X), f64::INFINITY);
-        assert_eq!(t(at - DVec3::Z * 3.0, DVec3::NEG_Z), f64::INFINITY, "a ray on it does not meet it");
+        assert_eq!(t(at - DVec3::Z * 3.0, DVec3::NEG_Z), f64::INFINITY, "a ray that starts on it does not hit it");
     }
 
     #[test]
-    fn edges_and_corners_belong_to_it_and_the_next_number_does_not() {
+    fn edges_and_vertices_belong_to_it_and_the_next_number_does_not() {
         let t = |x: f64, y: f64| triangle_t(DVec3::new(x, y, 0.0), DVec3::NEG_Z, &half());
         let beyond = 1.0 + f64::EPSILON;
         for (x, y) in [(0.0, 0.0), (0.25, -0.25), (-1.0, 0.0), (0.3, -1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)] {
@@ -315,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_in_its_plane_meets_nothing() {
+    fn a_ray_in_its_plane_misses() {
         let edge_on = facet([[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [0.0, 0.0, -5.0]]);
         for origin in [DVec3::ZERO, DVec3::X * 0.25] {
             assert_eq!(triangle_t(origin, DVec3::NEG_Z, &edge_on), f64::INFINITY);
@@ -324,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_of_corners_changes_no_bit() {
+    fn the_order_of_vertices_changes_no_bit() {
         let corners = [[0.1, 0.2, -3.3], [1.7, -0.4, -2.9], [-0.6, 1.3, -4.1]];
         let (origin, direction) = (DVec3::new(0.01, 0.02, 0.03), DVec3::new(0.1, 0.05, -1.0));
         let t = triangle_t(origin, direction, &facet(corners));
@@ -335,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_ray_meets_nothing() {
+    fn a_degenerate_ray_misses() {
         let (at, ahead) = (DVec3::new(-0.5, -0.25, 0.0), DVec3::NEG_Z);
         for bad in [DVec3::ZERO, DVec3::NAN, DVec3::new(0.0, 0.0, f64::NEG_INFINITY), DVec3::new(0.0, f64::NAN, -1.0)] {
             assert_eq!(triangle_t(at, bad, &half()), f64::INFINITY, "{bad}");

@@ -1,15 +1,15 @@
-//! Rays and triangles without any rounding, for the few that f64 leaves in doubt.
+//! Ray–triangle intersection in exact arithmetic, for the few cases that f64 leaves uncertain.
 
 use crate::extract::{ExactSum, ExactVector, TriangleRow, exact_cross, exact_difference, exact_dot};
 use glam::DVec3;
 
-/// A ray and a triangle, exactly.
+/// The edge functions of a ray and a triangle, exactly.
 struct ExactEdges {
-    /// R · (B − O) × (C − O) and so on: the areas that the ray's point cuts off opposite each corner.
+    /// R · (B − O) × (C − O) and its cyclic permutations: the scaled areas opposite each vertex.
     areas: [ExactSum; 3],
     /// Their sum, R · (B − A) × (C − A).
     whole: ExactSum,
-    /// The corners from the ray's origin.
+    /// The vertices relative to the ray's origin.
     corners: [ExactVector; 3],
 }
 
@@ -24,9 +24,9 @@ impl ExactEdges {
     }
 }
 
-/// The t > 0 at which O + tR meets a triangle, to within a few roundings, or infinity; whether it does is exact.
+/// The t > 0 at which O + tR hits a triangle, to within a few roundings, or infinity; hit or miss is exact.
 ///
-/// An edge and a corner belong to every triangle that has them; a ray in the triangle's plane meets nothing.
+/// An edge or a vertex belongs to every triangle that has it; a ray in the triangle's plane misses.
 #[cold]
 #[inline(never)]
 pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
@@ -42,11 +42,11 @@ pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) ->
     if volume.sign() * whole.sign() <= 0 { f64::INFINITY } else { volume.rounded() / whole.rounded() }
 }
 
-/// The corners' shares of the point where the line O + tR meets the triangle's plane, to within a few roundings, and the
-/// sign of R · (B − A) × (C − A), exactly.
+/// The barycentric coordinates of the point where the line O + tR intersects the triangle's plane, to within a few
+/// roundings, and R · (B − A) × (C − A), whose sign is exact.
 #[cold]
 #[inline(never)]
-pub fn exact_weights(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> ([f64; 3], f64) {
+pub fn exact_barycentrics(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> ([f64; 3], f64) {
     let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, facet);
     let along = whole.rounded();
     (areas.map(|area| area.rounded() / along), along)

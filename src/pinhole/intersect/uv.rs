@@ -1,32 +1,32 @@
-//! Where on its shape a point lies, in two coordinates: u to the right and v down, as seen from outside with +y up.
+//! Texture coordinates of shapes: u to the right and v down, as seen from outside with +y up.
 
 use crate::extract::{Slabs, face_axes};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// Of a point of a sphere, in the sphere's own space, at any distance from its centre.
+/// The uv of a point of a sphere, given in object space at any distance from the centre.
 ///
-/// u is the longitude over 2π, 0 and 1 at −z and ½ at +z, through −x and back through +x; v the angle from the top over π.
-/// At the poles every longitude would do, and u is 0.
+/// u is the longitude over 2π: 0 at −z, ¼ at −x, ½ at +z, ¾ at +x; v is the polar angle from +y over π.
+/// At the poles the longitude is undefined, and u is 0.
 #[inline(always)]
 pub fn sphere_uv(own: DVec3) -> [f64; 2] {
-    // 0 − x is never −0, so that no seam depends on the sign of a zero.
+    // 0 − x is never −0, so that the seam does not depend on the sign of a zero.
     let longitude = libm::atan2(0.0 - own.x, 0.0 - own.z) / TAU;
     let across = libm::sqrt(own.x * own.x + own.z * own.z);
     let from_top = libm::atan2(across, own.y) * FRAC_1_PI;
     [if longitude < 0.0 { longitude + 1.0 } else { longitude }, if from_top < 1.0 { from_top } else { 1.0 }]
 }
 
-/// Of a point of a disk or a rectangle by its two coordinates: 0 to 1 from edge to edge, each way.
+/// The uv of a point of a disk or a rectangle from its two coordinates: 0 to 1 from edge to edge along each.
 ///
-/// A disk keeps the square about it, for a radius and an angle would have a seam and a point without an angle, and squares
-/// of a checkerboard would not stay square.
+/// A disk uses the uv of its bounding square: polar coordinates would have a seam and a singularity, and the squares of
+/// a checkerboard would not remain square.
 #[inline(always)]
 pub fn planar_uv(at: [f64; 2]) -> [f64; 2] {
-    at.map(|part| within_unit(0.5 + 0.5 * part))
+    at.map(|coordinate| within_unit(0.5 + 0.5 * coordinate))
 }
 
-/// Of a point on a face of a cuboid: 0 to 1 from edge to edge, each way.
+/// The uv of a point on a face of a cuboid: 0 to 1 from edge to edge along each axis.
 #[inline(always)]
 pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
     let at = |axis: usize| slabs.normal[axis].dot(from_centre) / slabs.half[axis];
@@ -34,13 +34,13 @@ pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
     face_axes(axis, own[axis] < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(own)))
 }
 
-/// What rounding took past an edge comes back to it; not a number becomes 0.
+/// Clamps to [0, 1]; NaN becomes 0.
 #[inline(always)]
-fn within_unit(part: f64) -> f64 {
-    if part > 1.0 {
+fn within_unit(coordinate: f64) -> f64 {
+    if coordinate > 1.0 {
         1.0
-    } else if part > 0.0 {
-        part
+    } else if coordinate > 0.0 {
+        coordinate
     } else {
         0.0
     }
@@ -51,8 +51,8 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    fn close(told: [f64; 2], expected: [f64; 2]) -> bool {
-        (told[0] - expected[0]).abs() < 1e-14 && (told[1] - expected[1]).abs() < 1e-14
+    fn close(found: [f64; 2], expected: [f64; 2]) -> bool {
+        (found[0] - expected[0]).abs() < 1e-14 && (found[1] - expected[1]).abs() < 1e-14
     }
 
     #[test]
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn longitude_and_latitude_come_back_up_to_poles_and_seam() {
+    fn longitude_and_latitude_survive_a_round_trip_up_to_poles_and_seam() {
         let mut tried = 0;
         for step in 0..200 {
             for row in 0..=100 {
@@ -83,20 +83,20 @@ mod tests {
                 let own =
                     DVec3::new(-libm::sin(longitude) * across, libm::cos(from_top), -libm::cos(longitude) * across)
                         * 1e-8;
-                let [told_u, told_v] = sphere_uv(own);
-                let off = (told_u - u).abs();
-                assert!((told_v - v).abs() < 1e-14, "{u} {v}: {told_v}");
-                assert!(row == 0 || row == 100 || off.min(1.0 - off) < 1e-13, "{u} {v}: {told_u}");
-                assert!((0.0..=1.0).contains(&told_u) && (0.0..=1.0).contains(&told_v));
+                let [found_u, found_v] = sphere_uv(own);
+                let off = (found_u - u).abs();
+                assert!((found_v - v).abs() < 1e-14, "{u} {v}: {found_v}");
+                assert!(row == 0 || row == 100 || off.min(1.0 - off) < 1e-13, "{u} {v}: {found_u}");
+                assert!((0.0..=1.0).contains(&found_u) && (0.0..=1.0).contains(&found_v));
                 tried += 1;
             }
         }
         for tiny in [f64::MIN_POSITIVE, 1e-300, 1e-17] {
             for own in [DVec3::new(tiny, 1.0, -1.0), DVec3::new(-tiny, -1.0, tiny), DVec3::new(tiny, 0.0, -tiny)] {
-                assert!(sphere_uv(own).iter().all(|part| (0.0..=1.0).contains(part)), "{own}");
+                assert!(sphere_uv(own).iter().all(|coordinate| (0.0..=1.0).contains(coordinate)), "{own}");
             }
         }
-        eprintln!("sphere uv: {tried} points come back");
+        eprintln!("sphere uv: {tried} points survive the round trip");
     }
 
     #[test]

@@ -7,27 +7,27 @@ use glam::{DVec2, DVec3};
 use multiversion::multiversion;
 
 column! {
-    /// Rays of a camera that stands at the origin and looks down −z; directions are unit vectors.
+    /// Camera rays in camera space, where the camera is at the origin and looks down −z; directions are unit vectors.
     pub struct CameraRays("camera", "camera", "scene units", Ray) {
-        /// Origin, to the right.
+        /// Origin, x: to the right.
         ox: f64,
-        /// Origin, upward.
+        /// Origin, y: upward.
         oy: f64,
-        /// Origin, backward.
+        /// Origin, z: backward.
         oz: f64,
-        /// Direction, to the right.
+        /// Direction, x: to the right.
         dx: f64,
-        /// Direction, upward.
+        /// Direction, y: upward.
         dy: f64,
-        /// Direction, backward.
+        /// Direction, z: backward.
         dz: f64,
     }
 }
 
 impl CameraRays {
-    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|part| (0.5 + 0.5 * part) as f32)
+        [self.dx[row], self.dy[row], self.dz[row]].map(|component| (0.5 + 0.5 * component) as f32)
     }
 }
 
@@ -41,7 +41,7 @@ pub fn camera_ray_perspective(screen: DVec2, tan_half_vertical: f64) -> DVec3 {
 // ANCHOR_END: camera_ray_perspective
 
 // ANCHOR: camera_ray_orthographic
-/// The origin of the ray that starts at a screen point of the view rectangle; its direction is −z.
+/// The origin, in camera space, of the ray through a screen point of an orthographic camera; its direction is −z.
 #[inline(always)]
 pub fn camera_ray_orthographic(screen: DVec2, half_height: f64) -> DVec3 {
     DVec3::new(screen.x * half_height, screen.y * half_height, 0.0)
@@ -49,9 +49,12 @@ pub fn camera_ray_orthographic(screen: DVec2, half_height: f64) -> DVec3 {
 // ANCHOR_END: camera_ray_orthographic
 
 /// Fills a tile's camera rays for a perspective camera; their origins stay 0.
-pub fn fill_perspective(lens: Res<Shared<PerspectiveProjection>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+pub fn fill_perspective(
+    projection: Res<Shared<PerspectiveProjection>>,
+    mut tiles: Query<(&ScreenPoints, &mut CameraRays)>,
+) {
     for (screen, mut rays) in &mut tiles {
-        perspective_rows(screen, lens.tan_half_vertical, &mut rays);
+        perspective_rows(screen, projection.tan_half_vertical, &mut rays);
     }
 }
 
@@ -67,19 +70,19 @@ fn perspective_rows(screen: &ScreenPoints, tan_half_vertical: f64, rays: &mut Ca
 }
 
 /// Fills a tile's camera rays for an orthographic camera; their directions are all −z.
-pub fn fill_orthographic(view: Res<Shared<OrthographicWindow>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
+pub fn fill_orthographic(window: Res<Shared<OrthographicWindow>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
         let rows = screen.rows();
         let (x, y) = screen.slices();
         let (ox, oy, _, _, _, dz) = rays.slices_mut(rows);
         for row in 0..rows {
-            let origin = camera_ray_orthographic(DVec2::new(x[row], y[row]), view.half_height);
+            let origin = camera_ray_orthographic(DVec2::new(x[row], y[row]), window.half_height);
             (ox[row], oy[row], dz[row]) = (origin.x, origin.y, -1.0);
         }
     }
 }
 
-/// The stage on offer for perspective cameras.
+/// The stage for perspective cameras without a lens.
 pub fn perspective_stage() -> Stage {
     Stage::new("Generate camera rays: perspective", TileSystems::Camera, fill_perspective)
         .kind(StageKind::Alternative)
@@ -92,7 +95,7 @@ pub fn perspective_stage() -> Stage {
         })
 }
 
-/// The stage on offer for orthographic cameras.
+/// The stage for orthographic cameras.
 pub fn orthographic_stage() -> Stage {
     Stage::new("Generate camera rays: orthographic", TileSystems::Camera, fill_orthographic)
         .kind(StageKind::Alternative)
@@ -112,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_right_angle_the_edge_looks_up_as_much_as_ahead() {
+    fn with_a_field_of_view_of_90_degrees_the_edge_is_at_45_degrees() {
         let direction = camera_ray_perspective(DVec2::Y, crate::extract::tan_half(crate::scene::Degrees(90.0)));
         assert!((direction.y + direction.z).abs() < 1e-15 && (direction.length() - 1.0).abs() < 1e-15);
     }

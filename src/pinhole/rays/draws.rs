@@ -3,19 +3,19 @@ use crate::extract::SamplingTable;
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
 
-/// What a tile's random numbers are made from on the leg at hand.
+/// Everything that determines a tile's random numbers at the current bounce.
 pub struct Draws<'a> {
-    /// Seed and sampler.
+    /// The seed and the sampler.
     pub sampling: &'a SamplingTable,
-    /// Where the tile lies.
+    /// The tile's rectangle in the image.
     pub tile: &'a Tile,
-    /// Which sample of each pixel runs; none for the first.
+    /// The index of the current sample of each pixel; `None` means 0.
     pub number: Option<&'a SampleNumber>,
-    /// The pixels of the first leg's rows; none where row and pixel are the same.
+    /// The pixels of the camera rays' rows; `None` if row and pixel coincide.
     pub samples: Option<&'a PixelSamples>,
-    /// The ways of the rows; none on a first leg that nothing follows.
+    /// The paths of the rows; `None` if the scene has no bounces.
     pub paths: Option<&'a Paths>,
-    /// The leg.
+    /// The current depth.
     pub depth: Depth,
 }
 
@@ -31,7 +31,7 @@ impl Draws<'_> {
     }
 }
 
-/// Draws a point of the unit square for each of these rows.
+/// Draws a uniform point in [0, 1)² for each of these rows.
 pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<[f64; 2]>) {
     fn fill<D: Draw>(draw: D, keys: impl Iterator<Item = PixelKey>, into: &mut Vec<[f64; 2]>) {
         into.extend(keys.map(|key| draw.two(key).map(unit)));
@@ -45,7 +45,7 @@ pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
     }
 }
 
-/// Draws a number from 0 to below 1 for each of these rows.
+/// Draws a uniform number in [0, 1) for each of these rows.
 pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut Vec<f64>) {
     fn fill<D: Draw>(draw: D, keys: impl Iterator<Item = PixelKey>, into: &mut Vec<f64>) {
         into.extend(keys.map(|key| unit(draw.one(key))));

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 // ANCHOR: camera_ray_equirectangular
-/// The direction at a screen point of an image of all directions: x is the longitude, y the latitude.
+/// The direction of a screen point of an equirectangular image: x is the longitude, y the latitude.
 ///
-/// A point beyond the upper or the lower edge, as wide filters place some, lies beyond the pole.
+/// A point beyond the upper or the lower edge, where wide filters place some, lies beyond the pole.
 #[inline(always)]
 pub fn camera_ray_equirectangular(screen: DVec2, aspect: f64) -> DVec3 {
     let (sine, cosine) = libm::sincos(screen.x / aspect * PI);
@@ -18,14 +18,14 @@ pub fn camera_ray_equirectangular(screen: DVec2, aspect: f64) -> DVec3 {
 }
 // ANCHOR_END: camera_ray_equirectangular
 
-/// The screen point at which an image of all directions shows one: what `camera_ray_equirectangular` undoes.
+/// The screen point at which an equirectangular image shows a direction: the inverse of `camera_ray_equirectangular`.
 pub fn screen_from_equirectangular(direction: DVec3, aspect: f64) -> DVec2 {
     let longitude = libm::atan2(direction.x, -direction.z);
     let latitude = libm::atan2(direction.y, libm::hypot(direction.x, direction.z));
     DVec2::new(longitude / PI * aspect, latitude / (PI / 2.0))
 }
 
-/// Fills a tile's camera rays for a camera of all directions; their origins stay 0.
+/// Fills a tile's camera rays for an equirectangular camera; their origins stay 0.
 pub fn fill_equirectangular(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
         let (x, y) = screen.slices();
@@ -37,7 +37,7 @@ pub fn fill_equirectangular(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&S
     }
 }
 
-/// The stage on offer for cameras of all directions.
+/// The stage for equirectangular cameras.
 pub fn equirectangular_stage() -> Stage {
     Stage::new("Generate camera rays: equirectangular", TileSystems::Camera, fill_equirectangular)
         .kind(StageKind::Alternative)

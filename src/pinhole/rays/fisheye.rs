@@ -5,9 +5,10 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
 // ANCHOR: camera_ray_fisheye
-/// The direction at a screen point of a fisheye: as far from the axis, as an angle, as the point is from the centre.
+/// The direction of a screen point of an equidistant fisheye: its angle from the axis is proportional to the point's
+/// distance from the centre.
 ///
-/// Beyond the circle's edge it is that of the edge; what comes back from there is not shown.
+/// Beyond the edge of the image circle it is the direction of the edge; those pixels are masked later.
 #[inline(always)]
 pub fn camera_ray_fisheye(screen: DVec2, circle: &ImageCircle) -> DVec3 {
     let distance = screen.length();
@@ -20,12 +21,12 @@ pub fn camera_ray_fisheye(screen: DVec2, circle: &ImageCircle) -> DVec3 {
 }
 // ANCHOR_END: camera_ray_fisheye
 
-/// The screen point at which a fisheye shows a direction: what `camera_ray_fisheye` undoes.
+/// The screen point at which a fisheye shows a direction: the inverse of `camera_ray_fisheye`.
 pub fn screen_from_fisheye(direction: DVec3, circle: &ImageCircle) -> DVec2 {
     let across = libm::hypot(direction.x, direction.y);
     let angle = libm::atan2(across, -direction.z);
-    let way = if across > 0.0 { DVec2::new(direction.x, direction.y) / across } else { DVec2::X };
-    way * (angle / circle.half_angle * circle.radius)
+    let radial = if across > 0.0 { DVec2::new(direction.x, direction.y) / across } else { DVec2::X };
+    radial * (angle / circle.half_angle * circle.radius)
 }
 
 /// Fills a tile's camera rays for a fisheye; their origins stay 0.
@@ -40,7 +41,7 @@ pub fn fill_fisheye(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenP
     }
 }
 
-/// The stage on offer for fisheye cameras.
+/// The stage for fisheye cameras.
 pub fn fisheye_stage() -> Stage {
     Stage::new("Generate camera rays: fisheye", TileSystems::Camera, fill_fisheye)
         .kind(StageKind::Alternative)

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 column! {
-    /// Where on the lens each ray starts: from the eye, across the direction in which the camera looks.
+    /// The point of the lens at which each ray starts, relative to the lens's centre, in the plane of the lens.
     pub struct LensPoints("lens", "camera", "scene units", Pixel) {
         /// To the right.
         x: f64,
@@ -18,19 +18,20 @@ column! {
 }
 
 impl LensPoints {
-    /// The direction from the lens's centre: right as red, up as green.
+    /// Paints the direction from the lens's centre: right as red, up as green.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let length = libm::hypot(self.x[row], self.y[row]);
-        let part = |part: f64| if length > 0.0 { (0.5 + 0.5 * part / length) as f32 } else { 0.5 };
-        [part(self.x[row]), part(self.y[row]), 0.5]
+        let channel = |offset: f64| if length > 0.0 { (0.5 + 0.5 * offset / length) as f32 } else { 0.5 };
+        [channel(self.x[row]), channel(self.y[row]), 0.5]
     }
 }
 
 // ANCHOR: disk_point
-/// A point of the unit square on the disk of radius 1, equal areas to equal areas, neighbours to neighbours (Shirley and
+/// Maps a point of the unit square to the unit disk, preserving area and adjacency: the concentric mapping (Shirley and
 /// Chiu 1997).
 ///
-/// Squares about the centre become circles: how far out decides the radius, how far along the square's side the angle.
+/// Concentric squares become circles: the distance from the centre determines the radius, the position along the
+/// square's side the angle.
 #[inline(always)]
 pub fn disk_point(u: DVec2) -> DVec2 {
     let at = DVec2::new(2.0 * u.x - 1.0, 2.0 * u.y - 1.0);
@@ -45,10 +46,10 @@ pub fn disk_point(u: DVec2) -> DVec2 {
 // ANCHOR_END: disk_point
 
 // ANCHOR: polygon_point
-/// A point of the unit square on a regular polygon about the origin, equal areas to equal areas.
+/// Maps a point of the unit square to a regular polygon about the origin, preserving area.
 ///
-/// The square is cut into as many strips as there are edges, and each strip becomes the triangle from the centre to its
-/// edge: the area within a distance grows with its square, so the root is taken.
+/// The square is cut into as many strips as there are edges, and each strip becomes the triangle between the centre and
+/// its edge; the area within a given distance grows with its square, hence the square root.
 #[inline(always)]
 pub fn polygon_point(u: DVec2, corners: &[DVec2]) -> DVec2 {
     let edges = corners.len() - 1;
@@ -59,18 +60,18 @@ pub fn polygon_point(u: DVec2, corners: &[DVec2]) -> DVec2 {
 }
 // ANCHOR_END: polygon_point
 
-/// A point of the unit square on the lens, equal areas to equal areas, in scene units.
+/// Maps a point of the unit square to the lens, preserving area; in scene units.
 #[inline(always)]
 pub fn lens_point(u: DVec2, lens: &LensTable) -> DVec2 {
     lens.radius * if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) }
 }
 
 // ANCHOR: camera_ray_lens
-/// The direction from a point of the lens to where the pinhole's ray through the same screen point meets the plane in
-/// focus.
+/// The direction from a point of the lens to where the pinhole's ray through the same screen point intersects the plane
+/// of focus.
 ///
-/// The pinhole's ray is at (x, y, −1) f where it is in focus, and from there the lens point is taken; all is divided by
-/// f, which no direction minds.
+/// The pinhole's ray reaches the plane of focus at (x, y, −1) f, from which the lens point is subtracted; the result is
+/// divided by f before it is normalised, which does not change its direction.
 #[inline(always)]
 pub fn camera_ray_lens(screen: DVec2, tan_half_vertical: f64, lens: DVec2, focus_distance: f64) -> DVec3 {
     let point = DVec3::new(
@@ -99,7 +100,7 @@ pub fn draw_lens_points(
 }
 
 // ANCHOR: fill_lens_rays
-/// Fills a tile's camera rays for a camera with a lens: each starts on it.
+/// Fills a tile's camera rays for a thin lens; each starts on the lens.
 pub fn fill_lens_rays(
     pinhole: Res<Shared<PerspectiveProjection>>,
     lens: Res<Shared<LensTable>>,
@@ -119,7 +120,7 @@ pub fn fill_lens_rays(
 }
 // ANCHOR_END: fill_lens_rays
 
-/// The stage that draws points.
+/// The stage that samples points of the lens.
 pub fn lens_point_stage() -> Stage {
     Stage::new("Sample the lens", TileSystems::Lens, draw_lens_points)
         .kind(StageKind::Alternative)
@@ -131,7 +132,7 @@ pub fn lens_point_stage() -> Stage {
         .when(lens_evidence)
 }
 
-/// The stage on offer for perspective cameras with a lens.
+/// The stage for perspective cameras with a thin lens.
 pub fn lens_stage() -> Stage {
     Stage::new("Generate camera rays: thin lens", TileSystems::Camera, fill_lens_rays)
         .kind(StageKind::Alternative)

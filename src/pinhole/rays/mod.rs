@@ -1,8 +1,8 @@
-//! Raster → NDC → screen → camera → world: a ray for every pixel, one file a space.
+//! Raster → NDC → screen → camera → world: a ray for every sample, with one file per space.
 //!
-//! Reads: the tile's rectangle, the image's shape, the camera's pinhole, lens and axes.
+//! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
-//! Each file holds the pure function of one row and the system that fills the column with it.
+//! Each file holds a pure function for one row, and the system that fills a column with it.
 
 mod camera;
 mod depth;
@@ -48,7 +48,7 @@ pub use world::{WorldRays, fill_world, world_stage};
 
 use crate::plan::Stage;
 
-/// All of ray generation as one closed box, for chapters that have not opened it yet.
+/// All stages of ray generation, for chapters in which they are a closed box.
 pub fn stages() -> Vec<Stage> {
     let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
     stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);

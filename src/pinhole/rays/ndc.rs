@@ -7,7 +7,7 @@ use glam::DVec2;
 use multiversion::multiversion;
 
 column! {
-    /// Points of the image in normalised device coordinates: (0, 0) the top left corner, (1, 1) the bottom right.
+    /// Points of the image in normalised device coordinates: (0, 0) is the top left corner, (1, 1) the bottom right.
     pub struct NdcPoints("ndc", "NDC", "image size", Pixel) {
         /// To the right.
         x: f64,
@@ -17,14 +17,14 @@ column! {
 }
 
 impl NdcPoints {
-    /// Red grows to the right, green downward.
+    /// Paints x as red, which grows to the right, and y as green, which grows downward.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.x[row] as f32, self.y[row] as f32, 0.0]
     }
 }
 
 // ANCHOR: ndc_from_raster
-/// A raster point, freed of the image's size in pixels.
+/// Transforms a raster point to NDC by dividing by the image's size in pixels.
 #[inline(always)]
 pub fn ndc_from_raster(raster: DVec2, size: DVec2) -> DVec2 {
     raster / size
@@ -49,7 +49,7 @@ fn ndc_rows(raster: &RasterPoints, size: DVec2, ndc: &mut NdcPoints) {
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn ndc_stage() -> Stage {
     Stage::new("Compute NDC points", TileSystems::Ndc, fill_ndc)
         .reads::<RasterPoints>()

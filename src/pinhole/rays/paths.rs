@@ -1,36 +1,37 @@
 use crate::plan::column;
 
 column! {
-    /// The way of light that each ray goes on with.
-    pub struct Paths("path", "light", "share, 1/sr", Path) {
-        /// The tile's row on the first leg.
+    /// The path that each ray belongs to: its pixel, its throughput, and the pdf of its last direction.
+    pub struct Paths("path", "light", "throughput, 1/sr", Path) {
+        /// The row of the path's camera ray.
         first: u32,
-        /// The share of what this ray brings back that reaches the film, red.
+        /// Throughput, red: the factor by which radiance along this ray contributes to the film.
         r: f64,
-        /// Green.
+        /// Throughput, green.
         g: f64,
-        /// Blue.
+        /// Throughput, blue.
         b: f64,
-        /// How densely chance sends rays this way, over solid angle; infinite where no chance was in it.
+        /// The pdf, per solid angle, with which BSDF sampling chose this direction; infinite for camera rays and after
+        /// specular bounces (a delta distribution).
         pdf: f64,
     }
 }
 
 impl Paths {
-    /// The share that reaches the film.
+    /// Paints the throughput.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        self.share(row).map(|part| part as f32)
+        self.throughput(row).map(|component| component as f32)
     }
 
-    /// The share of a row that reaches the film.
+    /// The throughput of a row, as red, green and blue.
     #[inline(always)]
-    pub fn share(&self, row: usize) -> [f64; 3] {
+    pub fn throughput(&self, row: usize) -> [f64; 3] {
         [self.r[row], self.g[row], self.b[row]]
     }
 }
 
 column! {
-    /// The light that each way has brought to the film so far.
+    /// The radiance that each path has contributed to the film so far.
     pub struct PathLight("path light", "light", "linear Rec. 709", Path) {
         /// Red.
         r: f64,
@@ -42,8 +43,8 @@ column! {
 }
 
 impl PathLight {
-    /// The numbers themselves.
+    /// Paints the radiance.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
+        [self.r[row], self.g[row], self.b[row]].map(|component| component as f32)
     }
 }

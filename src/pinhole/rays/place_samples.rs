@@ -9,42 +9,42 @@ use bevy_ecs::prelude::*;
 use multiversion::multiversion;
 
 column! {
-    /// Which sample of which pixel each row is; exists where a camera takes several.
+    /// Which sample of which pixel each row is; exists if the camera has a [`Sampling`].
     pub struct PixelSamples("samples", "film", "rows and counts", Pixel) {
         /// The row of the tile's film.
         pixel: u32,
-        /// The sample's number within its pixel.
+        /// The sample's index within its pixel.
         sample: u32,
     }
 }
 
 impl PixelSamples {
-    /// Grey, by the sample's number.
+    /// Paints the sample's index as grey.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.sample[row] as f32 / (1.0 + self.sample[row] as f32); 3]
     }
 }
 
 column! {
-    /// What each row's sample counts for; exists where the filter is negative in places.
+    /// The sign of each sample's filter weight; exists if the filter has negative lobes.
     pub struct SampleSigns("sign", "film", "1 or −1", Pixel) {
-        /// 1, or −1 where the filter is negative.
+        /// 1, or −1 on a negative lobe.
         sign: f32,
     }
 }
 
 impl SampleSigns {
-    /// White for 1, red for −1.
+    /// Paints 1 white and −1 red.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         if self.sign[row] < 0.0 { [1.0, 0.0, 0.0] } else { [1.0; 3] }
     }
 }
 
-/// On a tile's entity: which sample of each pixel runs next.
+/// On a tile's entity: the index of the sample that each pixel takes next.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleNumber(pub u32);
 
-/// On a tile's entity: the rows of its film that take part in the next run, ascending.
+/// On a tile's entity: the rows of its film that take the next sample, in ascending order.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 pub struct ActivePixels(pub Vec<u32>);
 
@@ -88,7 +88,7 @@ pub fn place_samples(
 }
 // ANCHOR_END: place_samples
 
-/// Draws a point of the unit square for each active pixel of a tile.
+/// Draws a uniform point in [0, 1)² for each active pixel of a tile.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs: &mut [f64], ys: &mut [f64]) {
     for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
@@ -97,16 +97,16 @@ fn draw_points<D: Draw>(draw: D, (active, tile, seed): (&[u32], &Tile, u64), xs:
     }
 }
 
-/// What samples at these points of the unit square count for: the product of the filter's signs across and down.
+/// The sign of the filter at these points of the unit square: the product of its signs in x and in y.
 fn fill_signs(cells: &FilterCells, xs: &[f64], ys: &[f64], signs: &mut [f32]) {
     for (sign, (&x, &y)) in signs.iter_mut().zip(xs.iter().zip(ys)) {
         *sign = if table_offset(x, cells).1 == table_offset(y, cells).1 { 1.0 } else { -1.0 };
     }
 }
 
-/// Turns points of the unit square into raster points about the centres of their pixels.
+/// Maps points of the unit square to raster points about the centres of their pixels, distributed as the filter.
 ///
-/// The sum is taken in f64, where beside a pixel's number up to 2²⁸ no bit of a 24-bit number is lost.
+/// The sum is taken in f64, where no bit of a 24-bit fraction is lost beside a pixel index below 2²⁸.
 #[inline(always)]
 fn spread(offset: impl Fn(f64) -> f64, active: &[u32], tile: &Tile, xs: &mut [f64], ys: &mut [f64]) {
     for (&row, (x, y)) in active.iter().zip(xs.iter_mut().zip(ys)) {
@@ -116,7 +116,7 @@ fn spread(offset: impl Fn(f64) -> f64, active: &[u32], tile: &Tile, xs: &mut [f6
     }
 }
 
-/// The stage on offer: the alternative to raster points in the middle of their pixels.
+/// The stage that places samples, the alternative to raster points at the centres of pixels.
 pub fn place_samples_stage() -> Stage {
     Stage::new("Place samples", TileSystems::Raster, place_samples)
         .kind(StageKind::Alternative)
@@ -128,12 +128,12 @@ pub fn place_samples_stage() -> Stage {
         .when(sampling_evidence)
 }
 
-/// Evidence that the camera takes several samples a pixel, or one at random.
+/// Evidence that the camera places its samples at random.
 pub fn sampling_evidence(scene: &World) -> Evidence {
     Evidence::of::<Sampling>(scene, "sampling camera")
 }
 
-/// Evidence that samples of the camera's filter count negatively in places.
+/// Evidence that the camera's filter has negative lobes.
 pub fn signed_evidence(scene: &World) -> Evidence {
     let signed = |camera: EntityRef<'_>| camera.get::<Sampling>().is_some_and(|own| own.filter.is_signed());
     Evidence::among::<With<Sampling>>(scene, "camera whose filter is negative in places", signed)

@@ -1,23 +1,23 @@
 use crate::extract::CameraJoinTable;
 use glam::{DVec2, DVec3};
 
-/// A point in front of the camera, joined to it.
+/// A connection between a point in front of the camera and the camera (PBRT's `CameraWiSample`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraJoin {
-    /// From the point to where the camera's ray through it starts.
+    /// From the point to the origin of the camera ray through it, in world space.
     pub to_camera: DVec3,
-    /// Where in the image that ray goes through, in pixels; y down.
+    /// The raster point of that ray, in pixels, y down.
     pub raster: DVec2,
-    /// What a pixel makes of a unit of light that the point sends to the camera per steradian, and per unit of its area
-    /// as seen from there: a measure of how dense the camera's rays are at the point.
+    /// The importance We with its geometric term: the contribution to a pixel per unit of radiance and of projected
+    /// area at the point, which is the density of the camera's rays there.
     pub importance: f64,
 }
 
 // ANCHOR: raster_from_camera
-/// The raster point of a point in camera space: every step from raster to camera turned round.
+/// The raster point of a point in camera space: the inverse of all the steps from raster to camera.
 ///
-/// `half_height` is that of the image plane at distance 1, and the point divided by its distance along the axis; or that
-/// of the view's rectangle, and the point itself.
+/// For a perspective camera, `half_height` is that of the image plane at distance 1, and the point has been divided by
+/// its depth; for an orthographic camera, it is that of the window, and the point is taken as it is.
 #[inline(always)]
 pub fn raster_from_camera(camera: DVec2, half_height: f64, size: DVec2) -> DVec2 {
     let screen = camera / half_height;
@@ -27,17 +27,18 @@ pub fn raster_from_camera(camera: DVec2, half_height: f64, size: DVec2) -> DVec2
 // ANCHOR_END: raster_from_camera
 
 // ANCHOR: join_camera
-/// Joins a point of render space to a point of the camera's lens; none where it lies behind it, or where no pixel sees it.
+/// Connects a point of render space to a point of the camera's lens; `None` if it is behind the camera or outside the
+/// image.
 ///
-/// A pixel is the mean over its area A on the plane at distance 1 of what comes along the rays through it.
-/// A small surface at the point, s wide across the ray, fills s / d² sr, which is s / (d² cos³ θ) of that plane (θ the
-/// angle off the camera's axis): so the pixel gets 1 / (A d² cos³ θ) of each unit that is sent to it.
-/// With a depth of z = d cos θ that is d / (A z³).
-/// Parallel rays are as dense everywhere: 1 / A.
+/// A pixel is the mean radiance over its area A on the image plane at distance 1.
+/// A small surface of projected area s at distance d subtends s / d² sr, which is s / (d² cos³ θ) of that plane, where
+/// θ is the angle to the camera's axis; the importance is therefore 1 / (A d² cos³ θ), or d / (A z³) with a depth of
+/// z = d cos θ.
+/// Parallel rays are equally dense everywhere: their importance is 1 / A.
 ///
-/// A pinhole is a lens of one point, (0, 0).
-/// From another point all pixels look elsewhere, as dense and as far from one another: they are moved on the plane at
-/// distance 1, so that at the focus distance they come to lie where the pinhole has them.
+/// A pinhole is a lens that consists of the single point (0, 0).
+/// From another point of the lens all pixels are shifted by the same offset on the plane at distance 1, such that on
+/// the plane of focus they coincide with those of the pinhole.
 #[inline(always)]
 pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<CameraJoin> {
     let camera = join.camera_from_world * point;
@@ -45,15 +46,15 @@ pub fn join_camera(join: &CameraJoinTable, lens: DVec2, point: DVec3) -> Option<
     if depth <= 0.0 {
         return None;
     }
-    let (along, to_camera, importance) = if join.is_perspective {
+    let (projected, to_camera, importance) = if join.is_perspective {
         let to_lens = join.camera_from_world.transpose() * lens.extend(0.0) - point;
-        let thinned = to_lens.length() / (depth * depth * depth);
-        let along = (camera.truncate() - lens) / depth + lens / join.focus_distance;
-        (along, to_lens, thinned / join.pixel_area())
+        let falloff = to_lens.length() / (depth * depth * depth);
+        let projected = (camera.truncate() - lens) / depth + lens / join.focus_distance;
+        (projected, to_lens, falloff / join.pixel_area())
     } else {
         (camera.truncate(), join.camera_from_world.row(2) * depth, 1.0 / join.pixel_area())
     };
-    let raster = raster_from_camera(along, join.half_height, join.size);
+    let raster = raster_from_camera(projected, join.half_height, join.size);
     let (least, most) = (DVec2::splat(-join.margin), join.size + join.margin);
     let seen = raster.cmpge(least).all() && raster.cmple(most).all();
     seen.then_some(CameraJoin { to_camera, raster, importance })
@@ -69,7 +70,7 @@ mod tests {
     };
     use glam::DMat3;
 
-    /// A camera: a rectangle, a pinhole, or a lens and a point of it.
+    /// A camera: orthographic, a pinhole, or a lens and a point of it.
     fn join(draws: &mut Draws, which: u64) -> (CameraJoinTable, DVec2) {
         let back = draws.unit_vector().normalize();
         let right = draws.unit_vector_across(back).normalize();
@@ -90,7 +91,7 @@ mod tests {
         (join, lens)
     }
 
-    /// Where the camera's ray through a raster point starts, and where it goes, in camera space.
+    /// The origin and direction of the camera ray through a raster point, in camera space.
     fn ray(join: &CameraJoinTable, lens: DVec2, raster: DVec2) -> (DVec3, DVec3) {
         let screen = screen_from_ndc(ndc_from_raster(raster, join.size), join.size.x / join.size.y);
         match join.is_perspective {
@@ -100,9 +101,9 @@ mod tests {
         }
     }
 
-    /// A point on the ray through a raster point is joined to that raster point.
+    /// A point on the ray through a raster point is connected to that raster point.
     #[test]
-    fn joins_lead_back_along_the_camera_s_own_rays() {
+    fn connections_retrace_camera_rays() {
         let mut worst = 0.0_f64;
         for index in 0..30_000 {
             let mut draws = Draws::new(2701, index);
@@ -113,25 +114,25 @@ mod tests {
             let world_from_camera = join.camera_from_world.transpose();
             let point = world_from_camera * (origin + direction * length);
             let found = join_camera(&join, lens, point).expect("in front");
-            // What is near a lens is seen far off to its side; a digit of the way there is one of the place.
+            // From the rim of a lens a near point is seen at a large offset, which costs digits of its position.
             let far = (1.0 + lens.length() / length) / join.half_height.min(1.0);
             worst = worst.max((found.raster - raster).length() / join.size.max_element() / far);
             let back = point + found.to_camera - world_from_camera * origin;
             assert!(back.length() <= 1e-12 * (length + origin.length()), "{index}");
         }
-        // A point 10³ away on a rectangle 10⁻² high has lost five digits of its place across.
+        // A point at a distance of 10³ from a window 10⁻² high has lost five digits of its position across.
         assert!(worst < 1e-10, "{worst}");
-        eprintln!("joins: 30000 points, worst {worst:.1e} of the image");
+        eprintln!("connections: 30000 points, worst {worst:.1e} of the image");
     }
 
-    /// The importance, integrated over a surface that fills the image, is one a pixel.
+    /// The importance, integrated over a surface that fills the image, is 1 per pixel.
     #[test]
     fn a_pixel_s_importance_is_the_pdf_of_its_rays() {
         let mut tried = 0;
         for index in 0..3000 {
             let mut draws = Draws::new(2702, index);
             let (join, lens) = join(&mut draws, index % 3);
-            // The corners of a piece of a plane across some axis, a thousandth of a pixel wide on the image.
+            // The corners of a patch of some plane, a ten-thousandth of a pixel wide in the image.
             let raster = DVec2::new(draws.unit(), draws.unit()) * (join.size - 1.0);
             let normal = draws.unit_vector().normalize();
             let at = |raster: DVec2| {
@@ -145,20 +146,20 @@ mod tests {
             let (a, b, c) = (at(raster), at(raster + DVec2::X * step), at(raster + DVec2::Y * step));
             let area = (b - a).cross(c - a).length();
             let Some(found) = join_camera(&join, lens, a) else { continue };
-            let slant = normal.dot(found.to_camera.normalize()).abs();
-            if slant < 0.05 {
+            let cosine = normal.dot(found.to_camera.normalize()).abs();
+            if cosine < 0.05 {
                 continue;
             }
-            let pixels = found.importance * area * slant;
+            let pixels = found.importance * area * cosine;
             assert!((pixels / (step * step) - 1.0).abs() < 1e-2, "{index}: {pixels:e}");
             tried += 1;
         }
         assert!(tried > 1000, "{tried}");
-        eprintln!("importance: {tried} places, each within 1 % of the density of the camera's rays");
+        eprintln!("importance: {tried} points, each within 1 % of the density of the camera's rays");
     }
 
     #[test]
-    fn nothing_behind_the_camera_is_joined() {
+    fn nothing_behind_the_camera_is_connected() {
         for which in [1, 2] {
             let (join, lens) = join(&mut Draws::new(2703, 0), which);
             let back = join.camera_from_world.row(2);

@@ -1,4 +1,4 @@
-//! Random numbers for each row of a tile, the sampler chosen once a tile.
+//! Random numbers for each row of a tile; the sampler is dispatched once per tile.
 
 use super::{PixelSamples, SampleNumber, Tile};
 use crate::extract::SamplingTable;
@@ -6,7 +6,7 @@ use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, uni
 use crate::scene::Sampler;
 use multiversion::multiversion;
 
-/// Which sample of which pixel each row of a tile is, and with which seed.
+/// Which sample of which pixel each row of a tile is, with the seed and the sampler.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub sampling: &'a SamplingTable,
@@ -15,7 +15,7 @@ pub(super) struct Rows<'a> {
     pub samples: Option<&'a PixelSamples>,
 }
 
-/// Draws a point of the unit square for each row, for leg 0 of its way.
+/// Draws a uniform point in [0, 1)² for each row, at depth 0.
 pub(super) fn draw_two(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64], ys: &mut [f64]) {
     let number = rows.number.map_or(0, |number| number.0);
     match rows.sampling.sampler {
@@ -35,14 +35,14 @@ fn two_rows<D: Draw>(draw: D, rows: Rows<'_>, xs: &mut [f64], ys: &mut [f64]) {
     }
 }
 
-/// A row's pixel: its own number in the tile, unless samples say another.
+/// The key of a row's pixel, which is that of its own index in the tile unless samples are placed.
 #[inline(always)]
 fn key(rows: Rows<'_>, row: usize) -> PixelKey {
     let pixel = rows.samples.map_or(row, |samples| samples.pixel[row] as usize);
     PixelKey::new(rows.sampling.seed, rows.tile.pixel_of(pixel))
 }
 
-/// Draws a number from 0 to below 1 for each row, for leg 0 of its way.
+/// Draws a uniform number in [0, 1) for each row, at depth 0.
 pub(super) fn draw_one(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64]) {
     let number = rows.number.map_or(0, |number| number.0);
     match rows.sampling.sampler {

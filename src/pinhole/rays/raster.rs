@@ -3,12 +3,12 @@ use crate::plan::{Column, Evidence, Stage, StageKind, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-/// A rectangle of the image's pixels; the entity that carries it holds the columns, a row a pixel.
+/// A rectangle of the image's pixels; its entity has the columns as components, with a row per pixel.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
-    /// Its first pixel from the left.
+    /// The column of its leftmost pixels.
     pub x: u32,
-    /// Its first pixel from the top.
+    /// The line of its topmost pixels.
     pub y: u32,
     /// Pixels from left to right.
     pub width: u32,
@@ -17,18 +17,18 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// Pixels, and so rows.
+    /// The number of pixels, which is the number of rows.
     pub fn rows(&self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// The row of a pixel of the image, if the tile holds it.
+    /// The row of a pixel of the image, if the tile contains it.
     pub fn row_of(&self, x: u32, y: u32) -> Option<usize> {
         let (column, line) = (x.checked_sub(self.x)?, y.checked_sub(self.y)?);
         (column < self.width && line < self.height).then(|| line as usize * self.width as usize + column as usize)
     }
 
-    /// The pixel of the image that a row is.
+    /// The pixel of the image that a row stands for.
     pub fn pixel_of(&self, row: usize) -> [u32; 2] {
         let row = row as u32;
         [self.x + row % self.width, self.y + row / self.width]
@@ -36,7 +36,7 @@ impl Tile {
 }
 
 column! {
-    /// Points of the image in pixels: origin at the top left corner, y down.
+    /// Points of the image in raster space: in pixels, with the origin at the top left corner and y down.
     pub struct RasterPoints("raster", "raster", "pixels", Pixel) {
         /// To the right.
         x: f64,
@@ -46,14 +46,15 @@ column! {
 }
 
 impl RasterPoints {
-    /// Red grows to the right, green downward.
+    /// Paints x as red, which grows to the right, and y as green, which grows downward.
     fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
         [(self.x[row] / f64::from(size[0])) as f32, (self.y[row] / f64::from(size[1])) as f32, 0.0]
     }
 }
 
 // ANCHOR: raster_from_pixel
-/// The centre of a pixel in raster space: a pixel is a unit square, and its number names the square's top left corner.
+/// The centre of a pixel in raster space: a pixel is a unit square, and its coordinates are those of the square's top
+/// left corner.
 #[inline(always)]
 pub fn raster_from_pixel(x: u32, y: u32) -> DVec2 {
     DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
@@ -61,7 +62,7 @@ pub fn raster_from_pixel(x: u32, y: u32) -> DVec2 {
 // ANCHOR_END: raster_from_pixel
 
 // ANCHOR: fill_raster
-/// Fills a tile's raster points, row by row of the image.
+/// Fills a tile's raster points, line by line.
 pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
     for (tile, mut raster) in &mut tiles {
         let (xs, ys) = raster.slices_mut(tile.rows());
@@ -77,7 +78,7 @@ pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
 // ANCHOR_END: fill_raster
 
 // ANCHOR: raster_stage
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn raster_stage() -> Stage {
     Stage::new("Place raster points", TileSystems::Raster, fill_raster)
         .kind(StageKind::Alternative)
@@ -89,7 +90,7 @@ pub fn raster_stage() -> Stage {
 }
 // ANCHOR_END: raster_stage
 
-/// How many rows a tile's raster points have; every aligned column has as many.
+/// The number of rows of a tile's raster points, which all aligned columns share.
 pub(crate) fn aligned_rows(raster: &RasterPoints) -> usize {
     raster.rows()
 }
@@ -104,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_and_pixels_lead_back_to_each_other() {
+    fn row_of_and_pixel_of_are_inverse() {
         let tile = Tile { x: 64, y: 32, width: 7, height: 5 };
         for row in 0..tile.rows() {
             let [x, y] = tile.pixel_of(row);

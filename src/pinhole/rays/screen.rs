@@ -6,7 +6,7 @@ use glam::DVec2;
 use multiversion::multiversion;
 
 column! {
-    /// Points of the image with the centre at the origin and y up, from −1 to 1 in height and as wide as its shape.
+    /// Points of the image in screen space: the origin at the centre, y up from −1 to 1, x from −aspect to aspect.
     pub struct ScreenPoints("screen", "screen", "half heights", Pixel) {
         /// To the right, from −aspect to aspect.
         x: f64,
@@ -16,7 +16,7 @@ column! {
 }
 
 impl ScreenPoints {
-    /// Red grows to the right, green upward; the centre is half of each.
+    /// Paints x as red, which grows to the right, and y as green, which grows upward; both are 0.5 at the centre.
     fn paint_row(&self, row: usize, size: [u32; 2]) -> [f32; 3] {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         [(0.5 + 0.5 * self.x[row] / aspect) as f32, (0.5 + 0.5 * self.y[row]) as f32, 0.0]
@@ -24,7 +24,7 @@ impl ScreenPoints {
 }
 
 // ANCHOR: screen_from_ndc
-/// An NDC point on the screen: the centre at the origin, y up, and x as much longer as the image is wider than high.
+/// Transforms an NDC point to screen space: origin at the centre, y up, x scaled by the aspect ratio.
 #[inline(always)]
 pub fn screen_from_ndc(ndc: DVec2, aspect: f64) -> DVec2 {
     DVec2::new((2.0 * ndc.x - 1.0) * aspect, 1.0 - 2.0 * ndc.y)
@@ -49,7 +49,7 @@ fn screen_rows(ndc: &NdcPoints, aspect: f64, screen: &mut ScreenPoints) {
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn screen_stage() -> Stage {
     Stage::new("Compute screen points", TileSystems::Screen, fill_screen)
         .reads::<NdcPoints>()

@@ -6,21 +6,21 @@ use crate::sample::Purpose;
 use bevy_ecs::prelude::*;
 
 column! {
-    /// When each ray and all that follow from it are on their way; row by row those of the rays.
+    /// The time of each ray, which is that of its whole path.
     pub struct RayTimes("time", "since the shutter opened", "units of time", Ray) {
-        /// From 0 to below the time that the shutter is open.
+        /// In [0, the duration for which the shutter is open).
         time: f64,
     }
 }
 
 impl RayTimes {
-    /// Grey, from black when the shutter opens; the unit of time is half way to white.
+    /// Paints the time as grey: black when the shutter opens, mid-grey after one unit of time.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [(self.time[row] / (1.0 + self.time[row])) as f32; 3]
     }
 }
 
-/// Fills the time of each of a tile's rays.
+/// Samples the time of each of a tile's rays.
 pub fn draw_times(
     shutter: Res<Shared<ShutterTable>>,
     sampling: Res<Shared<SamplingTable>>,
@@ -34,7 +34,7 @@ pub fn draw_times(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn time_stage() -> Stage {
     Stage::new("Sample times", TileSystems::Lens, draw_times)
         .reads::<RasterPoints>()

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use multiversion::multiversion;
 
 column! {
-    /// Rays along the world's axes with the eye at the origin: render space.
+    /// Rays in render space: the world's axes, with the eye at the origin (PBRT's camera-world space).
     pub struct WorldRays("world", "world, from the eye", "scene units", Ray) {
         /// Origin, x.
         ox: f32,
@@ -14,7 +14,7 @@ column! {
         oy: f32,
         /// Origin, z.
         oz: f32,
-        /// Direction, x; the three are a unit vector.
+        /// Direction, x; a unit vector.
         dx: f32,
         /// Direction, y.
         dy: f32,
@@ -24,17 +24,17 @@ column! {
 }
 
 impl WorldRays {
-    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    /// Paints the direction: each component from −1 to 1 is mapped to 0 to 1.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
+        [self.dx[row], self.dy[row], self.dz[row]].map(|component| 0.5 + 0.5 * component)
     }
 }
 
-/// Fills a tile's world rays: directions turned as the camera is, origins too where a camera's rays have several.
+/// Fills a tile's world rays: directions are rotated from camera to world space, and so are origins if they differ.
 ///
-/// The camera's position does not occur: render space has it at the origin.
-/// So where every ray starts there nothing is written: a column that had no rows begins with zeros, and the last leg of a
-/// sample leaves none.
+/// The camera's position does not occur, since render space has it at the origin.
+/// If every ray starts there, no origin is written: new rows of a column are zero, and the last bounce of a sample
+/// leaves the column empty.
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
     many_origins: (Option<Res<Shared<OrthographicWindow>>>, Option<Res<Shared<LensTable>>>),
@@ -76,7 +76,7 @@ fn origin_rows(camera: &CameraRays, world_from_camera: DMat3, world: &mut WorldR
     }
 }
 
-/// Origins of a camera that moves: where it has come at each ray's time.
+/// The origins of a moving camera's rays: its position at each ray's time.
 fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, times: &[f64], world: &mut WorldRays) {
     let (x, y, z, _, _, _) = camera.slices();
     let (ox, oy, oz, _, _, _) = world.slices_mut(camera.rows());
@@ -86,7 +86,7 @@ fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, ti
     }
 }
 
-/// The stage on offer.
+/// The stage that runs this system.
 pub fn world_stage() -> Stage {
     Stage::new("Transform rays to world space", TileSystems::World, fill_world)
         .reads::<CameraRays>()

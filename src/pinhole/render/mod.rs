@@ -17,6 +17,7 @@ mod render_world;
 mod rendered;
 mod steps;
 mod tile_side;
+mod whole;
 mod workers;
 
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
@@ -30,5 +31,6 @@ pub use key::film_key;
 pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};
 pub use passes::{Limits, Outcome, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
-pub use rendered::{Rendered, render};
+pub use rendered::Rendered;
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
+pub use whole::render;

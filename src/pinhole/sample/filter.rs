@@ -1,13 +1,13 @@
 use crate::extract::{FilterCells, Span};
 
-/// How far beside the pixel's centre a box of that radius puts a sample: a step of u is a step of the place.
+/// Samples the box filter of that radius: maps u in [0, 1) to an offset from the pixel's centre, linearly.
 #[inline(always)]
 pub fn box_offset(u: f64, radius: f64) -> f64 {
     (2.0 * u - 1.0) * radius
 }
 
 // ANCHOR: tent_offset
-/// The same for a tent, whose area up to a place is a parabola on each side.
+/// Samples the tent filter of that radius by inverting its CDF, a parabola on each side.
 #[inline(always)]
 pub fn tent_offset(u: f64, radius: f64) -> f64 {
     let side = 2.0 * u - 1.0;
@@ -15,10 +15,11 @@ pub fn tent_offset(u: f64, radius: f64) -> f64 {
 }
 // ANCHOR_END: tent_offset
 
-/// The same by a table of the area under |f| to one side of the centre, and whether f is negative there.
+/// Samples |f| of a filter f by a table of its CDF on one side of the centre: the offset, and whether f is negative
+/// there.
 ///
-/// Within a cell of the table |f| is taken for a straight line: its area up to a place is a parabola, solved for the place
-/// without cancellation.
+/// Within a cell of the table |f| is taken to be linear; its CDF is then a parabola, which is inverted without
+/// cancellation.
 #[inline(always)]
 pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
     let side = 2.0 * u - 1.0;
@@ -27,9 +28,9 @@ pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
     while cells.cells[at].end <= area {
         at += 1;
     }
-    let Span { start, share, x, width, slope, negative, .. } = cells.cells[at];
-    let part = (area - start) * share;
-    let along = part / (slope + (slope * slope + (1.0 - 2.0 * slope) * part).sqrt() + f64::MIN_POSITIVE);
+    let Span { start, per_area, x, width, slope, negative, .. } = cells.cells[at];
+    let fraction = (area - start) * per_area;
+    let along = fraction / (slope + (slope * slope + (1.0 - 2.0 * slope) * fraction).sqrt() + f64::MIN_POSITIVE);
     ((x + along * width).copysign(side), negative)
 }
 
@@ -60,17 +61,17 @@ mod tests {
         }
     }
 
-    /// The part of the area under |f| that lies from −x to x.
-    fn part(filter: Filter, x: f64) -> f64 {
+    /// The fraction of the area under |f| that lies between −x and x.
+    fn fraction(filter: Filter, x: f64) -> f64 {
         let turn = turning_place(filter);
         let positive = filter_area(filter, turn);
         let beyond = |x: f64| if x > turn { (filter_area(filter, x) - positive).abs() } else { 0.0 };
         (filter_area(filter, x.min(turn)) + beyond(x)) / (positive + beyond(radius_of(filter)))
     }
 
-    /// The place of every number there is, 2²⁴ of them, or of each thousandth, against the exact area under |f|.
+    /// The offsets of every 997th of the 2²⁴ numbers that there are, against the exact area under |f|.
     #[test]
-    fn a_place_s_area_is_its_number() {
+    fn offsets_invert_the_exact_cdf() {
         let (mut tried, mut worst) = (0, 0.0_f64);
         for filter in filters() {
             let (cells, mut last) = (FilterCells::of(filter), f64::NEG_INFINITY);
@@ -78,20 +79,20 @@ mod tests {
                 let u = unit(bits << 8);
                 let (x, negative) = offset(filter, &cells, u);
                 assert!(x.abs() <= radius_of(filter) * (1.0 + 1e-15) && x.is_finite(), "{filter:?} at {u}: {x}");
-                worst = worst.max((part(filter, x.abs()) - (2.0 * u - 1.0).abs()).abs());
+                worst = worst.max((fraction(filter, x.abs()) - (2.0 * u - 1.0).abs()).abs());
                 let value = filter_value(filter, x.abs());
                 assert!(value.abs() < 1e-9 || negative == (value < 0.0), "{filter:?} at {x}: {value:e}");
                 assert!(x >= last || bits % 997 != 0, "{filter:?} is not monotone at {u}");
                 (last, tried) = (x, tried + 1);
             }
         }
-        eprintln!("filters: {tried} places, the area up to each off by {worst:.1e} of the whole at most");
+        eprintln!("filters: {tried} offsets, the CDF at each off by {worst:.1e} at most");
         assert!(worst < 1e-6, "off by {worst:e}");
     }
 
-    /// Kolmogorov and Smirnov: samples of each filter against its exact area, 1 − 1e-4 of the time below the limit.
+    /// Kolmogorov–Smirnov: samples of each filter against its exact CDF, below the limit with probability 1 − 1e-4.
     #[test]
-    fn samples_are_spread_as_the_filter_weighs() {
+    fn samples_are_distributed_as_the_filter() {
         const SAMPLES: u32 = 100_000;
         for (axis, filter) in filters().flat_map(|filter| [(0, filter), (1, filter)]) {
             let cells = FilterCells::of(filter);
@@ -101,16 +102,16 @@ mod tests {
             };
             let mut places: Vec<f64> = (0..SAMPLES).map(place).collect();
             places.sort_by(f64::total_cmp);
-            let before = |x: f64| 0.5 + 0.5 * part(filter, x.abs()).copysign(x);
+            let before = |x: f64| 0.5 + 0.5 * fraction(filter, x.abs()).copysign(x);
             let n = f64::from(SAMPLES);
             let apart = (0..).zip(&places).map(|(rank, &x)| (before(x) - (f64::from(rank) + 0.5) / n).abs());
             let statistic = apart.fold(0.0, f64::max) * n.sqrt();
             assert!(statistic < 2.23, "{filter:?}, axis {axis}: {statistic}");
         }
-        eprintln!("filters: {SAMPLES} samples of 10 filters on two axes, all spread as their filters weigh");
+        eprintln!("filters: {SAMPLES} samples of 10 filters on two axes, all distributed as their filters");
     }
 
-    /// The integral of f(x) h(x) over that of f, by Simpson's rule on each side of where f turns.
+    /// The integral of f(x) h(x) over that of f, by quadrature on each side of where f changes sign.
     fn convolved(filter: Filter, h: impl Fn(f64) -> f64, kink: f64) -> f64 {
         let (radius, turn) = (radius_of(filter), turning_place(filter));
         let mut ends = [-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
@@ -120,7 +121,7 @@ mod tests {
             const STEPS: u32 = 2000;
             let width = (pair[1] - pair[0]) / f64::from(STEPS);
             for step in 0..STEPS {
-                // The middles of thirds, so that a kink at an end is on the right side.
+                // The midpoints of thirds, so that a kink at an end falls on the right side.
                 for third in [1.0, 3.0, 5.0] {
                     let x = pair[0] + (f64::from(step) + third / 6.0) * width;
                     let weight = if third == 3.0 { 2.0 } else { 3.0 };
@@ -131,8 +132,8 @@ mod tests {
         sum / (2.0 * filter_area(filter, radius))
     }
 
-    /// The mean of signed samples of a step and of two waves against the convolution, within 4 standard errors; for box
-    /// and tent also against sinc and sinc².
+    /// The mean of signed samples of three steps and two waves against the convolution, within 4 standard errors; for
+    /// box and tent also against sinc and sinc².
     #[test]
     fn signed_samples_estimate_the_convolution() {
         const SAMPLES: u32 = 40_000;

@@ -1,24 +1,24 @@
-/// A pixel and the seed, mixed: what its random numbers are made from.
+/// A hash of a pixel and the seed, from which the pixel's random numbers are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelKey(u64);
 
 impl PixelKey {
-    /// The key of a pixel, counted from the top left corner of the whole image.
+    /// The key of a pixel, whose coordinates count from the top left corner of the whole image.
     #[inline(always)]
     pub fn new(seed: u64, pixel: [u32; 2]) -> Self {
         Self(mixed(mixed(seed) ^ (u64::from(pixel[0]) | u64::from(pixel[1]) << 32)))
     }
 
-    /// 64 bits for an address: a dimension and a number within it.
+    /// 64 random bits for a dimension and an index within it.
     #[inline(always)]
     pub(super) fn bits(self, dimension: u32, number: u32) -> u64 {
         mixed(self.0 ^ (u64::from(number) | u64::from(dimension) << 32))
     }
 }
 
-/// Each bit of the result depends on every bit of the argument, as if by a coin.
+/// A hash in which each bit of the result depends on every bit of the argument.
 ///
-/// The finaliser of splitmix64 (Steele, Lea, Flood 2014).
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
 #[inline(always)]
 pub(super) fn mixed(bits: u64) -> u64 {
     let mut z = bits.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -34,9 +34,9 @@ pub(super) fn halves(bits: u64) -> [u32; 2] {
 }
 
 // ANCHOR: unit
-/// The number from 0 to below 1 that a fraction of 32 bits stands for, with its first 24 bits.
+/// Converts a 32-bit fraction to a number in [0, 1), keeping its first 24 bits.
 ///
-/// All 32 would do in f64; 24 also fit an f32, and beside a pixel's number below 2²⁹ not even f64 rounds them.
+/// An f64 could hold all 32; but 24 also fit an f32, and f64 does not round them when a pixel index below 2²⁹ is added.
 #[inline(always)]
 pub fn unit(bits: u32) -> f64 {
     f64::from(bits >> 8) * (1.0 / f64::from(1 << 24))
@@ -56,12 +56,12 @@ mod tests {
             for bits in [0, 1 << 8, 1 << 31, u32::MAX - 255, u32::MAX] {
                 let raster = f64::from(pixel) + unit(bits);
                 assert_eq!(raster.floor(), f64::from(pixel));
-                assert_eq!(raster - f64::from(pixel), unit(bits), "nothing is rounded away");
+                assert_eq!(raster - f64::from(pixel), unit(bits), "no bit is lost");
             }
         }
     }
 
-    /// Flipping any bit of seed, pixel, sample or dimension must flip each bit of the result every other time.
+    /// Flipping any bit of seed, pixel, sample or dimension must flip each bit of the result with probability 1/2.
     #[test]
     fn avalanche() {
         const TRIALS: u32 = 4096;
@@ -85,7 +85,7 @@ mod tests {
                 pairs += 1;
             }
         }
-        // 5 standard deviations of a fair coin thrown so often; of 12,288 pairs one would lie beyond in 150 runs.
+        // 5 standard deviations of that many fair coin tosses; among 12,288 pairs one would exceed it once in 150 runs.
         let limit = 5.0 * 0.5 / f64::from(TRIALS).sqrt();
         eprintln!("avalanche: {pairs} pairs of bits × {TRIALS} trials, worst {worst:.4} from 1/2, limit {limit:.4}");
         assert!(worst < limit);

@@ -1,7 +1,7 @@
 use super::hash::halves;
 use super::{Draw, PixelKey, Purpose, unit};
 
-/// Each number by itself, as if thrown by dice.
+/// The independent sampler: every number is uniform in [0, 1) and independent of all others.
 #[derive(Clone, Copy, Debug)]
 pub struct Independent {
     dimension: u32,
@@ -9,7 +9,7 @@ pub struct Independent {
 }
 
 impl Independent {
-    /// A sample's numbers for a purpose on a leg of the light's way.
+    /// A sample's numbers for a purpose at a bounce.
     #[inline(always)]
     pub fn new(sample: u32, depth: u32, purpose: Purpose) -> Self {
         Self { dimension: purpose.dimension(depth), sample }
@@ -28,8 +28,8 @@ impl Draw for Independent {
     }
 }
 
-/// A number from 0 to below 1, of 24 bits, the same whenever it is asked for with the same arguments: the first of an
-/// independent sampler's numbers on the first leg.
+/// A uniform number in [0, 1), of 24 bits, determined by its arguments: the independent sampler's first number at depth
+/// 0.
 #[inline(always)]
 pub fn uniform(seed: u64, pixel: [u32; 2], sample: u32, purpose: Purpose) -> f64 {
     unit(Independent::new(sample, 0, purpose).one(PixelKey::new(seed, pixel)))

@@ -1,25 +1,25 @@
-//! How much the mean of a sampler's numbers varies: on functions whose integral and variance are known.
+//! The error of Monte Carlo estimates by sampler, on functions whose integral and variance are known.
 //!
-//! Each pixel of a row is one trial with numbers of its own.
+//! Each pixel of a line is one trial with random numbers of its own.
 
 use super::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
 use std::f64::consts::PI;
 
-/// A function on the unit square, or, where it does not look at the second coordinate, on the unit interval.
+/// A function on the unit square, or on the unit interval if it ignores the second coordinate.
 #[derive(Clone, Copy)]
 pub struct Integrand {
-    /// What it is called.
+    /// Its name in reports.
     pub name: &'static str,
     /// Its value.
     pub value: fn([f64; 2]) -> f64,
     /// Its integral.
     pub mean: f64,
-    /// The variance of its value at a point at random.
+    /// The variance of its value at a uniform random point.
     pub variance: f64,
 }
 
-/// Functions of known integral and variance, the smoothest first.
+/// Functions of known integral and variance, from the smoothest to the roughest.
 pub const INTEGRANDS: [Integrand; 4] = [
     Integrand {
         name: "a wave along one axis",
@@ -47,22 +47,22 @@ pub const INTEGRANDS: [Integrand; 4] = [
     },
 ];
 
-/// The error of means, over trials.
+/// The statistics of the error of estimates, over trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanError {
-    /// Samples a mean.
+    /// Samples per estimate.
     pub samples: u32,
-    /// Means tried.
+    /// The number of estimates.
     pub trials: u32,
-    /// Their own mean, less the integral.
+    /// Their mean minus the integral.
     pub bias: f64,
-    /// The mean of their squared errors.
+    /// Their mean squared error.
     pub variance: f64,
     /// The standard error of `variance`.
     pub variance_error: f64,
 }
 
-/// The error of the mean of so many samples at points of a purpose that draws two numbers.
+/// Estimates an integral in many trials, at points of a purpose that draws two numbers.
 pub fn mean_error(
     sampler: Sampler,
     purpose: Purpose,
@@ -94,9 +94,9 @@ fn errors<D: Draw>(draw: impl Fn(u32) -> D, f: Integrand, samples: u32, trials: 
     (0..trials).map(|trial| mean(trial) - f.mean).collect()
 }
 
-/// The slope of the logarithm of the variance over that of the samples, by least squares, and half its 95 % interval.
+/// The slope of log variance over log samples, by least squares, and the half-width of its 95 % confidence interval.
 ///
-/// The interval is that of each level's own standard error, carried through the fit.
+/// The interval is propagated from the standard error of each level.
 pub fn slope(levels: &[MeanError]) -> (f64, f64) {
     let n = levels.len() as f64;
     let xs: Vec<f64> = levels.iter().map(|level| libm::log(f64::from(level.samples))).collect();

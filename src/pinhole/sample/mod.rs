@@ -1,12 +1,12 @@
-//! Random numbers for samples: a function of seed, pixel, sample and purpose, and of nothing else.
+//! Samplers: random numbers as a function of seed, pixel, sample, bounce and purpose, and of nothing else.
 //!
-//! So neither threads, tiles, the order of the work nor a stage that a scene leaves out can change one.
+//! Therefore neither threads, tiles, the order of work, nor a stage that the plan drops can change one of them.
 //!
-//! Reads: nothing of a scene but the seed and the number of samples that it states.
-//! Gives: fractions of 32 bits, which [`unit`] makes f64 in [0, 1) with 24 bits; and points beside a pixel's centre, in
-//! pixels, spread as a filter weighs.
-//! What all pixels of a tile share in one sample is worked out once, in a [`Draw`]; which kind of `Draw` is decided
-//! outside the loop over pixels.
+//! Reads: the seed and the number of samples, nothing else of a scene.
+//! Gives: 32-bit fractions, which [`unit`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
+//! in pixels, distributed as the reconstruction filter.
+//! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
+//! decided outside the loop over pixels.
 
 mod filter;
 mod hash;
@@ -26,10 +26,10 @@ pub use purpose::{DIMENSIONS, Purpose};
 pub use sobol::{Sobol, sobol_bits};
 pub use stratified::{Stratified, permuted, strata_of};
 
-/// One sample's random numbers for one purpose, ready for any pixel.
+/// One sample's random numbers for one purpose, to be drawn for any pixel.
 pub trait Draw: Copy {
-    /// A number for a pixel, as a fraction of 32 bits.
+    /// A number for a pixel, as a 32-bit fraction.
     fn one(self, pixel: PixelKey) -> u32;
-    /// Two numbers for a pixel: a point of the unit square.
+    /// Two numbers for a pixel, a point of the unit square, as 32-bit fractions.
     fn two(self, pixel: PixelKey) -> [u32; 2];
 }

@@ -1,10 +1,10 @@
 // ANCHOR: owen_scrambled
-/// Scrambles a fraction whose bits stand in reverse, the first digit lowest: every digit is turned over or not by what
-/// looks like a coin for the digits before it.
+/// Owen scrambling of a fraction whose bits are reversed, so that the first digit is lowest: each digit is flipped or
+/// not by a hash of the digits before it.
 ///
-/// So halves change places, then quarters within each half, and so on (Owen 1995): a set of points that has one point in
-/// each box of a grid keeps that.
-/// Each step here lets a bit depend on itself and on lower ones only, as Laine and Karras (2011) do; the constants are
+/// Thus the halves of the interval are swapped or not, then the quarters within each half, and so on (Owen 1995), which
+/// preserves the stratification of a point set.
+/// In each step a bit depends on itself and on lower bits only, as in Laine and Karras (2011); the constants are
 /// Vegdahl's (2021).
 #[inline(always)]
 pub fn owen_scrambled(reversed: u32, seed: u32) -> u32 {
@@ -23,7 +23,8 @@ mod tests {
     use super::super::hash::mixed;
     use super::*;
 
-    /// A digit may depend on itself and on those before it, and on nothing else; and it must keep its own difference.
+    /// A digit may depend on itself and on those before it only; and fractions that differ in a digit must still differ
+    /// in it.
     #[test]
     fn digits_depend_on_earlier_digits_only() {
         let mut tried = 0;
@@ -36,22 +37,22 @@ mod tests {
                 tried += 1;
             }
         }
-        eprintln!("scramble: {tried} digits turned over, none changed an earlier one");
+        eprintln!("scramble: {tried} digits flipped, none changed an earlier one");
     }
 
-    /// Over seeds every digit is turned over half of the time, whatever the digits before it are.
+    /// Over all seeds every digit is flipped half of the time, whatever the digits before it.
     #[test]
-    fn every_digit_is_turned_over_half_of_the_time() {
+    fn every_digit_is_flipped_half_of_the_time() {
         const SEEDS: u32 = 20_000;
         let mut worst = 0.0_f64;
         for x in [0_u32, 1, 2, 3, 0x5555_5555, 0xDEAD_BEEF, u32::MAX] {
-            let mut turned = [0_u32; 32];
+            let mut flipped = [0_u32; 32];
             for trial in 0..SEEDS {
                 let changed = owen_scrambled(x, mixed(u64::from(trial)) as u32) ^ x;
-                turned.iter_mut().enumerate().for_each(|(bit, turned)| *turned += changed >> bit & 1);
+                flipped.iter_mut().enumerate().for_each(|(bit, flipped)| *flipped += changed >> bit & 1);
             }
-            for turned in turned {
-                worst = worst.max((f64::from(turned) / f64::from(SEEDS) - 0.5).abs());
+            for flipped in flipped {
+                worst = worst.max((f64::from(flipped) / f64::from(SEEDS) - 0.5).abs());
             }
         }
         let limit = 4.5 * 0.5 / f64::from(SEEDS).sqrt();

@@ -1,35 +1,35 @@
-/// How many dimensions each leg of a light's way has, some of them kept for purposes to come.
+/// The number of dimensions per bounce, some of which are reserved.
 pub const DIMENSIONS: u32 = 16;
 
-/// What a random number is for.
+/// What a random number is used for.
 ///
-/// Each purpose has dimensions of its own, whether or not a scene uses the others: so a stage that is left out shifts
-/// nobody's numbers.
-/// Those that matter most come first, for the first dimensions of a Sobol sequence are the most even together.
+/// Each purpose has dimensions of its own, whether or not a scene uses the others, so that a stage that is left out
+/// does not shift the numbers of the rest.
+/// The most important come first, because the first dimensions of a Sobol sequence are the best distributed together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Where in the pixel, to the right and downward.
+    /// The position in the pixel, to the right and downward.
     Pixel,
-    /// Where on the lens.
+    /// The point of the lens.
     Lens,
-    /// Where on a light.
+    /// The point on an area light.
     LightPoint,
-    /// Which way from a surface.
+    /// The direction sampled from a BSDF.
     Direction,
-    /// Which light.
+    /// The choice of a light.
     LightChoice,
-    /// Which part of a surface's matter.
+    /// The choice of a lobe of the BSDF, such as reflection or refraction.
     MaterialChoice,
-    /// Whether the way ends here.
+    /// Russian roulette.
     Roulette,
-    /// When, while the shutter is open.
+    /// The time while the shutter is open.
     Time,
-    /// Where in the environment.
+    /// The point of the environment map.
     EnvironmentPoint,
 }
 
 impl Purpose {
-    /// All, in the order of their dimensions.
+    /// All purposes.
     pub const ALL: [Self; 9] = [
         Self::Pixel,
         Self::Lens,
@@ -42,7 +42,7 @@ impl Purpose {
         Self::EnvironmentPoint,
     ];
 
-    /// How many numbers it needs: 1 or 2.
+    /// The number of dimensions that it needs: 1 or 2.
     pub const fn numbers(self) -> u32 {
         match self {
             Self::Pixel | Self::Lens | Self::LightPoint | Self::Direction | Self::EnvironmentPoint => 2,
@@ -50,7 +50,7 @@ impl Purpose {
         }
     }
 
-    /// Its first dimension on a leg of the light's way; leg 0 is the one to the eye.
+    /// Its first dimension at a bounce; depth 0 is the camera ray.
     #[inline(always)]
     pub const fn dimension(self, depth: u32) -> u32 {
         let within = match self {
@@ -79,12 +79,12 @@ mod tests {
             for purpose in Purpose::ALL {
                 for number in 0..purpose.numbers() {
                     let dimension = purpose.dimension(depth) + number;
-                    assert!(dimension / DIMENSIONS == depth, "{purpose:?} leaves its leg");
-                    assert!(!taken.contains(&dimension), "{purpose:?} of leg {depth} shares dimension {dimension}");
+                    assert!(dimension / DIMENSIONS == depth, "{purpose:?} exceeds its bounce");
+                    assert!(!taken.contains(&dimension), "{purpose:?} at depth {depth} shares dimension {dimension}");
                     taken.push(dimension);
                 }
             }
         }
-        eprintln!("purposes: {} dimensions of 3 legs, no two alike", taken.len());
+        eprintln!("purposes: {} dimensions at 3 depths, all distinct", taken.len());
     }
 }

@@ -1,10 +1,10 @@
 use super::hash::halves;
 use super::{DIMENSIONS, Draw, PixelKey, Purpose, owen_scrambled};
 
-/// A dimension's polynomial and first direction numbers.
+/// The primitive polynomial of a dimension (degree and coefficients), and its initial direction numbers.
 type JoeKuo = (usize, u32, [u32; 6]);
 
-/// Degree, coefficients and first direction numbers of dimensions 2 to 16 (Joe and Kuo 2008, new-joe-kuo-6.21201).
+/// Dimensions 2 to 16 of Joe and Kuo (2008, new-joe-kuo-6.21201).
 const JOE_KUO: [JoeKuo; DIMENSIONS as usize - 1] = [
     (1, 0, [1, 0, 0, 0, 0, 0]),
     (2, 1, [1, 3, 0, 0, 0, 0]),
@@ -23,7 +23,8 @@ const JOE_KUO: [JoeKuo; DIMENSIONS as usize - 1] = [
     (6, 16, [1, 3, 1, 13, 27, 49]),
 ];
 
-/// For every dimension the fraction, in reversed bits, that each binary digit of a point's number adds.
+/// The generator matrices with reversed bits: for each dimension, the fraction that each binary digit of a point's
+/// index contributes.
 const REVERSED: [[u32; 32]; DIMENSIONS as usize] = {
     let mut table = [[0; 32]; DIMENSIONS as usize];
     let mut dimension = 0;
@@ -68,7 +69,7 @@ const fn reversed_directions(dimension: usize) -> [u32; 32] {
 }
 
 // ANCHOR: sobol_bits
-/// A coordinate of a point of the Sobol sequence, as a fraction of 32 bits in reverse; dimensions count from 0.
+/// A coordinate of a point of the Sobol sequence, as a 32-bit fraction with reversed bits; dimensions count from 0.
 #[inline(always)]
 pub fn sobol_bits(number: u32, dimension: u32) -> u32 {
     let directions = &REVERSED[dimension as usize];
@@ -81,12 +82,13 @@ pub fn sobol_bits(number: u32, dimension: u32) -> u32 {
 }
 // ANCHOR_END: sobol_bits
 
-/// A point of the Sobol sequence, scrambled for every pixel by itself.
+/// The Sobol sampler: a point of the Sobol sequence, Owen-scrambled independently for every pixel.
 ///
-/// The first 2ᵏ samples of a pixel are as even as 2ᵏ points of the sequence can be, and so is every later block of 2ᵏ.
-/// On each leg of a light's way after the first, all purposes together take the points of such a block in another order,
-/// so that the same dimensions can serve again: within a leg purposes stay even together, between legs they are
-/// independent (padding).
+/// The first 2ᵏ samples of a pixel are as well distributed as 2ᵏ points of the sequence can be, and so is every later
+/// block of 2ᵏ.
+/// At each bounce after the first, all purposes together visit the points of such a block in a shuffled order, so that
+/// the same dimensions can be used again: within a bounce purposes remain jointly stratified, and between bounces they
+/// are independent (padding).
 #[derive(Clone, Copy, Debug)]
 pub struct Sobol {
     dimension: u32,
@@ -94,19 +96,19 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// A sample's numbers for a purpose on a leg of the light's way.
+    /// A sample's numbers for a purpose at a bounce.
     #[inline(always)]
     pub fn new(sample: u32, depth: u32, purpose: Purpose) -> Self {
         let dimension = purpose.dimension(depth);
-        let number = if depth == 0 { sample } else { in_another_order(sample, depth) };
+        let number = if depth == 0 { sample } else { shuffled(sample, depth) };
         let second = dimension % DIMENSIONS + purpose.numbers() - 1;
         Self { dimension, reversed: [dimension % DIMENSIONS, second].map(|within| sobol_bits(number, within)) }
     }
 }
 
-/// The number of the point that a sample takes on a later leg; samples of a block of 2ᵏ stay within a block.
+/// The index of the point that a sample uses at a later bounce; samples of a block of 2ᵏ stay within a block.
 #[inline(always)]
-fn in_another_order(sample: u32, depth: u32) -> u32 {
+fn shuffled(sample: u32, depth: u32) -> u32 {
     let [seed, _] = halves(super::hash::mixed(u64::from(depth)));
     owen_scrambled(sample.reverse_bits(), seed).reverse_bits()
 }
@@ -135,7 +137,8 @@ mod tests {
         Purpose::ALL.into_iter().filter(two).map(|purpose| [0, 1].map(|n| purpose.dimension(0) + n)).collect()
     }
 
-    /// The smallest t for which 2ᵐ points are a (t, m, 2)-net: each box of area 2ᵗ⁻ᵐ with sides of powers of two holds 2ᵗ.
+    /// The smallest t for which 2ᵐ points are a (t, m, 2)-net: each box of area 2ᵗ⁻ᵐ with sides of powers of two holds
+    /// 2ᵗ.
     fn quality(points: &[[u32; 2]]) -> u32 {
         let m = points.len().trailing_zeros();
         let is_net = |t: u32| {
@@ -158,7 +161,7 @@ mod tests {
 
     #[test]
     fn first_points_are_those_of_the_literature() {
-        // Points 0 to 7 of the first three dimensions, in eighths, in the order of their numbers (not of Gray codes).
+        // Points 0 to 7 of the first three dimensions, in eighths, in the order of their indices (not of Gray codes).
         let known = [[0, 4, 2, 6, 1, 5, 3, 7], [0, 4, 6, 2, 5, 1, 3, 7], [0, 4, 6, 2, 3, 7, 5, 1]];
         for (dimension, eighths) in (0..).zip(known) {
             let own: Vec<u32> = (0..8).map(|n| sobol_bits(n, dimension).reverse_bits() >> 29).collect();
@@ -166,8 +169,9 @@ mod tests {
         }
     }
 
-    /// Every block of 2ᵐ samples has one in each 2⁻ᵐ of an axis; a pixel's two numbers one in every box of area 2⁻ᵐ;
-    /// other pairs, 2ᵗ in every box of 2ᵗ⁻ᵐ with the t that theory allows (Niederreiter 1987: degrees less 1, summed).
+    /// Every block of 2ᵐ samples has one in each interval of length 2⁻ᵐ on each axis; the two numbers for the pixel,
+    /// one in every elementary box of area 2⁻ᵐ; other pairs, 2ᵗ in every box of area 2ᵗ⁻ᵐ, with the t that theory
+    /// allows (Niederreiter 1987: the sum of the degrees minus 1 each).
     #[test]
     fn nets() {
         let (mut tried, mut worst) = (0, Vec::new());
@@ -187,7 +191,10 @@ mod tests {
                         assert!(cells.iter().copied().eq(0..1 << m), "{purpose:?}, axis {axis}, 2^{m} points");
                     }
                     let t = quality(&points);
-                    assert!(t <= allowed, "{purpose:?}, 2^{m} points, leg {depth}: t = {t}, but {allowed} is allowed");
+                    assert!(
+                        t <= allowed,
+                        "{purpose:?}, 2^{m} points, depth {depth}: t = {t}, but {allowed} is allowed"
+                    );
                     (largest, tried) = (largest.max(t), tried + 1);
                 }
             }
@@ -197,7 +204,7 @@ mod tests {
         eprintln!("nets: {tried} blocks of 2^0 to 2^10 samples; largest t: {}", worst.join(", "));
     }
 
-    /// Unscrambled points are those of the crate sobol_burley, and its scrambled pairs have the t of ours.
+    /// Unscrambled points equal those of the crate sobol_burley, and its scrambled pairs have the same t as pinhole's.
     #[test]
     fn agrees_with_sobol_burley() {
         let (mut points, mut compared) = (0, 0);
@@ -218,8 +225,8 @@ mod tests {
                 let pixel = PixelKey::new(9, [0, 0]);
                 let purpose = Purpose::ALL.into_iter().find(|purpose| purpose.dimension(0) == pair[0]);
                 let purpose = purpose.expect("a purpose");
-                let ours: Vec<[u32; 2]> = (0..1 << m).map(|n| Sobol::new(n, 0, purpose).two(pixel)).collect();
-                assert_eq!(quality(&ours), quality(&burley), "dimensions {pair:?}, 2^{m} points");
+                let own: Vec<[u32; 2]> = (0..1 << m).map(|n| Sobol::new(n, 0, purpose).two(pixel)).collect();
+                assert_eq!(quality(&own), quality(&burley), "dimensions {pair:?}, 2^{m} points");
                 compared += 1;
             }
         }

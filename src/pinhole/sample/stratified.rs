@@ -1,11 +1,11 @@
 use super::hash::{halves, mixed};
 use super::{Draw, PixelKey, Purpose, unit};
 
-/// A cell of the unit square or interval for each sample, and a place at random within the cell.
+/// The stratified sampler: a stratum of the unit square or interval for each sample, and a jittered point within it.
 ///
-/// Which sample gets which cell is another permutation for each pixel and purpose, so that any number of samples is
-/// unbiased, and purposes are independent of each other.
-/// When all cells have been used, the next block of samples uses them once more in another order.
+/// Strata are assigned to samples by a permutation that differs between pixels and purposes, so that any number of
+/// samples is unbiased and purposes are independent of each other.
+/// When all strata have been used, the next block of samples uses them again in another order.
 #[derive(Clone, Copy, Debug)]
 pub struct Stratified {
     dimension: u32,
@@ -14,19 +14,19 @@ pub struct Stratified {
 }
 
 impl Stratified {
-    /// A sample's numbers for a purpose on a leg of the light's way, where `samples` are to come.
+    /// A sample's numbers for a purpose at a bounce, with strata for `samples` samples.
     #[inline(always)]
     pub fn new(sample: u32, samples: u32, depth: u32, purpose: Purpose) -> Self {
         let strata = if purpose.numbers() == 2 { strata_of(samples) } else { [samples, 1] };
         Self { dimension: purpose.dimension(depth), sample, strata }
     }
 
-    /// The cell of this sample, and 64 bits at random.
+    /// The stratum of this sample, and 64 random bits.
     #[inline(always)]
-    fn cell(self, pixel: PixelKey) -> (u32, u64) {
+    fn stratum(self, pixel: PixelKey) -> (u32, u64) {
         let cells = self.strata[0] * self.strata[1];
         let (block, within) = (self.sample / cells, self.sample % cells);
-        // The top bit tells a block's number from a sample's.
+        // The top bit distinguishes keys of blocks from those of samples.
         let order = pixel.bits(self.dimension | 1 << 31, block);
         (permuted(within, cells, order), pixel.bits(self.dimension, self.sample))
     }
@@ -35,31 +35,31 @@ impl Stratified {
 impl Draw for Stratified {
     #[inline(always)]
     fn one(self, pixel: PixelKey) -> u32 {
-        let (cell, bits) = self.cell(pixel);
+        let (cell, bits) = self.stratum(pixel);
         within(cell, self.strata[0] * self.strata[1], halves(bits)[0])
     }
 
     #[inline(always)]
     fn two(self, pixel: PixelKey) -> [u32; 2] {
         let [columns, lines] = self.strata;
-        let (cell, bits) = self.cell(pixel);
+        let (cell, bits) = self.stratum(pixel);
         let [right, down] = halves(bits);
         [within(cell % columns, columns, right), within(cell / columns, lines, down)]
     }
 }
 
-/// A fraction of 32 bits within one of so many cells, itself chosen by a fraction.
+/// The 32-bit fraction of a jittered point within one of so many cells of the unit interval.
 ///
-/// A cell's edge that is no multiple of 2⁻²⁴ is off by less than that.
+/// The edge of a cell, unless it is a multiple of 2⁻²⁴, is off by less than that.
 #[inline(always)]
 fn within(cell: u32, cells: u32, bits: u32) -> u32 {
-    // A cast of 2³², to which the largest may round, gives the largest that fits.
+    // The largest fraction may round to 2³², which the cast saturates.
     ((f64::from(cell) + unit(bits)) / f64::from(cells) * 4_294_967_296.0) as u32
 }
 
 // ANCHOR: strata_of
-/// Columns and lines of a grid of at least so many cells, as square as can be; a few stay empty unless the number is a
-/// square or a square and a bit.
+/// The columns and lines of a grid of at least so many strata, as close to a square as possible; a few strata may be
+/// left over.
 #[inline(always)]
 pub fn strata_of(samples: u32) -> [u32; 2] {
     let columns = f64::from(samples).sqrt() as u32;
@@ -67,12 +67,12 @@ pub fn strata_of(samples: u32) -> [u32; 2] {
 }
 // ANCHOR_END: strata_of
 
-/// Where a number below `count` goes in a permutation of them that the key decides.
+/// The image of a number below `count` under a random permutation that the key determines.
 ///
-/// The rounds permute the numbers of so many bits; a number that lands beyond the count goes round again (Black and
-/// Rogaway 2002, as Kensler 2013 does).
-/// The shift of each round differs too: with fixed ones few orders of a small number of cells come up, and a test of
-/// pairs finds it.
+/// The rounds permute all numbers of that many bits; a result beyond the count is permuted again, which is cycle
+/// walking (Black and Rogaway 2002), as in Kensler (2013).
+/// The shift of each round is random too: with fixed shifts only few permutations of a small number of strata occur,
+/// which a test of pairs detects.
 #[inline(always)]
 pub fn permuted(number: u32, count: u32, key: u64) -> u32 {
     const ROUNDS: u32 = 6;
@@ -94,8 +94,8 @@ pub fn permuted(number: u32, count: u32, key: u64) -> u32 {
             break;
         }
     }
-    let [turn, _] = halves(mixed(!key));
-    ((u64::from(at) + u64::from(turn)) % u64::from(count)) as u32
+    let [rotation, _] = halves(mixed(!key));
+    ((u64::from(at) + u64::from(rotation)) % u64::from(count)) as u32
 }
 
 #[cfg(test)]
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_number_goes_to_a_place_of_its_own() {
+    fn permutations_are_bijective() {
         let mut tried = 0;
         for count in (1..=130).chain([255, 256, 257, 1000, 4096]) {
             for key in 0..8 {
@@ -119,9 +119,9 @@ mod tests {
         eprintln!("permutations: {tried}, each number once in each");
     }
 
-    /// Over keys, two numbers go to each pair of places equally often (χ² within 5 standard deviations).
+    /// Over all keys, two numbers are mapped to each pair of numbers equally often (χ² within 5 standard deviations).
     #[test]
-    fn any_two_numbers_go_anywhere() {
+    fn pairs_are_uniform() {
         const KEYS: u64 = 20_000;
         let mut worst = 0.0_f64;
         for count in [2_u32, 3, 4, 5, 8, 9, 16, 17] {
@@ -147,9 +147,9 @@ mod tests {
         assert!(worst < 5.0);
     }
 
-    /// Each block of samples has one in every cell, also where their number is no square.
+    /// Each block of samples has one in every stratum, even if their number is not a square.
     #[test]
-    fn one_sample_a_cell() {
+    fn one_sample_per_stratum() {
         let mut tried = 0;
         for samples in [1_u32, 2, 3, 4, 7, 9, 12, 16, 64, 100] {
             let [columns, lines] = strata_of(samples);
@@ -160,7 +160,7 @@ mod tests {
                 for sample in block * cells..(block + 1) * cells {
                     let draw = Stratified::new(sample, samples, 0, Purpose::Pixel);
                     let [x, y] = draw.two(PixelKey::new(5, [3, 4])).map(unit);
-                    // A step of 2⁻²⁴ forward, for a cell's edge may be off by as much.
+                    // A small step forward, because a stratum's edge may be off by as much.
                     let cell = |u: f64, cells: u32| ((u + 1.0 / f64::from(1 << 25)) * f64::from(cells)) as u32;
                     taken[(cell(y, lines) * columns + cell(x, columns)) as usize] += 1;
                     tried += 1;

@@ -1,10 +1,10 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Where samples run out that nobody has counted: those of a time or of an error alone.
+/// The number of samples per pixel at which sampling stops if only a time or an error was asked for.
 pub const OPEN_END: u32 = 65_536;
 
-/// On the camera, beside `Sampling`: each pixel gets as many samples as its own noise asks for.
+/// On the camera, beside `Sampling`: adaptive sampling, in which each pixel gets as many samples as its noise requires.
 ///
 /// The error of a pixel is the standard error of its mean radiance, relative to that radiance:
 /// √(V / n) / √(L² + 0.01), where V is the variance of a sample and L² the square of the mean, each averaged over red,
@@ -12,9 +12,10 @@ pub const OPEN_END: u32 = 65_536;
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Adaptive {
-    /// The error that each pixel is to have, above 0 and at most 1.
+    /// The target error of each pixel, above 0 and at most 1.
     pub error: f64,
-    /// Samples a pixel from which its number of samples is decided, at least 4; they are thrown away afterwards.
+    /// Samples per pixel in the pilot pass, from which a pixel's number of samples is decided; at least 4, discarded
+    /// afterwards.
     pub pilot: u32,
 }
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-/// An angle in degrees, so that no call site has to say or guess its unit.
+/// An angle in degrees, as a type, so that no call site has to state or guess the unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Degrees(pub f64);

@@ -2,13 +2,13 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// The radiance that a ray which meets nothing brings back; black where a scene has none.
+/// A constant environment: the radiance along rays that hit nothing; black if the scene has none.
 ///
-/// At most one entity may carry it, and none together with a [`Gradient`](super::Gradient) or an
+/// At most one entity may have it, and only if the scene has neither a [`Gradient`](super::Gradient) nor an
 /// [`Environment`](super::Environment).
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Background {
-    /// Linear Rec. 709 radiance, each part finite and at least 0.
+    /// Radiance in linear Rec. 709, each component finite and at least 0.
     pub colour: Rgb,
 }

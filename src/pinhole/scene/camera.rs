@@ -2,7 +2,7 @@ use super::{Degrees, Placement, Resolution};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Across what a camera's field of view is measured.
+/// Across which extent of the image a camera's field of view is measured (Mitsuba's `fov_axis`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FovAxis {
     /// From the bottom edge to the top edge.
@@ -18,16 +18,16 @@ pub enum FovAxis {
     Diagonal,
 }
 
-/// A pinhole camera: every ray starts at the eye and passes through a point of the image plane before it.
+/// A pinhole camera: every ray starts at the eye and passes through a point of the image plane in front of it.
 ///
-/// A larger angle sees more and shows each thing smaller.
+/// A larger field of view sees more and shows each object smaller.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement, Resolution)]
 pub struct PerspectiveCamera {
-    /// The full angle, strictly between 0° and 180°.
+    /// The full field of view, strictly between 0° and 180°.
     pub fov: Degrees,
-    /// Across what the angle is measured.
+    /// The extent across which it is measured.
     pub axis: FovAxis,
 }
 
@@ -37,9 +37,9 @@ impl Default for PerspectiveCamera {
     }
 }
 
-/// A camera of parallel rays, each starting on the rectangle that the image is.
+/// An orthographic camera: parallel rays that start on a rectangle, the image itself.
 ///
-/// A larger view height sees more; distance changes no thing's size.
+/// A larger view height sees more; distance does not change the size of objects.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement, Resolution)]

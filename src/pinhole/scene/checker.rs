@@ -2,22 +2,23 @@ use super::{Rgb, TextureBy};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// On a material: two colours in turn, in squares by uv or in cubes by space, in place of the material's own colour.
+/// On a material: a checkerboard of two colours, in squares of uv or cubes of space, in place of the material's own
+/// colour.
 ///
-/// By uv a square begins at (0, 0); by space a cube of the first colour has its middle at the shape's origin, so that no
-/// flat shape lies between two layers.
+/// In uv a square begins at (0, 0); in space a cube of the first colour is centred on the shape's origin, so that no
+/// planar shape lies on the boundary between two layers.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Checker {
-    /// The one colour: the share of the light that is sent on, linear Rec. 709, each part from 0 to 1.
+    /// The first colour: an albedo, linear Rec. 709, each component from 0 to 1.
     pub first: Rgb,
-    /// The other.
+    /// The second colour.
     pub second: Rgb,
-    /// The side of a square or cube, in units of uv or of the shape's space, above 0.
+    /// The edge length of a square or cube, in units of uv or of the shape's space, above 0.
     pub size: f64,
-    /// What it is laid along.
+    /// The coordinates that it is evaluated at.
     pub by: TextureBy,
-    /// Whether a pixel gets the mean of what it covers; without, the colour at one point.
+    /// Whether the texture is box-filtered over the pixel's footprint; if not, it is evaluated at one point.
     pub filter: bool,
 }
 

@@ -1,9 +1,9 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Red, green and blue in linear Rec. 709: twice the number is twice the light.
+/// Red, green and blue in linear Rec. 709: twice the value is twice the light.
 ///
-/// What it measures (a reflectance, a radiance, an intensity) is said by the field that holds it.
+/// Which quantity it measures (an albedo, a radiance, an intensity) is stated by the field that holds it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[f64; 3]", into = "[f64; 3]")]
 pub struct Rgb {
@@ -19,22 +19,22 @@ impl Rgb {
     /// No light at all.
     pub const BLACK: Self = Self::grey(0.0);
 
-    /// A colour from its three parts.
+    /// A colour from its three components.
     pub const fn new(r: f64, g: f64, b: f64) -> Self {
         Self { r, g, b }
     }
 
-    /// The same amount of all three.
+    /// The same value in all three components.
     pub const fn grey(value: f64) -> Self {
         Self::new(value, value, value)
     }
 
-    /// The three parts in order.
+    /// The components as an array, in order.
     pub const fn to_array(self) -> [f64; 3] {
         [self.r, self.g, self.b]
     }
 
-    /// The three parts as a vector, for arithmetic.
+    /// The components as a vector, for arithmetic.
     pub const fn to_vec(self) -> DVec3 {
         DVec3::new(self.r, self.g, self.b)
     }

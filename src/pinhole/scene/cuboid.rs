@@ -3,14 +3,14 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A box with its faces across the entity's axes, the entity's position at its middle.
+/// A box aligned with the entity's axes and centred on its position.
 ///
-/// Parents that scale unevenly may make it a parallelepiped.
+/// Under a parent with non-uniform scale it may become a parallelepiped.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct Cuboid {
-    /// From face to face along the entity's x, y and z axes; scene units, above 0.
+    /// The edge lengths along the entity's x, y and z axes; scene units, above 0.
     pub size: DVec3,
 }
 

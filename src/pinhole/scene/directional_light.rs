@@ -2,17 +2,17 @@ use super::{Placement, Rgb};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A light so far away that its rays are parallel, as the sun's are.
+/// A light so distant that its rays are parallel, as sunlight is (a delta distribution over directions).
 ///
-/// They go along the entity's own −z, which a [`LookAt`](super::LookAt) points from its eye to its target; where the
-/// entity stands does not matter.
+/// They travel along the entity's own −z, which a [`LookAt`](super::LookAt) points from its eye to its target; the
+/// entity's position has no effect.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct DirectionalLight {
-    /// What a surface that faces it receives, linear Rec. 709, each part finite and at least 0.
+    /// The irradiance on a surface that faces the light, linear Rec. 709, each component finite and at least 0.
     pub irradiance: Rgb,
-    /// Whether things in between keep its light away; without, no shadow ray is made for this light.
+    /// Whether objects cast shadows in its light; if not, no shadow rays are traced for it.
     pub casts_shadows: bool,
 }
 

@@ -2,9 +2,9 @@ use super::Placement;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A flat round piece about the entity's position, in the entity's xz plane, seen from both sides.
+/// A disk centred on the entity's position, in the entity's xz plane, visible from both sides.
 ///
-/// Any placement may scale it unevenly: then it is an ellipse.
+/// A non-uniform scale turns it into an ellipse.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]

@@ -2,35 +2,36 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A surface that shines by itself, equally in all directions.
+/// A diffuse emitter: a surface that emits the same radiance in all directions.
 ///
-/// It may stand beside a material or alone; a shape with an `Emissive` alone reflects nothing.
-/// Put it on the shape, or on the entity whose material the shape uses; the shape's own goes first.
-/// What it emits is seen; it lights other surfaces where the camera's [`Integrator`](super::Integrator) follows light so
-/// far.
+/// It may stand beside a material or alone; a shape with nothing but an `Emissive` reflects no light.
+/// Put it on the shape, or on the entity whose material the shape uses; the shape's own takes precedence.
+/// The camera always sees what it emits; it illuminates other surfaces if the camera's
+/// [`Integrator`](super::Integrator) simulates that.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Emissive {
-    /// The radiance that leaves every point, linear Rec. 709, each part finite and at least 0.
+    /// The radiance emitted at every point, linear Rec. 709, each component finite and at least 0.
     pub radiance: Rgb,
-    /// Which sides of the surface shine.
+    /// Which sides of the surface emit.
     #[serde(skip_serializing_if = "Sides::are_both")]
     pub sides: Sides,
 }
 
-/// Which sides of a surface something is true of.
+/// One side of a surface or both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sides {
-    /// Either.
+    /// Both sides.
     #[default]
     Both,
-    /// The side of the shape's own normal: a plane's `normal`, the entity's +y for a disk and a rectangle, the side from
-    /// which a triangle's corners go round anticlockwise or to which its normals point; the outside of a sphere or cuboid.
+    /// The side that the shape's own normal points to: a plane's `normal`, the entity's +y for a disk and a rectangle,
+    /// the outside of a sphere or cuboid, and for a triangle the side to which its vertex normals point or, without
+    /// them, the one from which its vertices run anticlockwise.
     Front,
 }
 
 impl Sides {
-    /// Whether it is both.
+    /// Whether it is [`Both`](Self::Both).
     pub fn are_both(&self) -> bool {
         *self == Self::Both
     }

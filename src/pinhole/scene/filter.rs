@@ -1,46 +1,46 @@
 use serde::{Deserialize, Serialize};
 
-/// What a sample counts for, by its distance from the pixel's centre: the same along and across, multiplied.
+/// A reconstruction filter: a sample's weight by its offset from the pixel's centre, a separable product over x and y.
 ///
-/// A filter's radius, in pixels, is where it ends; a larger one blurs more, and lets less of what is finer than a pixel
-/// through.
+/// Beyond its radius, in pixels, a filter is zero; a larger radius blurs more and passes less of the detail that is
+/// finer than a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Filter {
-    /// All alike: with a radius of 0.5, the pixel's own square.
+    /// Constant: with a radius of 0.5, the pixel's own square.
     Box {
         /// In pixels.
         #[serde(default = "half")]
         radius: f64,
     },
-    /// Less and less in a straight line.
+    /// Linear falloff.
     Tent {
         /// In pixels.
         #[serde(default = "one")]
         radius: f64,
     },
-    /// The bell curve, lowered so that it ends at 0.
+    /// The Gaussian, shifted down so that it ends at zero.
     Gaussian {
         /// In pixels.
         #[serde(default = "one_and_a_half")]
         radius: f64,
-        /// The bell's standard deviation in pixels.
+        /// The standard deviation in pixels.
         #[serde(default = "half")]
         sigma: f64,
     },
-    /// Cubics with negative parts, which sharpen (Mitchell and Netravali 1988).
+    /// Piecewise cubic, with negative lobes that sharpen (Mitchell and Netravali 1988).
     Mitchell {
         /// In pixels.
         #[serde(default = "two")]
         radius: f64,
-        /// Their blur, from 0 to 1.
+        /// B: more blurs more; from 0 to 1.
         #[serde(default = "third")]
         b: f64,
-        /// Their ringing, from 0 to 1; at 0 nothing is negative.
+        /// C: more sharpens more, and rings more; from 0 to 1, with no negative lobes at 0.
         #[serde(default = "third")]
         c: f64,
     },
-    /// A window of three cosines, smooth to its end (Harris 1978).
+    /// The Blackman–Harris window, a sum of three cosines (Harris 1978).
     BlackmanHarris {
         /// In pixels.
         #[serde(default = "one_and_a_half")]
@@ -49,18 +49,18 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// All samples of the pixel's own square alike.
+    /// The pixel's own square, with constant weight.
     pub const BOX: Self = Self::Box { radius: half() };
-    /// A tent that ends at the neighbours' centres.
+    /// A tent that ends at the centres of the neighbouring pixels.
     pub const TENT: Self = Self::Tent { radius: one() };
-    /// The default: nothing negative, and little of what is finer than a pixel left.
+    /// The default: non-negative, with little aliasing left.
     pub const GAUSSIAN: Self = Self::Gaussian { radius: one_and_a_half(), sigma: half() };
-    /// The one that its authors recommend, B = C = 1/3.
+    /// The parameters that its authors recommend, B = C = 1/3.
     pub const MITCHELL: Self = Self::Mitchell { radius: two(), b: third(), c: third() };
     /// About as wide as the Gaussian.
     pub const BLACKMAN_HARRIS: Self = Self::BlackmanHarris { radius: one_and_a_half() };
 
-    /// All, each as it is unless told otherwise, with the words of the command line.
+    /// All filters with their default parameters, each with its word on the command line.
     pub const ALL: [(&str, Self); 5] = [
         ("box", Self::BOX),
         ("tent", Self::TENT),
@@ -69,7 +69,7 @@ impl Filter {
         ("blackman-harris", Self::BLACKMAN_HARRIS),
     ];
 
-    /// Whether some samples count negatively.
+    /// Whether it has negative lobes.
     pub fn is_signed(self) -> bool {
         matches!(self, Self::Mitchell { c, .. } if c > 0.0)
     }

@@ -2,16 +2,17 @@ use super::{Degrees, FovAxis, Placement, Resolution};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A camera whose image is a circle in which equal steps from the centre are equal angles from the axis (equidistant).
+/// An equidistant fisheye camera: the distance from the centre of its circular image is proportional to the angle from
+/// the viewing axis.
 ///
-/// It sees up to all directions at once; what lies outside its circle is black.
+/// It sees up to the full sphere of directions; pixels outside the circle are black.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement, Resolution)]
 pub struct FisheyeCamera {
-    /// The full angle across the circle, above 0° and at most 360°.
+    /// The full field of view across the circle, above 0° and at most 360°.
     pub fov: Degrees,
-    /// Across what of the image the circle reaches.
+    /// The extent of the image that the circle's diameter equals.
     pub axis: FovAxis,
 }
 

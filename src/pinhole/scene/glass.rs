@@ -2,17 +2,18 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Clear matter with a smooth surface: it reflects a part of the light and refracts the rest.
+/// A smooth dielectric: light is specularly reflected and refracted, in the proportion that Fresnel's equations give.
 ///
-/// The shape must be closed, or a surface that divides all of space; what lies on the inner side of its normal is glass.
+/// The shape must be closed, or divide all of space in two; glass fills the side that its normal points away from.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Glass {
-    /// The index of refraction against the vacuum, above 0; a higher one bends light more.
+    /// The index of refraction relative to vacuum, above 0; a higher one bends light more.
     pub ior: f64,
-    /// How much light is absorbed along a way inside: e^(−absorption · length) is left, each part at least 0.
+    /// The absorption coefficient per scene unit: by Beer's law e^(−absorption · length) is transmitted; each component
+    /// at least 0.
     pub absorption: Rgb,
-    /// Where two shapes of glass overlap, the higher priority says which of them is there.
+    /// Where dielectrics overlap, the one of highest priority fills the space.
     pub priority: u32,
 }
 

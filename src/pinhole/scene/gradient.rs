@@ -2,15 +2,16 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A background that changes from below to above: with t = (y + 1) / 2 of a ray's unit direction, (1 − t) bottom + t top.
+/// A background that blends two radiances along y: (1 − t) bottom + t top with t = (y + 1) / 2 of a ray's unit
+/// direction.
 ///
-/// At most one entity may carry it, and none together with another background.
+/// At most one entity may have it, and only if the scene has no other background.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gradient {
-    /// Straight down: linear Rec. 709 radiance, each part finite and at least 0.
+    /// The radiance from straight below, linear Rec. 709, each component finite and at least 0.
     pub bottom: Rgb,
-    /// Straight up.
+    /// The radiance from straight above.
     pub top: Rgb,
 }
 

@@ -2,29 +2,30 @@ use super::{FileKind, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A file that a texture or an environment names.
+/// The kind of file that a texture or an environment names.
 pub const IMAGE_FILE: FileKind = FileKind { name: "an image", most: 1 << 30 };
 
-/// On a material: the colours of an image file, in place of the material's own colour.
+/// On a material: an image texture, in place of the material's own colour.
 ///
-/// By uv its upper left corner is at (0, 0), its x grows with u, and its y, downward, with v.
-/// By space its middle is at the shape's origin, and it is laid along the two axes of the side that the surface faces, as on
-/// a cuboid: upright on sides that face x or z, and seen from outside never mirrored.
+/// In uv its upper left corner is at (0, 0), its x grows with u, and its y, downward, with v.
+/// In space it is centred on the shape's origin and projected along the axis that the surface faces most, as onto the
+/// faces of a cuboid: upright on faces towards x or z, and never mirrored when seen from outside.
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImageTexture {
-    /// A .png, in sRGB, or a .hdr or .exr, in linear floats from 0 to 1; relative to the scene file's folder, or to the
-    /// current one where there is no scene file.
+    /// A .png file in sRGB, or a .hdr or .exr of linear values from 0 to 1; its path is relative to the scene file's
+    /// folder, or to the current folder if there is no scene file.
     pub file: String,
-    /// How wide the image is, in units of uv or of the shape's space, above 0.
+    /// The width of the image, in units of uv or of the shape's space, above 0.
     ///
-    /// By uv it is as high as it is wide; by space its texels are square.
+    /// In uv it is as high as it is wide; in space its texels are square.
     pub size: f64,
-    /// What it is laid along.
+    /// The coordinates that it is evaluated at.
     pub by: TextureBy,
-    /// What there is beyond its edges.
+    /// The wrap mode beyond its edges.
     pub wrap: Wrap,
-    /// Whether a pixel gets a mean of what it covers, and what lies between texels is blended; without, the nearest texel.
+    /// Whether it is filtered: bilinearly between texels, and over the pixel's footprint by mipmapping; if not, the
+    /// nearest texel is taken.
     pub filter: bool,
 }
 

@@ -1,65 +1,68 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// On the camera: how far light is followed, and how its ways are found.
+/// On the camera: which light transport is simulated, and by which method.
 ///
-/// A camera without it gets what the scene needs.
+/// A camera without it gets the integrator that the scene needs.
+/// Each `max_depth` is the largest number of segments of a path from a light to the camera, as in Mitsuba: 1 gives
+/// emitted light alone, 2 adds direct light; PBRT's `maxdepth` is one less.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Integrator {
-    /// What the camera sees and what lights send there straight; mirrors, glass and metal stay dark.
+    /// Emission and direct light at the first hit; mirrors, glass and metal stay black.
     RayCasting,
-    /// Also what mirrors and glass show, both ways at each surface of glass, where nothing is left to chance (Whitted
-    /// 1980).
+    /// Also specular reflection and refraction, both of which are traced at every surface of glass, so that nothing is
+    /// random (Whitted 1980).
     Whitted {
-        /// The most legs of a way from a light to the camera.
+        /// The largest number of path segments.
         max_depth: u32,
     },
-    /// How much of the sky each point sees, and nothing else.
+    /// Ambient occlusion: the cosine-weighted visibility of the sky at the first hit, and nothing else.
     AmbientOcclusion {
-        /// How far from the point something still hides the sky, in scene units.
+        /// How far away objects still occlude, in scene units.
         distance: f64,
     },
-    /// Also points on lights and directions off rough metal, by chance; matte surfaces do not light each other (Cook,
+    /// Whitted's method with area lights and rough metal sampled at random; there is no diffuse interreflection (Cook,
     /// Porter and Carpenter 1984).
     Distribution {
-        /// The most legs of a way from a light to the camera.
+        /// The largest number of path segments.
         max_depth: u32,
     },
-    /// All ways of light that a walk from the camera can find (Kajiya 1986).
+    /// Path tracing: all paths that a random walk from the camera can find (Kajiya 1986).
     Path {
-        /// The most legs of a way from a light to the camera; the light of longer ones is missing.
+        /// The largest number of path segments; the light of longer paths is missing.
         max_depth: u32,
-        /// How lights are found.
+        /// How direct light is estimated.
         lights: LightStrategy,
-        /// The leg from which ways end by chance, in such a way that no light is lost on average; 0 for never.
+        /// The depth from which Russian roulette ends paths, which leaves the expected value unchanged; 0 for never.
         roulette: u32,
     },
 }
 
-/// How a walk from the camera finds lights that have an area.
+/// How a path tracer estimates direct light from emitters that have an area, and from the environment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LightStrategy {
-    /// By running into them.
+    /// BSDF sampling alone: paths hit emitters by chance.
     Bsdf,
-    /// By aiming at points on them.
+    /// Light sampling (next-event estimation) alone.
     Light,
-    /// Both, each weighed by how likely it was to find the way (Veach and Guibas 1995).
+    /// Both, combined by multiple importance sampling (Veach and Guibas 1995).
     #[default]
     Mis,
 }
 
 impl LightStrategy {
-    /// All, with the words of the command line.
+    /// All strategies, each with its word on the command line.
     pub const ALL: [(&str, Self); 3] = [("bsdf", Self::Bsdf), ("light", Self::Light), ("mis", Self::Mis)];
 }
 
 impl Integrator {
-    /// Paths that end by chance, and at the latest where light that is caught between perfect surfaces has long been lost.
+    /// Path tracing with Russian roulette, and a depth limit at which light caught between perfect mirrors is long
+    /// lost.
     pub const PATH: Self = Self::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 5 };
-    /// As many legs as light still shows after.
+    /// Whitted's method, to a depth beyond which light hardly shows.
     pub const WHITTED: Self = Self::Whitted { max_depth: 12 };
-    /// The same.
+    /// Distribution ray tracing to the same depth.
     pub const DISTRIBUTION: Self = Self::Distribution { max_depth: 12 };
 }
 

@@ -1,51 +1,51 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// On the camera: what else to keep of every pixel, beside its light.
+/// On the camera: what to keep of every pixel beside its radiance (auxiliary channels, AOVs).
 ///
 /// Each layer becomes channels of the picture's OpenEXR file; without this component none of them exists.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Layers {
-    /// Which; a kind named twice is kept once.
+    /// The kinds to keep; one that is named twice is kept once.
     pub kinds: Vec<LayerKind>,
 }
 
-/// What may be known of a pixel beside its light.
+/// An auxiliary channel of a pixel.
 ///
-/// Numbers are means over the samples that met a surface, and 0 where none did.
+/// Unless stated otherwise it is the mean over the samples whose camera ray hit a surface, and 0 if none did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum LayerKind {
-    /// The share of the samples that met a surface.
+    /// The fraction of samples whose camera ray hit a surface.
     Coverage,
-    /// Where the surface is, in the world.
+    /// The hit point in world space.
     Position,
-    /// The surface's true normal in the world, turned to the side that is seen.
+    /// The geometric normal in world space, facing the ray.
     Normal,
-    /// The same along the camera's axes: x to the right, y up, z backward.
+    /// The geometric normal in camera space: x to the right, y up, z backward.
     NormalCamera,
-    /// The normal that light is computed with, in the world; the true one where a shape has no other.
+    /// The shading normal in world space; the geometric normal if the shape has no other.
     ShadingNormal,
-    /// The same along the camera's axes.
+    /// The shading normal in camera space.
     ShadingNormalCamera,
-    /// The surface's own two coordinates.
+    /// The surface's texture coordinates u and v.
     Uv,
-    /// The share of light that the surface sends on, linear Rec. 709.
+    /// The material's albedo, linear Rec. 709.
     Albedo,
-    /// The distance from where the camera ray starts, along the ray.
+    /// The distance from the camera ray's origin, along the ray.
     DepthAlongRay,
-    /// The distance from the camera along the axis that it looks down.
+    /// The distance from the camera along its viewing axis.
     DepthAlongAxis,
-    /// The number of the shape that the pixel's first sample met.
+    /// The number of the shape that the pixel's first sample hit.
     Entity,
-    /// How many samples joined the pixel.
+    /// The number of samples taken in the pixel.
     Samples,
     /// The variance of the pixel's mean radiance, estimated from its samples.
     Variance,
 }
 
 impl LayerKind {
-    /// All, in the order of a file.
+    /// All kinds, in the order in which a file holds them.
     pub const ALL: [Self; 13] = [
         Self::Coverage,
         Self::Position,
@@ -62,7 +62,7 @@ impl LayerKind {
         Self::Variance,
     ];
 
-    /// The word that the command line takes, and that the layer has in a file.
+    /// Its name on the command line and in a file.
     pub fn word(self) -> &'static str {
         match self {
             Self::Coverage => "coverage",
@@ -81,9 +81,10 @@ impl LayerKind {
         }
     }
 
-    /// The names of its channels: the layer's word, a dot, a letter.
+    /// The names of its channels: the layer's name, a dot, and a letter.
     ///
-    /// The letters are those that OpenImageIO and compositors know: they keep X, Y, Z and R, G, B together and in order.
+    /// The letters are those that OpenImageIO and compositors know: they keep X, Y, Z and R, G, B together and in
+    /// order.
     pub fn channels(self) -> &'static [&'static str] {
         match self {
             Self::Coverage => &["coverage.A"],
@@ -104,7 +105,7 @@ impl LayerKind {
         }
     }
 
-    /// Whether it is a mean over the samples that met a surface.
+    /// Whether it is a mean over the samples whose camera ray hit a surface.
     pub fn is_mean(self) -> bool {
         !matches!(self, Self::Coverage | Self::Entity | Self::Samples | Self::Variance)
     }
@@ -116,9 +117,9 @@ impl Layers {
         Self { kinds: LayerKind::ALL.to_vec() }
     }
 
-    /// The kinds that words name, with commas between, or all.
+    /// The kinds named in a comma-separated list, or all of them for `all`.
     ///
-    /// Errors: a word that names none, in one sentence with those that do.
+    /// Errors: a word that names no layer, in one sentence that lists those that exist.
     pub fn of_words(words: &str) -> Result<Self, String> {
         if words.trim() == "all" {
             return Ok(Self::all());

@@ -2,36 +2,36 @@ use super::Degrees;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// On a perspective camera: an opening in place of the pinhole, so that only what lies at one distance is sharp.
+/// On a perspective camera: a thin lens in place of the pinhole, so that only objects at one distance are in focus.
 ///
-/// Each ray starts somewhere on the opening and passes through the point that the pinhole's ray has on the plane in
-/// focus; what is before or behind that plane is spread over a disk the wider the farther off it is.
+/// Each ray starts at a random point of the aperture and passes through the point where the pinhole's ray would hit the
+/// plane of focus; a point in front of or behind that plane is spread over a disk, the circle of confusion.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lens {
-    /// How wide the opening is.
+    /// The size of the aperture.
     pub aperture: Aperture,
-    /// From the eye to the plane in focus, along the direction in which the camera looks, in scene units.
+    /// The distance from the eye to the plane of focus, along the viewing axis, in scene units.
     pub focus_distance: f64,
-    /// The opening's straight edges, 3 to 64; 0 for a round one.
+    /// The number of straight edges of the aperture, 3 to 64; 0 for a round one.
     pub blades: u32,
-    /// How far the edges are turned, anticlockwise as seen from behind the camera; at 0° a corner points to the right.
+    /// The aperture's rotation, anticlockwise as seen from behind the camera; at 0° a corner points to the right.
     pub turn: Degrees,
 }
 
-/// How wide the opening of a lens is.
+/// The size of a lens's aperture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Aperture {
-    /// By its radius; where it has edges, the distance of its corners from the centre.
+    /// By its radius; if it has straight edges, the distance of their corners from the centre.
     Radius {
         /// In scene units, at least 0; 0 is a pinhole.
         radius: f64,
     },
-    /// As photographers do: the focal length over the opening's diameter, so that the radius is
+    /// By its f-number, the focal length over the aperture's diameter, so that the radius is
     /// `focal_length` / (2 `number`).
     ///
-    /// The focal length serves for this alone: the field of view is the camera's own.
+    /// The focal length serves for this alone: the field of view is that of the camera.
     FNumber {
         /// The f-number N of f/N, above 0.
         number: f64,

@@ -1,13 +1,13 @@
-//! How much memory there is, asked before much of it is taken: a process that is refused memory half way dies, and takes
-//! with it what it had.
+//! How much memory is available, checked before a large allocation: a process whose allocation fails half way through a
+//! render dies, and its work is lost.
 
 use std::fmt;
 use std::fs;
 
-/// Less than this is not asked about.
+/// Requests below this are not checked.
 const SMALL: u64 = 64 << 20;
 
-/// Memory that is needed and is not there.
+/// More memory is needed than there is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLittleMemory {
     /// Bytes that are needed.
@@ -17,7 +17,7 @@ pub struct TooLittleMemory {
 }
 
 impl TooLittleMemory {
-    /// The bytes that may be taken: the rest of the program, and whoever works beside it, need some too.
+    /// The bytes that may be taken: an eighth is left for the rest of the program and for other processes.
     pub fn usable(&self) -> u64 {
         self.free - self.free / 8
     }
@@ -29,9 +29,9 @@ impl fmt::Display for TooLittleMemory {
     }
 }
 
-/// Whether so many bytes can be had.
+/// Checks that this many bytes can be allocated.
 ///
-/// Errors: what is needed, and what there is.
+/// Errors: the bytes needed and the bytes free, if they do not suffice.
 pub fn check_memory(needed: u64) -> Result<(), TooLittleMemory> {
     if needed < SMALL {
         return Ok(());
@@ -44,8 +44,8 @@ fn within(needed: u64, free: u64) -> Result<(), TooLittleMemory> {
     if needed <= answer.usable() { Ok(()) } else { Err(answer) }
 }
 
-/// Bytes that this process can still have: what the machine has available, or what a limit on the process or on its
-/// control group leaves, whichever is least; none where the system says nothing.
+/// The bytes that this process can still allocate: what the machine has available, or what a limit on the process or on
+/// its control group leaves, whichever is least; `None` if the system does not say.
 fn free_memory() -> Option<u64> {
     [available(), address_space_left(), group_left()].into_iter().flatten().min()
 }
@@ -60,8 +60,8 @@ fn address_space_left() -> Option<u64> {
     Some(limit.saturating_sub(used))
 }
 
-/// What the control group at the root, which in a container is the container's, leaves; the page cache does not count,
-/// for it is given back when memory is asked for.
+/// What the limit of the root control group leaves, which in a container is the container's; the page cache does not
+/// count as used, since it is released on demand.
 fn group_left() -> Option<u64> {
     let number = |file: &str| fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?.trim().parse::<u64>().ok();
     let cached = |file: &str, name: &str| {
@@ -78,12 +78,12 @@ fn group_left() -> Option<u64> {
     Some(limit.saturating_sub(used.saturating_sub(cached)))
 }
 
-/// The number after a name at the beginning of a line.
+/// The number after a name at the start of a line.
 fn field(text: &str, name: &str) -> Option<u64> {
     text.lines().find_map(|line| line.strip_prefix(name))?.split_whitespace().next()?.parse().ok()
 }
 
-/// A number of bytes as a person would say it.
+/// A number of bytes in MiB or GiB.
 pub fn in_words(bytes: u64) -> String {
     let mebibytes = bytes as f64 / f64::from(1 << 20);
     if mebibytes < 1024.0 { format!("{mebibytes:.0} MiB") } else { format!("{:.1} GiB", mebibytes / 1024.0) }

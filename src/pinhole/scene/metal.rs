@@ -2,18 +2,18 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Rough metal: a surface of tiny mirrors, spread about its normal as GGX has it.
+/// A rough conductor: microfacets with a GGX (Trowbridge–Reitz) distribution of normals.
 ///
-/// A larger roughness blurs more; light that would meet a second tiny mirror is lost, unless it is followed.
+/// A larger roughness blurs more; light that would hit a second microfacet is lost unless `multiple_scattering` is set.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Metal {
-    /// The share of the light that each tiny mirror sends on, the same at all angles, linear Rec. 709, each part from 0
-    /// to 1.
+    /// The reflectance of each microfacet, the same at all angles, linear Rec. 709, each component from 0 to 1.
     pub colour: Rgb,
-    /// GGX's α, from 0 to 1; below 0.001 it is a perfect mirror.
+    /// GGX's α, from 0 to 1; below 0.001 the surface is a perfect mirror.
     pub roughness: f64,
-    /// Whether light that meets several tiny mirrors comes out too; else rough metal is too dark, at α = 1 by up to 69 %.
+    /// Whether light scattered by several microfacets is included; if not, rough metal is too dark, at α = 1 by up to
+    /// 69 %.
     pub multiple_scattering: bool,
 }
 

@@ -2,11 +2,11 @@ use super::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A perfect mirror: all light leaves at the angle at which it came, on the other side of the normal.
+/// A perfect mirror: a specular reflector, whose BRDF is a delta distribution about the mirrored direction.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Mirror {
-    /// The share of the light that is sent on, the same at all angles, linear Rec. 709, each part from 0 to 1.
+    /// Its reflectance, the same at all angles, linear Rec. 709, each component from 0 to 1.
     pub colour: Rgb,
 }
 

@@ -1,8 +1,8 @@
-//! What an author writes: plain components, in f64, with defaults in place.
+//! The description of a scene: plain components in f64, every field with a default.
 //!
 //! Nothing here computes a picture.
-//! A scene is a `bevy_ecs` world of these components; `plan` reads which of them there are, and `extract` turns
-//! them into the tables that the stages read.
+//! A scene is a `bevy_ecs` world of these components; `plan` looks at which of them exist, and `extract` turns them
+//! into the tables that the stages read.
 //!
 //! Spaces: right-handed, y up; a camera looks down its own −z with +x to the right of the image.
 //! Units: lengths in scene units, angles in [`Degrees`], colours in linear Rec. 709.

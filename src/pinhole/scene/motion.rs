@@ -2,15 +2,15 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// On the camera: from when to when it gathers light.
+/// On the camera: the interval of time during which it gathers light.
 ///
-/// Everything stands where its placement says at time 0; what has a [`Motion`] is elsewhere at other times.
+/// Every entity is where its placement says at time 0; one with a [`Motion`] is elsewhere at other times.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Shutter {
     /// When it opens, in units of time.
     pub open: f64,
-    /// When it closes, not before it opens; at the same time, the picture shows one moment.
+    /// When it closes, not before it opens; if both are equal, the picture shows one instant.
     pub close: f64,
 }
 
@@ -20,10 +20,10 @@ impl Default for Shutter {
     }
 }
 
-/// On a sphere, a disk, a rectangle, the camera, or a group of them: it moves in a straight line.
+/// On a sphere, a disk, a rectangle, the camera, or a group of them: motion at constant velocity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
-    /// Along the world's axes, in scene units per unit of time, however its parents are turned; theirs is added.
+    /// In world space, in scene units per unit of time, however the parents are rotated; their velocities are added.
     pub velocity: DVec3,
 }

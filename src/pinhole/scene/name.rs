@@ -1,12 +1,12 @@
 use super::printable;
 use bevy_ecs::prelude::*;
 
-/// The most letters of a name that a message shows.
+/// The longest name that a message shows whole, in characters.
 const LONGEST: usize = 100;
 /// The most entities that a message names.
 const MOST: usize = 4;
 
-/// How a message calls an entity: its name in quotes, or its number where it has none.
+/// How a message refers to an entity: its name in quotes, or its number if it has none.
 pub fn called(world: &World, entity: Entity) -> String {
     match world.get::<Name>(entity) {
         Some(name) => format!("\"{}\"", printable(name, LONGEST)),
@@ -14,7 +14,7 @@ pub fn called(world: &World, entity: Entity) -> String {
     }
 }
 
-/// How a message calls several entities: the first few, and how many more there are.
+/// How a message refers to several entities: the first few, and how many more there are.
 pub fn some_of(world: &World, entities: &[Entity], between: &str) -> String {
     let names: Vec<String> = entities.iter().take(MOST).map(|&entity| called(world, entity)).collect();
     match entities.len().checked_sub(MOST) {

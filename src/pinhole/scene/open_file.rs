@@ -1,7 +1,7 @@
-//! The one door through which files are opened for reading.
+//! The only place where files are opened for reading.
 //!
-//! A name in a scene may lead to anything: a pipe that nobody writes to, a device without an end, a folder.
-//! So nothing here waits, nothing but a regular file is read, and no more of it than its kind may have.
+//! A name in a scene may lead to anything: a pipe that nobody writes to, a device that never ends, a folder.
+//! Therefore nothing here blocks, only regular files are read, and no more bytes of them than their kind allows.
 
 use super::printable_path;
 use std::fmt;
@@ -9,12 +9,12 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// A kind of file, for messages, and how long one may be.
+/// A kind of file: its name in messages, and its largest size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileKind {
     /// With its article, such as `a texture`.
     pub name: &'static str,
-    /// The most bytes.
+    /// The largest number of bytes.
     pub most: u64,
 }
 
@@ -23,7 +23,7 @@ pub struct FileKind {
 pub struct OpenFile {
     /// The file.
     pub file: File,
-    /// What the system knows about it.
+    /// Its metadata when it was opened.
     pub metadata: Metadata,
     kind: FileKind,
     shown: String,
@@ -32,24 +32,24 @@ pub struct OpenFile {
 /// Why a file was not opened or read.
 #[derive(Debug)]
 pub enum Unopened {
-    /// There is none of that name.
+    /// There is no file of that name.
     Missing,
     /// It is a folder.
     Folder,
     /// It is a pipe, a device or a socket.
     NotRegular,
-    /// It has so many bytes.
+    /// It is too long; its number of bytes.
     TooLong(u64),
-    /// What the system said.
+    /// Another error of the operating system.
     System(io::Error),
 }
 
-/// The same, as a part of one sentence that names the file.
+/// Why which file was not opened or read; displayed as a clause that names the file.
 #[derive(Debug)]
 pub struct FileError {
     /// The file as messages show it.
     pub shown: String,
-    /// What it was to be.
+    /// The kind of file expected.
     pub kind: FileKind,
     /// Why it was not read.
     pub why: Unopened,
@@ -76,9 +76,10 @@ impl From<io::Error> for Unopened {
     }
 }
 
-/// Opens a regular file for reading, without waiting for anything.
+/// Opens a regular file for reading, without blocking.
 ///
-/// Errors: there is none, it is of another kind, it is longer than its kind may be, or what the system said.
+/// Errors: it is missing, not a regular file, longer than its kind allows, or the operating system reports another
+/// error.
 pub fn open_file(path: &Path, kind: FileKind) -> Result<OpenFile, FileError> {
     let shown = printable_path(path);
     match open(path, kind) {
@@ -95,7 +96,7 @@ pub fn read_file(path: &Path, kind: FileKind) -> Result<Vec<u8>, FileError> {
 }
 
 fn open(path: &Path, kind: FileKind) -> Result<(File, Metadata), Unopened> {
-    // Opening a device can have effects of its own, so look first; the name may since mean another file, so look again.
+    // Opening a device can have side effects, so check first; the name may mean another file by then, so check again.
     check_kind(&fs::metadata(path)?, kind)?;
     let mut options = OpenOptions::new();
     options.read(true);
@@ -117,7 +118,7 @@ fn check_kind(metadata: &Metadata, kind: FileKind) -> Result<(), Unopened> {
 }
 
 impl OpenFile {
-    /// Its bytes, which may have become more since it was opened, but not more than its kind may have.
+    /// Its bytes; it may have grown since it was opened, but not beyond what its kind allows.
     ///
     /// Errors: as [`open_file`].
     pub fn bytes(self) -> Result<Vec<u8>, FileError> {
@@ -146,13 +147,13 @@ mod tests {
         fs::write(path("short"), b"12345678").expect("written");
         fs::write(path("long"), b"123456789").expect("written");
         assert_eq!(read_file(&path("short"), NOTE).expect("read"), b"12345678");
-        let told = |path: &Path| read_file(path, NOTE).expect_err("refused").to_string();
-        assert!(told(&path("long")).ends_with("long has 9 bytes, but a note has at most 8"));
-        assert!(told(&path("none")).starts_with("there is no file "));
-        assert!(told(folder.path()).ends_with("is a folder, but a note is a file"));
+        let message = |path: &Path| read_file(path, NOTE).expect_err("refused").to_string();
+        assert!(message(&path("long")).ends_with("long has 9 bytes, but a note has at most 8"));
+        assert!(message(&path("none")).starts_with("there is no file "));
+        assert!(message(folder.path()).ends_with("is a folder, but a note is a file"));
     }
 
-    /// A pipe that nobody writes to and a device without an end: both are refused at once.
+    /// A pipe that nobody writes to and a device that never ends: both are refused at once.
     #[cfg(unix)]
     #[test]
     fn pipes_and_devices_are_refused_without_waiting() {

@@ -3,7 +3,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// An endless plane through the entity's position.
+/// An infinite plane through the entity's position.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]

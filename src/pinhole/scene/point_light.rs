@@ -2,16 +2,16 @@ use super::{Placement, Rgb};
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A light without size at the entity's position, equally bright in all directions.
+/// A point light at the entity's position, which emits equally in all directions.
 ///
-/// A surface at distance d that faces it receives intensity / d².
+/// The irradiance on a surface that faces it at distance d is intensity / d².
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct PointLight {
-    /// Radiant intensity, linear Rec. 709, each part finite and at least 0.
+    /// Radiant intensity, linear Rec. 709, each component finite and at least 0.
     pub intensity: Rgb,
-    /// Whether things in between keep its light away; without, no shadow ray is made for this light.
+    /// Whether objects cast shadows in its light; if not, no shadow rays are traced for it.
     pub casts_shadows: bool,
 }
 

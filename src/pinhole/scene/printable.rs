@@ -1,15 +1,15 @@
 use std::path::Path;
 
-/// The most letters of a path that a message shows.
+/// The longest path that a message shows whole, in characters.
 const LONGEST_PATH: usize = 160;
 
-/// The most letters of a message.
+/// The longest message, in characters.
 const LONGEST_MESSAGE: usize = 2000;
 
-/// Text from a file or a command line as a message may show it: on one line, with nothing that a terminal would obey or
-/// that changes how other letters are shown, and at most so many letters of it, the middle of a longer one left out.
+/// Text from a file or a command line, made safe for a message: on one line, with control characters and invisible
+/// characters escaped, and shortened in the middle to at most `most` characters.
 pub fn printable(text: &str, most: usize) -> String {
-    // A letter has four bytes at most, so that a long text need not be counted to its end.
+    // No text has more characters than bytes, so a short one need not be counted, nor a long one to its end.
     let is_long = text.len() > most && text.chars().nth(most).is_some();
     if !is_long {
         return escaped(text.chars());
@@ -25,7 +25,7 @@ pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy(), LONGEST_PATH)
 }
 
-/// The last thing that a program says of an error, whatever went into it.
+/// An error as the program's last message may show it.
 pub fn printable_message(error: &impl std::fmt::Display) -> String {
     printable(&error.to_string(), LONGEST_MESSAGE)
 }
@@ -42,7 +42,8 @@ fn escaped(letters: impl Iterator<Item = char>) -> String {
     line
 }
 
-/// Letters that are not seen and change how others are shown: the controls of direction, line ends, joints and tags.
+/// Characters that are not visible themselves and change how others are shown: direction controls, line separators,
+/// joiners and tags.
 pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,

@@ -2,16 +2,16 @@ use super::Placement;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A flat piece with four corners, in the entity's xz plane, the entity's position at its middle, seen from both sides.
+/// A rectangle centred on the entity's position, in the entity's xz plane, visible from both sides.
 ///
-/// Parents that scale unevenly may make it a parallelogram.
+/// Under a parent with non-uniform scale it may become a parallelogram.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct Rectangle {
-    /// How far it reaches along the entity's x axis, edge to edge; scene units, above 0.
+    /// Its extent along the entity's x axis, edge to edge; scene units, above 0.
     pub width: f64,
-    /// How far it reaches along the entity's z axis, edge to edge; scene units, above 0.
+    /// Its extent along the entity's z axis, edge to edge; scene units, above 0.
     pub depth: f64,
 }
 

@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Component, Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct View {
-    /// The column's word, such as `ndc`.
+    /// The column's name, such as `ndc`.
     pub column: String,
 }
 
-/// On the camera: count every stage's rows and take its time.
+/// On the camera: count the rows that every stage processes, and measure its time.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics;
 
-/// A pixel whose way to light someone wants to follow.
+/// A pixel to be traced: every column of its row is recorded, stage by stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TracePixel {
-    /// Columns from the left, from 0.
+    /// The pixel's column, from 0 at the left.
     pub x: u32,
-    /// Rows from the top, from 0.
+    /// The pixel's row, from 0 at the top.
     pub y: u32,
 }

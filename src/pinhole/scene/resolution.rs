@@ -1,7 +1,7 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// How many pixels a camera's image has; everything else about its shape follows from this.
+/// The number of pixels of a camera's image, from which its aspect ratio follows.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Resolution {

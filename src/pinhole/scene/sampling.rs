@@ -2,19 +2,19 @@ use super::Filter;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// On the camera: how many rays look through each pixel, and where in it.
+/// On the camera: how many samples each pixel gets, and where in the pixel they lie.
 ///
-/// A camera without it sends one ray through each pixel's centre.
+/// A camera without it traces one ray through each pixel's centre.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sampling {
-    /// Samples a pixel, from 1 to 16777216.
+    /// Samples per pixel, from 1 to 16777216.
     pub samples: u32,
-    /// Another seed, other random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// Where the random numbers come from.
+    /// Which sampler the random numbers come from.
     pub sampler: Sampler,
-    /// What a sample counts for, by its distance from the pixel's centre.
+    /// The reconstruction filter.
     pub filter: Filter,
 }
 
@@ -24,20 +24,20 @@ impl Default for Sampling {
     }
 }
 
-/// Where the random numbers of samples come from.
+/// A source of sample points in the unit hypercube, as in PBRT.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sampler {
-    /// Each number by itself.
+    /// Independent uniform random numbers.
     Independent,
-    /// One in each cell of a grid, at random within it.
+    /// Stratified: one jittered point in each cell of a grid.
     Stratified,
-    /// Points of the Sobol sequence, scrambled: evenly spread at any number of samples.
+    /// The Sobol sequence with Owen scrambling: well distributed at any number of samples.
     #[default]
     Sobol,
 }
 
 impl Sampler {
-    /// All, with the words of the command line.
+    /// All samplers, each with its word on the command line.
     pub const ALL: [(&str, Self); 3] =
         [("sobol", Self::Sobol), ("stratified", Self::Stratified), ("independent", Self::Independent)];
 }

@@ -1,20 +1,21 @@
 use std::fmt;
 
-/// Why a scene cannot be rendered: one sentence with the entity, the field, the value and what would be accepted.
+/// Why a scene cannot be rendered; displayed as one sentence with the entity, the field, the value and what is
+/// accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
-    /// What it is and how it is called, such as `camera "main"`.
+    /// The kind and name of the entity, such as `camera "main"`.
     pub entity: String,
-    /// The component's field, or the component.
+    /// The component's field, or the component itself.
     pub field: &'static str,
-    /// The value found, as the author wrote it.
+    /// The offending value, as the author wrote it.
     pub value: String,
     /// What would be accepted.
     pub accepted: String,
 }
 
 impl SceneError {
-    /// A refusal from its four parts.
+    /// An error from its four parts.
     pub fn new(
         entity: impl Into<String>,
         field: &'static str,

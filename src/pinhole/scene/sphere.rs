@@ -2,7 +2,7 @@ use super::Placement;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A sphere about the entity's position; an ellipsoid where its placement scales it unevenly.
+/// A sphere centred on the entity's position; a non-uniform scale turns it into an ellipsoid.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]

@@ -3,23 +3,23 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// On a material: two colours in turn along one direction, in place of the material's own colour.
+/// On a material: stripes of two colours, alternating along one direction, in place of the material's own colour.
 ///
-/// By uv the first stripe begins at (0, 0); by space it has its middle at the shape's origin.
+/// In uv the first stripe begins at (0, 0); in space it is centred on the shape's origin.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Stripes {
-    /// The one colour: the share of the light that is sent on, linear Rec. 709, each part from 0 to 1.
+    /// The first colour: an albedo, linear Rec. 709, each component from 0 to 1.
     pub first: Rgb,
-    /// The other.
+    /// The second colour.
     pub second: Rgb,
     /// The width of a stripe, in units of uv or of the shape's space, above 0.
     pub size: f64,
-    /// Across the stripes, of any length but 0; by uv only its x and y count, along u and v.
+    /// The direction across the stripes, of any length but 0; in uv only its x and y count, along u and v.
     pub across: DVec3,
-    /// What they are laid along.
+    /// The coordinates that they are evaluated at.
     pub by: TextureBy,
-    /// Whether a pixel gets the mean of what it covers; without, the colour at one point.
+    /// Whether the texture is box-filtered over the pixel's footprint; if not, it is evaluated at one point.
     pub filter: bool,
 }
 

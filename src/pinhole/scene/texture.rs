@@ -1,22 +1,21 @@
 use serde::{Deserialize, Serialize};
 
-/// What a texture's pattern is laid along.
+/// The coordinates at which a texture is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TextureBy {
-    /// The shape's own two coordinates u and v: the pattern bends with the surface.
+    /// The surface's own parameters u and v: the pattern follows the surface.
     Uv,
-    /// The shape's own space, before its placement: the shape is carved out of the pattern and takes it along wherever it
-    /// is moved, turned and scaled.
+    /// Object space (a solid texture): the shape is carved out of the pattern, which moves, rotates and scales with it.
     #[default]
     Space,
 }
 
-/// What there is beyond an image's edges.
+/// How an image texture continues beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Wrap {
-    /// The image again.
+    /// The image is repeated.
     #[default]
     Repeat,
-    /// The texel at the edge.
+    /// The texels at the edge are extended.
     Clamp,
 }

@@ -3,22 +3,22 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A flat piece between three corners.
+/// A triangle.
 ///
-/// It has two sides and no inside; a ray on an edge counts as meeting it.
+/// It has two sides and no inside; a ray through an edge counts as a hit.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[require(Placement)]
 pub struct Triangle {
-    /// The corners, in the entity's space, in scene units; not on one line.
+    /// The vertices, in the entity's space, in scene units; not collinear.
     pub vertices: [DVec3; 3],
-    /// A normal a corner, in the entity's space, for light that falls as on a bent surface; any length but 0, all on one
-    /// side of the triangle.
+    /// Vertex normals in the entity's space, from which shading normals are interpolated; of any length but 0, all on
+    /// one side of the triangle.
     ///
-    /// Without them light falls as the triangle lies.
+    /// Without them the shading normal is the geometric normal.
     #[serde(with = "given", skip_serializing_if = "Option::is_none")]
     pub normals: Option<[DVec3; 3]>,
-    /// Texture coordinates a corner; without them (0, 0), (1, 0) and (0, 1).
+    /// Texture coordinates of the vertices; without them (0, 0), (1, 0) and (0, 1).
     #[serde(with = "given", skip_serializing_if = "Option::is_none")]
     pub uvs: Option<[DVec2; 3]>,
 }
@@ -29,11 +29,11 @@ impl Default for Triangle {
     }
 }
 
-/// A field that is either not there or there as it is, without a word around it.
+/// An optional field that is either absent or written as its bare value, without `Some`.
 mod given {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    /// What is not there is skipped before it comes here.
+    /// Never called with `None`, which the field's `skip_serializing_if` leaves out.
     pub fn serialize<T: Serialize, S: Serializer>(value: &Option<T>, serializer: S) -> Result<S::Ok, S::Error> {
         match value {
             Some(value) => value.serialize(serializer),

@@ -4,7 +4,7 @@ use crate::extract::{
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
-    NO_SHAPE, RayBlockMut, RayColumn, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+    NO_SHAPE, RayColumn, RaySlices, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
 use crate::plan::{Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
@@ -85,8 +85,8 @@ impl LightRays {
 }
 
 impl RayColumn for LightRays {
-    fn ray_components(&self) -> RayBlockMut<'_> {
-        RayBlockMut { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
+    fn ray_components(&self) -> RaySlices<'_> {
+        RaySlices { origin: [&self.ox, &self.oy, &self.oz], direction: [&self.dx, &self.dy, &self.dz] }
     }
 
     fn path_component(&self) -> Option<&[u32]> {

@@ -125,7 +125,7 @@ fn check_constant(range: Range<u64>) -> Tally {
     let cells = FilterCells::of(Filter::MITCHELL);
     let whole = {
         // The filter's area over that of its absolute value, along both axes.
-        let negative: f64 = cells.cells.iter().filter(|cell| cell.negative).map(|cell| 1.0 / cell.share).sum();
+        let negative: f64 = cells.cells.iter().filter(|cell| cell.negative).map(|cell| 1.0 / cell.per_area).sum();
         (1.0 - 2.0 * negative) * (1.0 - 2.0 * negative)
     };
     let mut tally = Tally::new(CONSTANT.len());

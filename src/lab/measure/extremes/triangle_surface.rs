@@ -13,7 +13,7 @@ use crate::naive::shadow::{start_after_constant, start_at_hit, start_off_surface
 use crate::naive::triangle::normal_by_winding;
 use glam::DVec3;
 use pinhole::extract::TriangleRow;
-use pinhole::intersect::{Meeting, Surface, shading_normal};
+use pinhole::intersect::{Surface, TriangleHit, shading_normal};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -130,13 +130,13 @@ fn check_barycentrics(range: Range<u64>) -> Tally {
         tally.count(truth.is_some());
         let Some(truth) = truth else { continue };
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-        let meeting = Meeting::of(origin, direction, &triangle);
+        let triangle_hit = TriangleHit::of(origin, direction, &triangle);
         let off =
             |barycentrics: [f64; 3]| barycentrics.iter().zip(truth).map(|(a, b)| (a - b).abs() / U).fold(0.0, f64::max);
-        tally.scores[0].measure(off(meeting.weights));
+        tally.scores[0].measure(off(triangle_hit.weights));
         let mut draws = Draws::new(252, index);
         let normals = [(); 3].map(|()| (DVec3::Z + draws.unit_vector() * 0.99).normalize());
-        tally.scores[1].measure((shading_normal(&normals, &meeting).length() - 1.0).abs() / U);
+        tally.scores[1].measure((shading_normal(&normals, &triangle_hit).length() - 1.0).abs() / U);
         tally.scores[2].measure(off(by_areas(origin + t * direction, &triangle)));
     }
     tally

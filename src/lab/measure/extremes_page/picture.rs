@@ -1,4 +1,5 @@
-use pinhole::film::{Curve, Film, FilmTile, png_bytes, png_url};
+use crate::png_url;
+use pinhole::film::{Curve, Film, FilmTile, png_bytes};
 use pinhole::rays::Tile;
 use std::io;
 

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{ShapeTable, TriangleTable};
-use pinhole::intersect::{Hits, Meeting, ShadingNormals, Surfaces, TriangleRows};
+use pinhole::intersect::{Hits, ShadingNormals, Surfaces, TriangleHit, TriangleRows};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 
@@ -34,10 +34,10 @@ pub fn next_corner(
         for &row in &list.row {
             let row = row as usize;
             let triangle = &triangles.facet[shapes.row[hits.shape[row] as usize] as usize];
-            let mut meeting = Meeting::of(rays.origin_of(row), rays.direction_of(row), triangle);
-            meeting.weights.rotate_left(1);
+            let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), triangle);
+            triangle_hit.weights.rotate_left(1);
             let mut surface = surfaces.get(row);
-            surface.position = meeting.mix(&triangle.corners).as_vec3();
+            surface.position = triangle_hit.interpolate(&triangle.corners).as_vec3();
             surfaces.set(row, surface);
         }
     }

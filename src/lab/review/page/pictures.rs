@@ -1,6 +1,6 @@
+use crate::png_url;
 use crate::review::{Difference, Place, Snapshots, picture_contrast};
 use pinhole::Result;
-use pinhole::film::png_url;
 use std::fmt::Write;
 
 /// Before, now and their difference: side by side, swiped, blended, toggled, enlarged with square pixels.

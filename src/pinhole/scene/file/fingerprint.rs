@@ -9,12 +9,12 @@ use std::any::TypeId;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-/// All that a picture of this scene can depend on, as text: the same for the same scene, however often it is made.
+/// Everything that a picture of this scene can depend on, as text: equal for equal scenes.
 ///
-/// Entities are told by their place in the order of spawning, so that names need not tell them apart.
-/// An image that the scene names is told by what the file holds, too, unless the entity takes no part: its file has not been
-/// checked, and may be anything.
-/// Left out are statistics, and how many samples a camera takes: a render that is continued may take more.
+/// Entities are identified by their position in spawn order, since names need not be unique.
+/// An image file that the scene names enters with a hash of its contents, except on a disabled entity, whose file has
+/// not been checked and may be anything.
+/// Statistics are left out, and so is the number of samples: a render that is continued may take more.
 pub fn fingerprint(scene: &World) -> String {
     let mut entities: Vec<EntityRef<'_>> = scene
         .archetypes()
@@ -33,8 +33,8 @@ pub fn fingerprint(scene: &World) -> String {
         let parent = entity.get::<ChildOf>().map(|parent| place(parent.parent()));
         let material = entity.get::<UsesMaterial>().map(|used| place(used.0));
         text += &format!("{name:?} {parent:?} {material:?} {}", entity.contains::<Disabled>());
-        let told = |word: &&Word| ![TypeId::of::<Statistics>(), TypeId::of::<Sampling>()].contains(&(word.kind)());
-        for word in Word::all().iter().filter(told) {
+        let counts = |word: &&Word| ![TypeId::of::<Statistics>(), TypeId::of::<Sampling>()].contains(&(word.kind)());
+        for word in Word::all().iter().filter(counts) {
             if let Some(Ok(value)) = (word.write)(entity) {
                 text += &format!(" {}: {value}", word.word);
             }
@@ -50,7 +50,7 @@ pub fn fingerprint(scene: &World) -> String {
             text += &format!(" {held:?}");
         }
         if let Some(sampling) = entity.get::<Sampling>() {
-            // A stratified pixel's grid is made for its number of samples.
+            // The strata of a pixel depend on its number of samples.
             let samples = if sampling.sampler == Sampler::Stratified { sampling.samples } else { 0 };
             text += &format!(" {:?}", Sampling { samples, ..*sampling });
         }
@@ -59,10 +59,10 @@ pub fn fingerprint(scene: &World) -> String {
     text
 }
 
-/// The hash of nothing, with which [`fnv`] begins.
+/// The FNV-1a offset basis, the hash of no bytes, with which [`fnv`] begins.
 pub const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// The FNV-1a hash of what was hashed before and these bytes.
+/// Continues an FNV-1a hash with more bytes.
 pub fn fnv(hash: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(hash, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
@@ -90,9 +90,10 @@ mod tests {
         assert_ne!(with(b"one"), with(b"two"));
     }
 
-    /// What a disabled entity names was never checked: it may be a device without an end, or a pipe that nobody writes to.
+    /// The file of a disabled entity was never checked: it may be a device that never ends, or a pipe that nobody
+    /// writes to.
     #[test]
-    fn an_image_of_an_entity_that_takes_no_part_is_not_opened() {
+    fn the_image_of_a_disabled_entity_is_not_opened() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut scene = World::new();
         scene.insert_resource(SceneFolder(folder.path().into()));

@@ -1,11 +1,11 @@
-//! How messages show what stands in a file: short, on one line, and nothing that a terminal would obey.
+//! How messages quote a file: shortened, on one line, with control characters escaped.
 
 use crate::scene::printable;
 
-/// The most letters of a file that a message repeats.
+/// The longest quotation, in characters.
 const MOST_LETTERS: usize = 40;
 
-/// What stands at a place: a word, a number, a text in quotes, or one letter.
+/// The token at a byte offset: a word, a number, a quoted string, or a single character.
 pub fn found(text: &str, at: usize) -> String {
     let rest = text.get(at..).unwrap_or("");
     let Some(first) = rest.chars().next() else { return "the end of the file".into() };
@@ -20,8 +20,8 @@ pub fn found(text: &str, at: usize) -> String {
     format!("`{}`", shown(rest.get(..length).unwrap_or(rest)))
 }
 
-/// A piece of a file on one line, its white space as single spaces, cut where it is long.
-pub fn shown(piece: &str) -> String {
-    let words: Vec<&str> = piece.split_whitespace().collect();
+/// A part of a file on one line, with its white space collapsed, shortened if it is long.
+pub fn shown(part: &str) -> String {
+    let words: Vec<&str> = part.split_whitespace().collect();
     printable(&words.join(" "), MOST_LETTERS)
 }

@@ -1,11 +1,12 @@
-//! Scene files: the same components as text that a person reads and writes.
+//! Scene files: the components of a scene as text that people read and write.
 //!
-//! Reads and writes: RON, a list of entities, each a list of words with their values:
-//! `[(name: "ball", sphere: (radius: 0.8), placement: (position: (0.2, 0.8, -0.5)), matte: (colour: (0.9, 0.7, 0.3)))]`.
+//! The format is RON, a list of entities, each with its components and their values:
+//! `[(name: "ball", sphere: (radius: 0.8), placement: (position: (0.2, 0.8, -0.5)), matte: (colour: (0.9, 0.7,
+//! 0.3)))]`.
 //! The order of the list is the order in which entities are spawned.
-//! What is left out has its default, and every number comes back bit for bit.
+//! A field that is left out has its default, and every number survives a round trip bit for bit.
 //!
-//! [`words`] is the one list of what a file may hold.
+//! [`words`] lists every component that a file may hold.
 
 mod fingerprint;
 mod found;

@@ -1,24 +1,24 @@
 use std::cmp::Reverse;
 
-/// The most letters of a name that are compared: nobody types more of one by hand.
+/// How many characters of a name are compared: nobody types more by hand.
 const LETTERS: usize = 64;
-/// The most names that are compared.
+/// How many names are compared.
 const CANDIDATES: usize = 1000;
 
-/// The name that a mistyped one was likely meant to be; none where there are no names.
+/// The name most similar to a mistyped one; `None` if there are no names.
 ///
-/// The work is bounded whatever a file holds: long names are cut, and of many only those are looked at that begin most
-/// alike.
-pub fn nearest<'n>(names: impl Iterator<Item = &'n str>, asked: &str) -> Option<&'n str> {
-    let asked = cut(asked);
+/// The work is bounded whatever a file holds: long names are truncated, and of many names only those with the longest
+/// common prefix are compared.
+pub fn nearest<'n>(names: impl Iterator<Item = &'n str>, typed: &str) -> Option<&'n str> {
+    let typed = cut(typed);
     let mut names: Vec<&str> = names.collect();
     if names.len() > CANDIDATES {
-        let alike = |name: &str| asked.chars().zip(name.chars()).take_while(|(one, other)| one == other).count();
-        names.sort_by_cached_key(|name| (Reverse(alike(name)), cut(name).len().abs_diff(asked.len())));
+        let alike = |name: &str| typed.chars().zip(name.chars()).take_while(|(one, other)| one == other).count();
+        names.sort_by_cached_key(|name| (Reverse(alike(name)), cut(name).len().abs_diff(typed.len())));
         names.truncate(CANDIDATES);
     }
     names.sort_unstable();
-    names.into_iter().max_by_key(|name| (strsim::jaro_winkler(cut(name), asked) * 1e6) as u64)
+    names.into_iter().max_by_key(|name| (strsim::jaro_winkler(cut(name), typed) * 1e6) as u64)
 }
 
 fn cut(name: &str) -> &str {
@@ -42,9 +42,9 @@ mod tests {
     #[test]
     fn long_names_and_many_take_no_time() {
         let names: Vec<String> = (0..60_000).map(|number| format!("{}{number:05}", "n".repeat(90))).collect();
-        let asked = "n".repeat(8 << 20);
+        let typed = "n".repeat(8 << 20);
         let began = Instant::now();
-        assert!(nearest(names.iter().map(String::as_str), &asked).is_some());
+        assert!(nearest(names.iter().map(String::as_str), &typed).is_some());
         assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     }
 }

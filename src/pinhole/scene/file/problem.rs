@@ -2,28 +2,28 @@ use crate::scene::printable_path;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Where something stands in a text file.
+/// A position in a text file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlaceInFile {
     /// The line, from 1.
     pub line: usize,
-    /// The column in letters, from 1.
+    /// The column in characters, from 1.
     pub column: usize,
 }
 
-/// Why a scene file cannot be used, in one sentence that begins with file, line and column.
+/// Why a scene file cannot be used; displayed as one sentence that begins with file, line and column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileProblem {
-    /// The file as it was named.
+    /// The file's path as it was given.
     pub path: PathBuf,
-    /// Where, if the problem stands somewhere in it.
+    /// The position of the problem, if it has one.
     pub place: Option<PlaceInFile>,
-    /// What is wrong, and what would be accepted.
+    /// What is wrong, and what is accepted.
     pub what: String,
 }
 
 impl FileProblem {
-    /// A problem of the whole file.
+    /// A problem of the file as a whole.
     pub fn of(path: &Path, what: impl Into<String>) -> Self {
         Self { path: path.into(), place: None, what: what.into() }
     }

@@ -9,7 +9,7 @@ use crate::scene::printable;
 use ron::error::{Error, SpannedError};
 use std::ops::Range;
 
-/// The longest name, in letters: a message shows it whole.
+/// The longest name, in characters, so that a message can show every name whole.
 pub const LONGEST_NAME: usize = 100;
 
 const THREE_NUMBERS: &str = "three numbers in round brackets, such as (0.0, 1.0, 0.0)";
@@ -18,35 +18,35 @@ const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0
 
 const THREE_OF_THEM: &str = "three of them in round brackets, one a corner, each in brackets of its own";
 
-/// A word of an entity, and where it stands.
+/// A word of an entity, and its position.
 pub struct FilePart {
     /// The word.
     pub word: String,
-    /// Bytes before it.
+    /// Its byte offset.
     pub at: usize,
-    /// The bytes of its value.
+    /// The byte range of its value.
     pub value: Range<usize>,
 }
 
-/// An entity that was read.
+/// An entity as it was read.
 pub struct FileEntity {
-    /// Bytes before its opening bracket.
+    /// The byte offset of its opening bracket.
     pub at: usize,
     /// Its name.
     pub name: Option<String>,
-    /// The number of its parent in the file.
+    /// The index of its parent in the file.
     pub parent: Option<usize>,
-    /// The number of the entity whose material it uses.
+    /// The index of the entity whose material it uses.
     pub material: Option<usize>,
-    /// Whether it takes no part.
+    /// Whether it is excluded from the scene.
     pub disabled: bool,
-    /// Its components, each to be put onto an entity.
+    /// Its components, each a function that inserts it.
     pub components: Vec<Put>,
     /// Its words.
     pub parts: Vec<FilePart>,
 }
 
-/// Reads an entity's words; whom it refers to is found out later, by [`resolve`](super::refer::resolve).
+/// Reads an entity's words; its references are resolved later, by [`resolve`](super::refer::resolve).
 pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Mistake> {
     let mut read = FileEntity {
         at: entity.at,
@@ -69,11 +69,11 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Mi
         match (part.word, Word::find(part.word)) {
             (_, Some(word)) => {
                 let value = text.get(part.value.clone()).unwrap_or("");
-                let put = (word.read)(value).map_err(|error| value_slip(text, part, &who, &error))?;
+                let put = (word.read)(value).map_err(|error| value_mistake(text, part, &who, &error))?;
                 read.components.push(put);
             }
             ("name" | "parent" | "material", None) => {}
-            ("disabled", None) => read.disabled = read_simply(text, part, &who)?,
+            ("disabled", None) => read.disabled = read_value(text, part, &who)?,
             (unknown, None) => return Err(Mistake::new(part.at, unknown_word(unknown, &who))),
         }
         read.parts.push(FilePart { word: part.word.into(), at: part.at, value: part.value.clone() });
@@ -81,13 +81,13 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Mi
     Ok(read)
 }
 
-/// A name as a message calls it.
+/// A name as messages show it.
 pub fn quoted(name: &str) -> String {
     format!("\"{}\"", printable(name, LONGEST_NAME))
 }
 
 fn read_name(text: &str, part: &Part<'_>) -> Result<String, Mistake> {
-    let name: String = read_simply(text, part, "an entity")?;
+    let name: String = read_value(text, part, "an entity")?;
     if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
         let what = format!(
             "an entity's name is {}, but a name is one line of at most {LONGEST_NAME} letters",
@@ -98,10 +98,10 @@ fn read_name(text: &str, part: &Part<'_>) -> Result<String, Mistake> {
     Ok(name)
 }
 
-/// The value of a word that is no component.
-pub fn read_simply<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, who: &str) -> Result<V, Mistake> {
+/// The value of a word that is not a component.
+pub fn read_value<V: serde::de::DeserializeOwned>(text: &str, part: &Part<'_>, who: &str) -> Result<V, Mistake> {
     let value = text.get(part.value.clone()).unwrap_or("");
-    ron::from_str(value).map_err(|error| value_slip(text, part, who, &error))
+    ron::from_str(value).map_err(|error| value_mistake(text, part, who, &error))
 }
 
 fn unknown_word(unknown: &str, who: &str) -> String {
@@ -121,8 +121,8 @@ fn snake_case(word: &str) -> String {
     snake
 }
 
-/// What `ron` found wrong with a value, in the words of this kit.
-fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> Mistake {
+/// Translates an error of `ron` about a value into one of pinhole's messages.
+fn value_mistake(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> Mistake {
     let value = text.get(part.value.clone()).unwrap_or("");
     let stopped = part.value.start + byte_at(value, error.span.end.line, error.span.end.col);
     let fields = fields(text, part.value.clone());
@@ -184,16 +184,16 @@ fn value_slip(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -> M
     }
 }
 
-/// Where the token begins at which a reader stopped: it may stop before the white space that leads up to it.
+/// The start of the token at which the parser stopped, which may be before the white space in front of it.
 fn token_at(text: &str, value: &Range<usize>, stopped: usize) -> usize {
     let rest = text.get(stopped..value.end).unwrap_or("");
     let at = stopped + rest.len() - rest.trim_start().len();
     if at >= value.end { value.start } else { at.max(value.start) }
 }
 
-/// What `ron` waited for.
+/// What `ron` expected.
 fn expected(code: &Error, word: &str) -> String {
-    let example = || Word::find(word).and_then(|word| (word.of_nothing)()).unwrap_or_else(|| "(…)".into());
+    let example = || Word::find(word).and_then(|word| (word.of_default)()).unwrap_or_else(|| "(…)".into());
     match code {
         Error::ExpectedFloat => "a number".into(),
         Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number".into(),
@@ -205,7 +205,7 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedNamedStructLike("DVec2") => TWO_NUMBERS.into(),
         Error::ExpectedNamedStructLike("DQuat") => FOUR_NUMBERS.into(),
         Error::ExpectedDifferentLength { expected, .. } if expected.contains("of 4") => FOUR_NUMBERS.into(),
-        // A colour is an array of three too, of numbers.
+        // A colour is an array of three as well, but of numbers.
         Error::ExpectedDifferentLength { expected, .. } if word == "triangle" && expected.contains("array") => {
             THREE_OF_THEM.into()
         }

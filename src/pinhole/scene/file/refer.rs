@@ -1,16 +1,16 @@
-//! Names → the entities that are meant.
+//! Names → the entities that they refer to.
 
 use super::found::shown;
 use super::mistake::{Mistake, place_of};
 use super::nearest::nearest;
-use super::read::{FileEntity, FilePart, quoted, read_simply};
+use super::read::{FileEntity, FilePart, quoted, read_value};
 use super::scan::Part;
 use std::collections::HashMap;
 
-/// The most parents above one another.
+/// The greatest depth of the hierarchy.
 const MOST_PARENTS: usize = 64;
 
-/// Finds every parent and every material by name, and follows parents to the root.
+/// Looks up every parent and every material by name, and checks that the hierarchy has no cycle.
 pub fn resolve(text: &str, entities: &mut [FileEntity]) -> Result<(), Mistake> {
     let mut named: HashMap<String, Vec<usize>> = HashMap::new();
     for (number, entity) in entities.iter().enumerate() {
@@ -44,7 +44,7 @@ fn find(
     part: &FilePart,
 ) -> Result<usize, Mistake> {
     let who = who(&entities[number]);
-    let name: String = read_simply(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
+    let name: String = read_value(text, &Part { word: &part.word, at: part.at, value: part.value.clone() }, &who)?;
     let what = match named.get(&name).map_or([].as_slice(), |found| found) {
         [one] => return Ok(*one),
         [first, .., last] => {

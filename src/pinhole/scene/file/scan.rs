@@ -1,33 +1,33 @@
-//! The bones of a file: entities, their words, and where each value begins and ends.
+//! The structure of a file: entities, their words, and the byte range of each value.
 //!
-//! What is inside a value is left to `ron`; only its brackets are matched here, so that a place can be told for
-//! everything, in one pass over the text and without recursion.
+//! The contents of values are left to `ron`; only their brackets are matched here, in one pass over the text and
+//! without recursion, so that everything has a position to report.
 
 use super::found::{found, shown};
 use super::mistake::{Mistake, place_of};
 use std::ops::Range;
 
-/// The deepest brackets within a value; components need three.
+/// The deepest nesting of brackets within a value; components need three.
 const DEEPEST: usize = 16;
 
-/// The most entities of a file; each takes some hundreds of bytes, however few it has in the file.
+/// The largest number of entities; each takes some hundreds of bytes of memory, however short its text.
 const MOST_ENTITIES: usize = 1 << 20;
 
-/// A word, and the text that stands after its colon.
+/// A word, and the value after its colon.
 #[derive(Clone, Debug)]
 pub struct Part<'t> {
     /// The word.
     pub word: &'t str,
-    /// Bytes before the word.
+    /// The word's byte offset.
     pub at: usize,
-    /// The bytes of the value.
+    /// The byte range of the value.
     pub value: Range<usize>,
 }
 
-/// An entity as it stands in a file.
+/// The text of an entity.
 #[derive(Clone, Debug)]
 pub struct EntityText<'t> {
-    /// Bytes before its opening bracket.
+    /// The byte offset of its opening bracket.
     pub at: usize,
     /// Its words.
     pub parts: Vec<Part<'t>>,
@@ -75,12 +75,14 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Mistake> {
     }
 }
 
-/// The fields of a component's value: those of `(radius: 1.0)`; none where the value has another form.
+/// The fields of a component's value, such as `(radius: 1.0)`; empty if the value has another form.
 pub fn fields(text: &str, value: Range<usize>) -> Vec<Part<'_>> {
     check_fields(text, value).unwrap_or_default()
 }
 
-/// The same, or the first slip between the brackets.
+/// The fields of a component's value.
+///
+/// Errors: the first mistake between the brackets.
 pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Mistake> {
     let Some(inside) = text.get(..value.end) else { return Ok(Vec::new()) };
     let mut cursor = Cursor { text: inside, at: value.start };
@@ -89,7 +91,7 @@ pub fn check_fields(text: &str, value: Range<usize>) -> Result<Vec<Part<'_>>, Mi
     if cursor.take('(') { cursor.parts() } else { Ok(Vec::new()) }
 }
 
-/// A file that ends too early is told by where the entity that it cuts began.
+/// Reports a file that ends too early by the line on which the unfinished entity begins.
 fn unclosed(text: &str, began: usize, mistake: Mistake) -> Mistake {
     if mistake.at < text.len() || mistake.what.starts_with("the file ends here") {
         return mistake;
@@ -125,14 +127,14 @@ impl<'t> Cursor<'t> {
         self.at += rest.len() - rest.trim_start_matches(also).len();
     }
 
-    /// Skips up to and over `end`, or to the end of the file.
+    /// Skips past the next `end`, or to the end of the file.
     fn skip_over(&mut self, end: &str) -> bool {
         let found = self.rest().find(end);
         self.at = found.map_or(self.text.len(), |before| self.at + before + end.len());
         found.is_some()
     }
 
-    /// Skips white space and comments, as RON has them.
+    /// Skips white space and comments, as RON defines them.
     fn skip_space(&mut self) -> Result<(), Mistake> {
         loop {
             self.skip_while(is_space);
@@ -175,7 +177,7 @@ impl<'t> Cursor<'t> {
         &rest[..rest.len() - self.rest().len()]
     }
 
-    /// Words with their values, up to the bracket that closes them.
+    /// Words with their values, up to and including the closing bracket.
     fn parts(&mut self) -> Result<Vec<Part<'t>>, Mistake> {
         let mut parts = Vec::new();
         self.skip_space()?;
@@ -201,7 +203,7 @@ impl<'t> Cursor<'t> {
         Ok(parts)
     }
 
-    /// Passes over one value, up to the comma or the bracket that ends it.
+    /// Skips one value, up to the comma or bracket that ends it.
     fn value(&mut self) -> Result<Range<usize>, Mistake> {
         self.skip_space()?;
         let (start, mut end) = (self.at, self.at);
@@ -252,7 +254,7 @@ impl<'t> Cursor<'t> {
         self.at += 1;
     }
 
-    /// Passes over a text in quotes, in which `\` keeps the next letter from ending it.
+    /// Skips a string in double quotes, in which `\` escapes the next character.
     fn skip_text(&mut self, began: usize) -> Result<(), Mistake> {
         self.at += 1;
         loop {
@@ -268,7 +270,7 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Passes over `"…"#` after `r#`, with as many `#` as there are.
+    /// Skips the rest of a raw string such as `r#"…"#` after its `r`.
     fn skip_raw_text(&mut self, began: usize) -> Result<(), Mistake> {
         let before = self.at;
         self.skip_while(|letter| letter == '#');
@@ -279,7 +281,7 @@ impl<'t> Cursor<'t> {
         Ok(())
     }
 
-    /// Passes over a letter in single quotes.
+    /// Skips a character in single quotes.
     fn skip_letter(&mut self, began: usize) -> Result<(), Mistake> {
         self.at += 1;
         if self.take('\\') {
@@ -301,7 +303,7 @@ fn unclosed_text(text: &str, began: usize) -> Mistake {
     )
 }
 
-/// What RON takes for white space.
+/// Whether RON treats a character as white space.
 fn is_space(letter: char) -> bool {
     matches!(letter, '\t'..='\r' | ' ' | '\u{85}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
 }

@@ -7,22 +7,21 @@ use crate::scene::{ChildOf, Disabled, Name, SceneError, SceneFolder, UsesMateria
 use bevy_ecs::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Stands around the number of an entity that is called by it: Unicode keeps it for such uses, and messages show it as it
-/// is.
+/// Encloses the index of an entity that is named by it: a noncharacter of Unicode, which messages show unescaped.
 const MARK: char = '\u{fdd0}';
 
-/// A scene that was read from a file, and where in the file each part of it stands.
+/// A scene read from a file, with the position of each of its parts in the file.
 pub struct SceneFile {
-    /// The file as it was named.
+    /// The file's path as it was given.
     pub path: PathBuf,
     text: String,
     entities: Vec<FileEntity>,
 }
 
 impl SceneFile {
-    /// A scene from the text of a file.
+    /// Parses a scene from the text of a file.
     ///
-    /// Errors: the first slip in it, with line and column.
+    /// Errors: the first mistake in it, with line and column.
     pub fn parse(path: &Path, text: String) -> Result<Self, FileProblem> {
         let read = || -> Result<Vec<FileEntity>, Mistake> {
             let mut read = Vec::new();
@@ -41,46 +40,47 @@ impl SceneFile {
         }
     }
 
-    /// How many entities the file holds.
+    /// The number of entities in the file.
     pub fn len(&self) -> usize {
         self.entities.len()
     }
 
-    /// Whether the file holds no entity.
+    /// Whether the file has no entities.
     pub fn is_empty(&self) -> bool {
         self.entities.is_empty()
     }
 
-    /// The scene, its entities spawned in the order of the file.
+    /// The scene as a world, with its entities spawned in the order of the file.
     pub fn world(&self) -> World {
         self.world_of(|entity, _| entity.name.clone())
     }
 
-    /// Where the cause of a refusal stands: the value of the field that it names, or else the entity's beginning.
+    /// The position of what causes a scene error: the value of the field that it names, or else the start of the
+    /// entity.
     ///
-    /// `refuse` gets the scene with entities that are called by their number, so that two of one name, or of none, can
-    /// be told apart.
-    pub fn place_of(&self, refuse: impl FnOnce(&mut World) -> Option<SceneError>) -> Option<PlaceInFile> {
-        let scene_error = refuse(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
+    /// `check` is called with a scene whose entities are named by their index, so that entities of equal name, or of
+    /// none, can be distinguished.
+    pub fn place_of(&self, check: impl FnOnce(&mut World) -> Option<SceneError>) -> Option<PlaceInFile> {
+        let scene_error = check(&mut self.world_of(|_, number| Some(format!("{MARK}{number}{MARK}"))))?;
         let marked = |text: &str| text.rsplit(MARK).nth(1).and_then(|number| number.parse::<usize>().ok());
         let number = marked(&scene_error.entity).or_else(|| marked(&scene_error.value))?;
         let entity = self.entities.get(number)?;
         let kind = scene_error.entity.split(' ').next().unwrap_or("");
-        // A part of a field is named after it, as in `filter radius`.
+        // The name of a nested field begins with that of the outer one, as in `filter radius`.
         let outer = scene_error.field.split(' ').next().unwrap_or("");
         let at = self.field(entity, kind, scene_error.field).or_else(|| self.field(entity, kind, outer));
         let at = at.unwrap_or(entity.at);
         Some(place_of(&self.text, at))
     }
 
-    /// Where a file asks for a view.
+    /// The position of the first component with this word.
     pub fn place_of_word(&self, word: &str) -> Option<PlaceInFile> {
         let mut parts = self.entities.iter().flat_map(|entity| &entity.parts);
         parts.find(|part| part.word == word).map(|part| place_of(&self.text, part.at))
     }
 
-    /// The bytes before a field's value, or before the word that a component has: in the kind that a refusal names, or
-    /// else in any.
+    /// The byte offset of a field's value or of a component's word: in the component that the error names if it is
+    /// there, or else in any other.
     fn field(&self, entity: &FileEntity, kind: &str, field: &str) -> Option<usize> {
         let mut parts: Vec<_> = entity.parts.iter().collect();
         parts.sort_by_key(|part| !part.word.starts_with(kind));
@@ -114,7 +114,7 @@ impl SceneFile {
                 put.insert(Disabled);
             }
         }
-        // Last, so that entities keep the numbers that their order gives them.
+        // Inserted last, since it spawns an entity of its own and would shift the indices of the others.
         world.insert_resource(SceneFolder::of(&self.path));
         world
     }

@@ -12,9 +12,9 @@ use serde::de::DeserializeOwned;
 use std::any::TypeId;
 
 // ANCHOR: words
-/// Every component that a scene file may hold, and its word there; a new one joins with a line.
+/// Every component that a scene file may hold, with its word there; a new component adds one line.
 ///
-/// A file is written in this order.
+/// Files are written in this order.
 const WORDS: &[Word] = &[
     Word::of::<PerspectiveCamera>("perspective_camera"),
     Word::of::<OrthographicCamera>("orthographic_camera"),
@@ -58,42 +58,42 @@ const WORDS: &[Word] = &[
 ];
 // ANCHOR_END: words
 
-/// The words that are no component of their own type in a file: a name, and three ways to stand to other entities.
+/// The words that are not components of their own: a name, two references to other entities, and a flag.
 pub const RELATIONS: [&str; 4] = ["name", "parent", "material", "disabled"];
 
-/// The words of components, in the order in which a file is written.
+/// The words of all components, in the order in which files are written.
 pub fn words() -> impl Iterator<Item = &'static str> {
     WORDS.iter().map(|word| word.word)
 }
 
-/// Puts a component that was read onto an entity.
+/// Inserts a component that was read into an entity.
 pub type Put = Box<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
 
-/// A component and its word in files.
+/// A component and its word in scene files.
 pub struct Word {
-    /// Such as `point_light`.
+    /// The word, such as `point_light`.
     pub word: &'static str,
     /// The component's type.
     pub kind: fn() -> TypeId,
-    /// Reads the component from the text after the word's colon.
+    /// Parses the component from the text after the word's colon.
     pub read: fn(&str) -> Result<Put, SpannedError>,
-    /// The text after the colon, if the entity carries the component.
+    /// The text after the colon, if the entity has the component.
     pub write: fn(&EntityRef<'_>) -> Option<Result<String, ron::Error>>,
-    /// What `write` would say of a component that is read from `()`, if it can be.
-    pub of_nothing: fn() -> Option<String>,
+    /// The text that `write` makes of a component with all fields left out, if they may be.
+    pub of_default: fn() -> Option<String>,
 }
 
 impl Word {
     const fn of<C: Component + Clone + Serialize + DeserializeOwned>(word: &'static str) -> Self {
-        Self { word, kind: TypeId::of::<C>, read: read::<C>, write: write::<C>, of_nothing: of_nothing::<C> }
+        Self { word, kind: TypeId::of::<C>, read: read::<C>, write: write::<C>, of_default: of_default::<C> }
     }
 
-    /// The word as a file has it.
+    /// Finds a component by its word.
     pub fn find(word: &str) -> Option<&'static Self> {
         WORDS.iter().find(|own| own.word == word)
     }
 
-    /// All, in order.
+    /// All components, in order.
     pub fn all() -> &'static [Self] {
         WORDS
     }
@@ -110,7 +110,7 @@ fn write<C: Component + Serialize>(entity: &EntityRef<'_>) -> Option<Result<Stri
     entity.get::<C>().map(text_of)
 }
 
-fn of_nothing<C: Serialize + DeserializeOwned>() -> Option<String> {
+fn of_default<C: Serialize + DeserializeOwned>() -> Option<String> {
     let component: C = ron::from_str("()").ok()?;
     text_of(&component).ok()
 }

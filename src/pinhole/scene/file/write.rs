@@ -7,15 +7,15 @@ use bevy_ecs::resource::IsResource;
 use std::any::TypeId;
 use std::collections::{BTreeSet, HashMap};
 
-/// The longest line that holds an entity whole.
+/// The width up to which an entity is written on one line.
 const WIDTH: usize = 120;
 
-/// A scene as the text of a file, in spawn order, the same for the same scene.
+/// A scene as the text of a file, with entities in spawn order; equal scenes give equal text.
 ///
-/// A component that another on its entity brings along is left out where it is as it would come along.
+/// A component that another one on its entity requires is left out if it has its default value.
 ///
-/// Errors: an entity that a file cannot hold: a component without a word, a name that is no line of text, a parent or
-/// a material that has no name of its own.
+/// Errors: something that a file cannot express: a component without a word, a name that is not one line of text, or a
+/// parent or material without a unique name.
 pub fn scene_text(scene: &World) -> Result<String, SceneError> {
     let mut entities: Vec<EntityRef<'_>> = scene
         .archetypes()
@@ -74,7 +74,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
         let Some(text) = (word.write)(entity) else { continue };
         let text = text.map_err(|error| unwritable(&who, word.word, &error))?;
         let comes_along = scene.components().get_id((word.kind)()).is_some_and(|id| brought.contains(&id));
-        if !(comes_along && (word.of_nothing)().as_ref() == Some(&text)) {
+        if !(comes_along && (word.of_default)().as_ref() == Some(&text)) {
             parts.push(format!("{}: {text}", word.word));
         }
     }
@@ -84,7 +84,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
     Ok(parts)
 }
 
-/// Components without a word would be lost.
+/// Checks that every component has a word, since it would be lost otherwise.
 fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<(), SceneError> {
     let relations = [
         TypeId::of::<Name>(),
@@ -107,7 +107,7 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
     Ok(())
 }
 
-/// The components that others on the entity require.
+/// The components that others on the entity require, in the sense of `#[require]`.
 fn brought_along(scene: &World, entity: &EntityRef<'_>) -> BTreeSet<ComponentId> {
     let infos = entity.archetype().components().iter().filter_map(|&id| scene.components().get_info(id));
     infos.flat_map(|info| info.required_components().iter_ids()).collect()

@@ -27,7 +27,7 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
     let (position, normal, size) = match emitter {
         Emitter::Sphere { centre, radius } => {
             let normal = sphere_direction(u);
-            (*centre + *radius * normal, normal, sum_of_parts(*centre) + radius)
+            (*centre + *radius * normal, normal, l1_norm(*centre) + radius)
         }
         Emitter::Rectangle(planar) => {
             (planar_point(planar, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), planar.normal, reach(planar))
@@ -39,7 +39,7 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
         Emitter::Triangle { corners: [a, b, c], normal } => {
             let root = u[0].sqrt();
             let at = *a * (1.0 - root) + *b * (root * (1.0 - u[1])) + *c * (root * u[1]);
-            (at, *normal, [a, b, c].into_iter().map(|corner| sum_of_parts(*corner)).fold(0.0, f64::max))
+            (at, *normal, [a, b, c].into_iter().map(|corner| l1_norm(*corner)).fold(0.0, f64::max))
         }
         Emitter::Cuboid(cuboid) => {
             let area =
@@ -58,7 +58,7 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
             let along = [2.0 * (left / areas[axis]).min(1.0) - 1.0, 2.0 * u[1] - 1.0];
             let edges = [cuboid.half_edges[(axis + 1) % 3], cuboid.half_edges[(axis + 2) % 3]];
             let at = cuboid.centre + sign * cuboid.half_edges[axis] + along[0] * edges[0] + along[1] * edges[1];
-            let size = sum_of_parts(cuboid.centre) + cuboid.half_edges.map(sum_of_parts).iter().sum::<f64>();
+            let size = l1_norm(cuboid.centre) + cuboid.half_edges.map(l1_norm).iter().sum::<f64>();
             (at, sign * cuboid.normals[axis], size)
         }
     };
@@ -77,10 +77,10 @@ fn planar_point(planar: &Parallelogram, [x, y]: [f64; 2]) -> DVec3 {
 }
 
 fn reach(planar: &Parallelogram) -> f64 {
-    sum_of_parts(planar.centre) + sum_of_parts(planar.half_edges[0]) + sum_of_parts(planar.half_edges[1])
+    l1_norm(planar.centre) + l1_norm(planar.half_edges[0]) + l1_norm(planar.half_edges[1])
 }
 
-fn sum_of_parts(v: DVec3) -> f64 {
+fn l1_norm(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
@@ -111,7 +111,7 @@ fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
     let to = target.centre - from;
     let dd = to.length_squared();
     let distance = dd.sqrt();
-    let radius = target.radius + (sum_of_parts(from) + distance) * OF_PLACE;
+    let radius = target.radius + (l1_norm(from) + distance) * OF_PLACE;
     if distance <= radius { (DVec3::Z, 2.0) } else { (to / distance, cone_versine(radius * radius / dd)) }
 }
 

@@ -1,0 +1,19 @@
+use super::evidence::shape_evidence;
+use super::{Hits, NO_SHAPE};
+use crate::plan::{Column, Stage, TileSystems};
+use crate::rays::WorldRays;
+use bevy_ecs::prelude::*;
+
+/// Sets every row of a tile's hits to a miss.
+pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits)>) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.slices_mut(rays.rows());
+        t.fill(f64::INFINITY);
+        shape.fill(NO_SHAPE);
+    }
+}
+
+/// The stage that runs this system.
+pub fn start_stage() -> Stage {
+    Stage::new("Clear hits", TileSystems::Start, start_hits).reads::<WorldRays>().writes::<Hits>().when(shape_evidence)
+}
