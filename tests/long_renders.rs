@@ -28,11 +28,7 @@ use std::time::{Duration, Instant};
 
 /// Every stage, and those that every chapter has.
 pub fn offer() -> Vec<pinhole::plan::Stage> {
-    pinhole::Chapter::new("all", "all", |_| ())
-        .offer(pinhole::rays::stages())
-        .offer(pinhole::intersect::stages())
-        .offer(pinhole::shade::stages())
-        .stages()
+    pinhole::Chapter::new("all", "all", |_| ()).offer(crate::scenes::offer_of_direct_light()).stages()
 }
 
 /// A scene whose camera takes samples, and whatever else is put on it.

@@ -22,6 +22,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "film",
             "render",
             "look",
+            "stages",
             "chapter",
             "example",
             "prelude",

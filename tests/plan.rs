@@ -2,6 +2,8 @@
 
 use crate::scenes;
 
+#[path = "plan/declared.rs"]
+mod declared;
 #[path = "plan/followed.rs"]
 mod followed;
 #[path = "plan/forced.rs"]
@@ -11,11 +13,8 @@ mod textures;
 #[path = "plan/views.rs"]
 mod views;
 
-use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
-use bevy_ecs::query::ComponentAccessKind;
 use bevy_ecs::schedule::Schedule;
-use bevy_ecs::system::SystemAccess;
 use bevy_ecs::world::EntityRef;
 use glam::DVec3;
 use pinhole::Error;
@@ -24,7 +23,6 @@ use pinhole::film::FilmTile;
 use pinhole::plan::{
     ColumnKind, ComponentValues, Evidence, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan, view_names,
 };
-use pinhole::rays::Tile;
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
@@ -161,68 +159,6 @@ fn rows_systems_columns_and_tables_are_one_list() {
 
 fn position(offer: &[Stage], name: &str) -> usize {
     offer.iter().position(|stage| stage.name == name).expect("on offer")
-}
-
-/// What a stage declares is what its system touches, or the plan would prune by a lie.
-#[test]
-fn stages_declare_what_their_systems_touch() {
-    let offer = offer();
-    let (columns, tables) = registry(&offer);
-    let scene = full(Setup::default());
-    let mut world = World::new();
-    let mut words: Vec<(ComponentId, String)> = Vec::new();
-    for column in &columns {
-        let mut tile = world.spawn_empty();
-        (column.insert)(&mut tile);
-        let id = tile.archetype().components()[0];
-        words.push((id, format!("column {}", column.name)));
-    }
-    for table in &tables {
-        let known: Vec<ComponentId> = world.components().iter_registered().map(|(id, _)| id).collect();
-        ((table.extract)(&scene).expect("extracts").insert)(&mut world);
-        let new = world.components().iter_registered().find(|(id, _)| !known.contains(id));
-        let new = new.map(|(id, _)| id).expect("a table is a new resource");
-        words.push((new, format!("table {}", table.name)));
-    }
-    let tile = world.register_component::<Tile>();
-    let word = |id: ComponentId| words.iter().find(|(own, _)| *own == id).map(|(_, word)| word.clone());
-
-    let mut compared = 0;
-    for stage in &offer {
-        let mut schedule = Schedule::default();
-        schedule.add_systems((stage.system)());
-        schedule.initialize(&mut world).map(|_| ()).expect("one system is a schedule");
-        let (_, system) = schedule.systems_with_access().expect("initialised").next().expect("one system");
-        let SystemAccess::Shared(access) = system.access() else {
-            eprintln!("declared: \"{}\" takes the world whole", stage.name);
-            continue;
-        };
-        let accesses = access.combined_access().try_iter_access().expect("finite");
-        let (mut read, mut written) = (BTreeSet::new(), BTreeSet::new());
-        for access in accesses {
-            match access {
-                ComponentAccessKind::Exclusive(id) => written.extend(word(id)),
-                ComponentAccessKind::Shared(id) if id != tile => read.extend(word(id)),
-                _ => {}
-            }
-        }
-        let name = |column: &ColumnKind| format!("column {}", column.name);
-        let writes: BTreeSet<String> = stage.writes.iter().map(name).collect();
-        let asked = stage.reads_where.iter().map(|(column, _)| column);
-        let mut reads: BTreeSet<String> = stage.reads.iter().chain(&stage.reads_if).chain(asked).map(name).collect();
-        let asked = stage.tables_where.iter().map(|(table, _)| table);
-        let beside = stage.tables_with.iter().map(|(table, _)| table);
-        reads.extend(stage.tables.iter().chain(asked).chain(beside).map(|table| format!("table {}", table.name)));
-        reads.retain(|word| !writes.contains(word));
-        if stage.name == "Transform rays to world space" {
-            // Its rays have origins only where another stage, an alternative, has brought its table.
-            reads.extend(["table view rectangle".into(), "table lens".into()]);
-        }
-        assert_eq!(written, writes, "\"{}\" writes", stage.name);
-        assert_eq!(read, reads, "\"{}\" reads", stage.name);
-        compared += 1;
-    }
-    eprintln!("declared: {compared} of {} stages compared with what bevy_ecs says they touch", offer.len());
 }
 
 #[test]

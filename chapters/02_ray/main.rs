@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, rays};
+use pinhole::{Chapter, rays, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -13,7 +13,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("02_ray", "a ray: r(t) = O + tR", scene).offer(rays::stages()).show::<rays::WorldRays>()
+    Chapter::new("02_ray", "a ray: r(t) = O + tR", scene).offer(stages::camera_rays()).show::<rays::WorldRays>()
 }
 // ANCHOR_END: chapter
 

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays};
+use pinhole::{Chapter, intersect, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,8 +14,8 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("03_hit", "a ray meets a sphere and a plane", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
         .show::<intersect::Hits>()
 }
 // ANCHOR_END: chapter

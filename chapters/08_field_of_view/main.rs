@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, rays, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -18,8 +18,9 @@ pub fn chapter() -> Chapter {
         .offer(rays::ndc_stage())
         .offer(rays::screen_stage())
         .offer(rays::world_stage())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
         .offer(rays::perspective_stage())
 }
 // ANCHOR_END: chapter

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, rays, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,8 +14,10 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("09_camera_to_world", "the camera stands anywhere", scene)
-        .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::transforms())
+        .offer(stages::direct_light())
         .offer(rays::raster_stage())
         .offer(rays::ndc_stage())
         .offer(rays::screen_stage())

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, shade, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,8 +14,9 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("10_light_and_shadow", "does light get there", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
         .offer(shade::start_stage())
         .offer(shade::background_stage())
         .offer(shade::start_light_stage())

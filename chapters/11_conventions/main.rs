@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,9 +14,10 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("11_conventions", "the same camera in other books", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
 }
 // ANCHOR_END: chapter
 

@@ -7,7 +7,7 @@ use pinhole::intersect::{Surfaces, shape_evidence};
 use pinhole::plan::{Stage, TileSystems, column};
 use pinhole::rays::WorldRays;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -17,9 +17,10 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("12_how_it_is_built", "how the kit is built", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::unlit_stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::unlit())
         .offer(facing_stage())
         .show::<Facing>()
 }
@@ -60,11 +61,7 @@ fn fill_facing(mut tiles: Query<(&WorldRays, &Surfaces, &mut Facing)>) {
 
 /// The stage on offer.
 fn facing_stage() -> Stage {
-    Stage::new("Compute facing ratios", TileSystems::Shade, fill_facing)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .writes::<Facing>()
-        .when(shape_evidence)
+    Stage::new("Compute facing ratios", TileSystems::Shade, fill_facing).when(shape_evidence)
 }
 // ANCHOR_END: facing
 

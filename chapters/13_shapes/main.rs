@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, intersect, stages};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 fn main() -> pinhole::Result {
@@ -15,7 +15,7 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("13_shapes", "shapes and the nearest of many", scene)
-        .offer(rays::stages())
+        .offer(stages::camera_rays())
         .offer(intersect::start_stage())
         .offer(intersect::sphere_stage())
         .offer(intersect::plane_stage())
@@ -30,7 +30,7 @@ pub fn chapter() -> Chapter {
         .offer(intersect::rectangle_surface_stage())
         .offer(intersect::cuboid_surface_stage())
         .offer(intersect::triangle_surface_stage())
-        .offer(shade::stages())
+        .offer(stages::direct_light())
 }
 // ANCHOR_END: chapter
 

@@ -5,7 +5,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -15,9 +15,11 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("14_transforms", "transforms and normals", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
+        .offer(stages::transforms())
 }
 // ANCHOR_END: chapter
 

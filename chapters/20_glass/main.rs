@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,10 +14,16 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("20_glass", "glass", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::textures())
+        .offer(stages::environment())
+        .offer(stages::direct_light())
+        .offer(stages::lights())
+        .offer(stages::bounces())
+        .offer(stages::specular_reflection())
+        .offer(stages::glass())
 }
 // ANCHOR_END: chapter
 

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn main() -> pinhole::Result {
@@ -15,10 +15,15 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("25_path_tracing", "path tracing", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::samples())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
+        .offer(stages::area_lights())
+        .offer(stages::mis())
+        .offer(stages::bounces())
+        .offer(stages::path_continuation())
 }
 // ANCHOR_END: chapter
 

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 fn main() -> pinhole::Result {
     pinhole::run(chapter())
@@ -14,10 +14,17 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("26_choosing_samples", "choosing samples", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::samples())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
+        .offer(stages::area_lights())
+        .offer(stages::bounces())
+        .offer(stages::path_continuation())
+        .offer(stages::specular_reflection())
+        .offer(stages::rough_metal())
+        .offer(stages::mis())
 }
 // ANCHOR_END: chapter
 

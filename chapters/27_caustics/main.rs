@@ -5,7 +5,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 use std::f64::consts::PI;
 
 fn main() -> pinhole::Result {
@@ -16,10 +16,19 @@ fn main() -> pinhole::Result {
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
     Chapter::new("27_caustics", "caustics", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::samples())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::transforms())
+        .offer(stages::direct_light())
+        .offer(stages::area_lights())
+        .offer(stages::bounces())
+        .offer(stages::path_continuation())
+        .offer(stages::specular_reflection())
+        .offer(stages::glass())
+        .offer(stages::mis())
+        .offer(stages::light_tracing())
 }
 // ANCHOR_END: chapter
 

@@ -81,7 +81,7 @@ fn table(all: &[(&Mutation, Compared)], format: Format, out: &mut dyn Write) -> 
     let found = |(mutation, compared): &(&Mutation, Compared)| {
         let named = compared.before.first_difference(&compared.now).map(|difference| difference.stage);
         let pixels = compare_pictures(&compared.before.picture, &compared.now.picture);
-        let right = named.as_deref() == Some(mutation.stage);
+        let right = named.as_deref() == Some(mutation.stage());
         (mutation.name, mutation.mistake, named, pixels.map_or(0, |difference| difference.differing), right)
     };
     let found: Vec<_> = all.iter().map(found).collect();

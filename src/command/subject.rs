@@ -5,8 +5,7 @@ use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, validate};
 use pinhole::plan::{PlanError, Stage};
 use pinhole::scene::{FileProblem, SceneFile, View};
-use pinhole::{Chapter, Overrides};
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::{Chapter, Overrides, stages};
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -147,9 +146,5 @@ fn from_standard_input() -> Result<SceneFile> {
 
 /// What a scene file is offered: all that the chapters teach.
 pub fn every_stage() -> Chapter {
-    Chapter::new("scene", "a scene file", |_| ())
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
-        .offer(follow::stages())
+    Chapter::new("scene", "a scene file", |_| ()).offer(stages::all())
 }

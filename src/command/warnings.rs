@@ -44,9 +44,9 @@ fn empty_layers<'a>(film: &'a Film, plan: &'a Plan) -> impl Iterator<Item = Stri
     let kinds = film.layers.first().map_or(&[][..], |layers| &layers.kinds);
     kinds.iter().filter_map(|kind| {
         let column = column_of_layer(*kind)?;
-        let written = plan.columns.iter().any(|own| own.name == column);
+        let written = plan.columns.contains(&column);
         let word = kind.word();
-        let told = || format!("the layer `{word}` is empty, for nothing that runs writes the column `{column}`");
+        let told = || format!("the layer `{word}` is empty, for nothing that runs writes the column `{}`", column.name);
         (!written).then(told)
     })
 }

@@ -1,9 +1,8 @@
 use crate::extract::camera_entity;
-use crate::film::{film_stage, layers_stage, moments_stage};
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
-use crate::rays::place_samples_stage;
 use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
+use crate::stages;
 use bevy_ecs::prelude::*;
 
 /// A chapter of the book: a scene, and the stages taught so far, of which the plan keeps those that the scene needs.
@@ -38,15 +37,19 @@ impl Chapter {
         self
     }
 
-    /// The stages offered, with those that every chapter has: painting a view, and the film.
+    /// The stages offered, with those that every chapter has: samples, painting a view, and the film.
+    ///
+    /// They stand in the order of [`stages`], whichever was offered first.
     pub fn stages(&self) -> Vec<Stage> {
-        let mut stages = self.offer.clone();
-        if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
-            stages.push(place_samples_stage());
+        let mut offer = self.offer.clone();
+        for own in stages::samples().into_iter().chain(stages::film()) {
+            if !offer.contains(&own) {
+                offer.push(own);
+            }
         }
-        stages.push(view_stage(&self.offer));
-        stages.extend([layers_stage(), moments_stage(), film_stage()]);
-        stages
+        offer.push(view_stage(&self.offer));
+        stages::sort(&mut offer);
+        offer
     }
 
     /// The chapter's scene with the overrides applied to its camera.

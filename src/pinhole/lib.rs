@@ -15,6 +15,7 @@
 //! 9. [`film`]: radiance → pixels → files.
 //! 10. [`render`]: the loop over tiles.
 //! 11. [`look`]: traces, views and statistics.
+//! 12. [`stages`]: all stages, in the order of the data.
 
 pub mod scene;
 
@@ -37,6 +38,8 @@ pub mod film;
 pub mod render;
 
 pub mod look;
+
+pub mod stages;
 
 mod chapter;
 mod error;

@@ -54,9 +54,7 @@ fn fill_with_nan(mut tiles: Query<(&RasterPoints, &mut NdcPoints)>) {
 fn a_pixel_that_is_nowhere_shows_the_background_as_page_06_says() {
     let chapter = chapter("05_pinhole");
     let one = Overrides { resolution: Some(Resolution { width: 1, height: 1 }), ..Overrides::default() };
-    let naive = Stage::new("Divide by the last pixel", TileSystems::Ndc, fill_with_nan)
-        .reads::<RasterPoints>()
-        .writes::<NdcPoints>();
+    let naive = Stage::new("Divide by the last pixel", TileSystems::Ndc, fill_with_nan);
     let mut stages = chapter.stages();
     let seen = |stages: &[Stage]| {
         let inspection = inspect(&chapter.world(&one), stages, 1).expect("inspects");

@@ -3,20 +3,14 @@
 use super::environment::{evening, summed};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::film_stage;
 use pinhole::plan::{Stage, plan};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::shade::environment_radiance;
-use pinhole::{intersect, rays, shade};
 use std::f64::consts::PI;
 
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(film_stage());
-    offer
+    crate::scenes::offer_of_direct_light()
 }
 
 /// A floor of colour 1/2, seen by a narrow camera at the origin, from aside.

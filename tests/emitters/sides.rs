@@ -2,18 +2,14 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::intersect::{self, SurfaceSides};
+use pinhole::intersect::SurfaceSides;
 use pinhole::plan::Stage;
 use pinhole::render::inspect;
 use pinhole::scene::*;
-use pinhole::{rays, shade};
+use pinhole::shade;
 
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(pinhole::film::film_stage());
-    offer
+    crate::scenes::offer_of_direct_light()
 }
 
 /// A scene with one shape that shines on one side, looked at along a line.

@@ -6,7 +6,7 @@ use pinhole::Error;
 use pinhole::look::{MISTAKES, Preflight, preflight};
 use pinhole::render::prepare;
 use pinhole::scene::*;
-use pinhole::{Chapter, follow, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 /// What is said of a scene for which every stage is on offer, or the refusal.
 fn said(scene: &World) -> Result<Vec<String>, Error> {
@@ -177,16 +177,15 @@ fn matter_that_no_stage_follows_is_refused() {
         }),
     ];
     let chapter = |followed: bool| {
-        let chapter = Chapter::new("test", "a test", |_| ()).offer(rays::stages()).offer(intersect::stages());
-        let chapter = chapter.offer(shade::stages());
-        if followed { chapter.offer(follow::stages()) } else { chapter }
+        let offer = if followed { stages::all() } else { scenes::offer_of_direct_light() };
+        Chapter::new("test", "a test", |_| ()).offer(offer)
     };
     for (word, spawn) in material {
         let mut world = scene(spawn);
         assert!(prepare(&world, &chapter(true).stages()).is_ok(), "{word}");
         let refused = prepare(&world, &chapter(false).stages()).err().map(|error| error.to_string());
         let sentence = format!(
-            "sphere \"ball\": {word} is given, but no stage on offer sends light on from it; offer follow::stages(), \
+            "sphere \"ball\": {word} is given, but no stage on offer sends light on from it; offer stages::all(), \
              which do"
         );
         assert_eq!(refused, Some(sentence));

@@ -3,6 +3,7 @@
 use super::*;
 use pinhole::film::{FilmLayers, FilmMoments};
 use pinhole::render::render;
+use pinhole::shade::join_point_stage;
 use scenes::followed::{INTEGRATORS, followed};
 
 /// The offer with one stage's say replaced.
@@ -109,15 +110,13 @@ fn paths_in_motion(setup: Setup) -> World {
     scene
 }
 
-/// In one set stages run in the order of their names, so a column that one of them writes is not there for all others.
+/// In one set stages run in the order in which they are offered, so what one of them writes is not there for those before.
 #[test]
 fn what_is_written_in_the_same_set_is_not_read_there() {
     let scene = through_a_lens();
-    let moved = |stage: Stage| match stage.name {
-        "Sample the lens for connections" => Stage { set: TileSystems::SampleLights, ..stage },
-        _ => stage,
-    };
-    let offer: Vec<Stage> = offer().into_iter().map(moved).collect();
+    let mut offer = offer();
+    offer.retain(|stage| !stage.is(join_point_stage));
+    offer.push(Stage { set: TileSystems::SampleLights, ..join_point_stage() });
     let error = pinhole::plan::plan(&scene, &offer).expect_err("refused").to_string();
     eprintln!("{error}");
     let words =

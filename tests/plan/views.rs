@@ -1,6 +1,7 @@
 //! What a view paints, and what it answers to a word it does not know.
 
 use super::*;
+use pinhole::rays::Tile;
 use pinhole::render::first_bounce_only;
 use scenes::followed::{INTEGRATORS, followed};
 

@@ -6,8 +6,8 @@ pub type Case = (&'static str, &'static str, &'static [&'static str]);
 
 /// Mistakes in the form of a file.
 pub const FORM: &[Case] = &[
-    ("empty", "^", &["nothing here", "list of entities"]),
-    ("only a comment", "// a scene\n^", &["nothing here"]),
+    ("empty", "^", &["no list begins here", "list of entities"]),
+    ("only a comment", "// a scene\n^", &["no list begins here"]),
     ("no list", "^(name: \"a\")", &["found `(`", "expected `[`"]),
     ("another format", "^{\"name\": \"a\"}", &["found `{`", "`[`"]),
     ("an attribute of RON", "^#![enable(implicit_some)]\n[]", &["found `#`", "`[`"]),
@@ -105,11 +105,11 @@ pub const MEANING: &[Case] = &[
     ("no such material", "[(name: \"a\", material: ^\"gold\")]", &["material is \"gold\"", "no entity"]),
     ("two of the name", "[(name: \"a\", parent: ^\"b\"),\n(name: \"b\"),\n(name: \"b\")]", &["line 2", "on 3"]),
     ("its own parent", "[(name: \"a\", parent: ^\"a\")]", &["\"a\"", "itself"]),
-    ("a circle of parents", "[(name: \"a\", parent: ^\"b\"), (name: \"b\", parent: \"a\")]", &["circle through \"a\""]),
+    ("a circle of parents", "[(name: \"a\", parent: ^\"b\"), (name: \"b\", parent: \"a\")]", &["cycle through \"a\""]),
     (
         "a circle further up",
         "[(name: \"x\", parent: ^\"a\"), (name: \"a\", parent: \"b\"), (name: \"b\", parent: \"a\")]",
-        &["circle through \"a\""],
+        &["cycle through \"a\""],
     ),
     ("no camera", "[(name: \"a\", sphere: (), matte: ())]", &["camera is missing"]),
     ("two cameras", "[@,\n^(orthographic_camera: ())]", &["camera is given 2 times"]),

@@ -105,8 +105,8 @@ fn add_fog(mut tiles: Query<(&Hits, &mut Radiance)>) {
 
 #[test]
 fn what_does_not_hold_is_printed_before_the_command_fails() {
-    let fog = Stage::new("Add fog", TileSystems::Shade, add_fog).reads::<Hits>().reads::<Radiance>();
-    let fog = fog.writes::<Radiance>().when(|_| Evidence::always("the test asks for it"));
+    let fog = Stage::new("Add fog", TileSystems::Shade, add_fog);
+    let fog = fog.when(|_| Evidence::always("the test asks for it"));
     let chapters: Vec<Chapter> = chapters::all().into_iter().map(|chapter| chapter.offer(fog.clone())).collect();
     let (value, ended) = one_value(&chapters, &["sweep", "5"]);
     assert!(ended.is_some_and(|ended| ended.contains("does not hold when scaled")));

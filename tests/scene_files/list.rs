@@ -45,8 +45,5 @@ fn a_component_without_a_word_is_not_lost_in_silence() {
     let mut world = bevy_ecs::world::World::new();
     world.spawn((pinhole::scene::Name::new("jelly"), pinhole::scene::Sphere::default(), Wobble));
     let told = scene_text(&world).expect_err("refused").to_string();
-    assert_eq!(
-        told,
-        "\"jelly\": component is Wobble, but it has no word in scene files, where every component needs one"
-    );
+    assert_eq!(told, "\"jelly\": component is Wobble, but scene files have no word for it");
 }

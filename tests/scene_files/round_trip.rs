@@ -242,7 +242,7 @@ fn what_no_file_can_hold_is_refused() {
         spawn(&mut world);
         scene_text(&world).expect_err("refused").to_string()
     };
-    let by_name = "in a scene file it is meant by name, so it must have one that no other has";
+    let by_name = "a scene file refers to it by name, so its name must be unique";
     let unnamed = refused(|world| {
         let group = world.spawn(Placement::default()).id();
         world.spawn((Name::new("ball"), Sphere::default(), ChildOf(group)));

@@ -10,12 +10,11 @@ mod textured;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::film::{film_stage, layers_stage, moments_stage};
 use pinhole::look::view_stage;
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::{shade, stages};
 pub use pinhole_lab::measure::film_bits::FilmBits;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use soft::soft;
@@ -76,12 +75,32 @@ fn on_grid(point: DVec3) -> DVec3 {
 
 /// Every stage that a chapter can offer.
 pub fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.extend(follow::stages());
+    let mut offer = stages::all();
     offer.push(view_stage(&offer));
-    offer.extend([layers_stage(), moments_stage(), film_stage()]);
+    offer
+}
+
+/// Every stage of direct light, after which no path goes on.
+pub fn offer_of_direct_light() -> Vec<Stage> {
+    let mut offer = [
+        stages::camera_rays(),
+        stages::samples(),
+        stages::wide_cameras(),
+        stages::lens(),
+        stages::motion(),
+        stages::intersection(),
+        stages::surfaces(),
+        stages::transforms(),
+        stages::direct_light(),
+        stages::lights(),
+        stages::highlights(),
+        stages::textures(),
+        stages::environment(),
+        vec![shade::area_light_stage(), shade::environment_light_stage()],
+        stages::film(),
+    ]
+    .concat();
+    stages::sort(&mut offer);
     offer
 }
 

@@ -3,14 +3,15 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
-use pinhole::{Chapter, intersect, rays, shade};
+use pinhole::{Chapter, stages};
 
 /// The scene, and the stages of direct light on offer.
 pub fn sunflower() -> Chapter {
     Chapter::new("sunflower", "spheres on a plane, in light and shadow", scene)
-        .offer(rays::stages())
-        .offer(intersect::stages())
-        .offer(shade::stages())
+        .offer(stages::camera_rays())
+        .offer(stages::intersection())
+        .offer(stages::surfaces())
+        .offer(stages::direct_light())
 }
 
 /// π (3 − √5): the angle that never lets two seeds stand behind one another.

@@ -7,7 +7,7 @@ use crate::attempt::StageWords;
 use crate::measure::ray_aim::Draws;
 use bevy_ecs::prelude::World;
 use pinhole::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
-use pinhole::rays::RasterPoints;
+use pinhole::stages;
 use std::time::Duration;
 
 type Input = (Vec<StageWords>, String);
@@ -15,10 +15,6 @@ type Input = (Vec<StageWords>, String);
 /// The names that made-up stages and columns have.
 const STAGES: [&str; 8] = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
 const COLUMNS: [&str; 5] = ["points", "rays", "hits", "light", "sum"];
-/// What columns are called while the plan decides; it wants names that last.
-const NUMBERS: [&str; 16] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15"];
-/// What the plan calls the column that everything is for.
-const FILM: &str = "pixel";
 
 pub fn check(yours: fn(&[StageWords], &str) -> Vec<String>, patience: Duration) -> Report {
     compare(question(), move |(stages, asked)| yours(stages, asked), patience)
@@ -133,15 +129,21 @@ fn made_up(seed: u64, index: u64, count: usize) -> Input {
 
 /// What the kit's plan keeps of such stages; none where it refuses them.
 fn by_the_plan((stages, asked): &Input) -> Option<Vec<String>> {
+    // The plan tells columns apart by their types, so each made-up one borrows the type of one of the renderer's.
+    let mut types: Vec<ColumnKind> = Vec::new();
+    for column in stages::all().iter().flat_map(|stage| &stage.writes) {
+        if !types.contains(column) {
+            types.push(*column);
+        }
+    }
     let mut known: Vec<&String> = Vec::new();
     let mut column = |name| {
         let number = known.iter().position(|&other| other == name).unwrap_or_else(|| {
             known.push(name);
             known.len() - 1
         });
-        let (name, lifetime) =
-            if name == asked { (FILM, Lifetime::Film) } else { (*NUMBERS.get(number)?, Lifetime::Pixel) };
-        Some(ColumnKind { name, lifetime, ..ColumnKind::of::<RasterPoints>() })
+        let lifetime = if name == asked { Lifetime::Film } else { Lifetime::Pixel };
+        types.get(number).map(|borrowed| ColumnKind { lifetime, ..*borrowed })
     };
     let mut offer = Vec::new();
     for words in stages {

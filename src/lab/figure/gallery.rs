@@ -181,6 +181,4 @@ fn aimed_with(tangent: f64) -> Stage {
         }
     };
     Stage::new("Aim rays with another tangent", TileSystems::Camera, fill)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
 }

@@ -6,7 +6,7 @@ use pinhole::plan::Stage;
 use pinhole::render::{Execution, Rendered, render};
 use pinhole::scene::Resolution;
 use pinhole::{Chapter, Overrides};
-use pinhole::{Result, follow, intersect, rays, shade};
+use pinhole::{Result, stages};
 
 /// A picture of a chapter's scene, within a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Picture {
         Ok(Self { size, url: png_url(&png_bytes(&rendered.film, rendered.curve())?) })
     }
 
-    /// The same with a stage in the place of the one of its name.
+    /// The same with a stage in the place of the one whose system it had.
     ///
     /// Errors: what a render of that scene would be refused for.
     pub fn replacing(
@@ -48,7 +48,7 @@ impl Picture {
     ) -> Result<Self> {
         let mut whole = all_stages(chapter);
         for own in &mut whole.offer {
-            if let Some(stage) = stage.as_ref().filter(|stage| stage.name == own.name) {
+            if let Some(stage) = stage.as_ref().filter(|stage| *stage == own) {
                 *own = stage.clone();
             }
         }
@@ -103,7 +103,7 @@ impl Picture {
 fn all_stages(chapter: &Chapter) -> Chapter {
     let mut whole = chapter.clone();
     whole.view = None;
-    whole.offer = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
+    whole.offer = stages::all();
     whole
 }
 

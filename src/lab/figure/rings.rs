@@ -52,8 +52,5 @@ fn place_on_grid(mut tiles: Query<(&Tile, &SampleNumber, &ActivePixels, &mut Ras
 }
 
 fn grid_stage() -> Stage {
-    Stage::new("Place samples on a grid", TileSystems::Raster, place_on_grid)
-        .kind(StageKind::Alternative)
-        .writes::<RasterPoints>()
-        .writes::<PixelSamples>()
+    Stage::new("Place samples on a grid", TileSystems::Raster, place_on_grid).kind(StageKind::Alternative)
 }

@@ -88,7 +88,4 @@ fn placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
         }
     };
     Stage::new("Place screen points wrongly", TileSystems::Screen, fill)
-        .reads::<NdcPoints>()
-        .writes::<ScreenPoints>()
-        .table::<ImageFrame>()
 }

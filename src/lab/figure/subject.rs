@@ -11,7 +11,7 @@ use pinhole::rays::WorldRays;
 use pinhole::render::{Inspection, inspect};
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
 use pinhole::{Chapter, Overrides};
-use pinhole::{Error, Result, intersect, rays, shade};
+use pinhole::{Error, Result, stages};
 
 /// What a chapter's camera does, and so how its rays lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,14 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
         Ok(inspection) if complete(&inspection) => Ok(inspection),
         _ => {
             let mut whole = chapter.clone();
-            whole.offer = [rays::stages(), intersect::stages(), shade::stages()].concat();
+            whole.offer = [
+                stages::camera_rays(),
+                stages::wide_cameras(),
+                stages::lens(),
+                stages::motion(),
+                stages::intersection(),
+            ]
+            .concat();
             inspect(scene, &whole.stages(), side)
         }
     }

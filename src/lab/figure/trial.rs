@@ -6,7 +6,7 @@ use pinhole::scene::{
     BlinnPhong, Checker, Cuboid, DQuat, Degrees, Emissive, Glass, Integrator, LookAt, Matte, Name, OrthographicCamera,
     PerspectiveCamera, Phong, Placement, Plane, PointLight, Rectangle, Rgb, Sphere,
 };
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::stages;
 
 /// A chapter of this name with a scene that suits its figure.
 pub fn chapter(name: &'static str) -> Chapter {
@@ -20,8 +20,7 @@ pub fn chapter(name: &'static str) -> Chapter {
         "22_ambient_occlusion" => occluded,
         _ => central,
     };
-    let chapter = Chapter::new(name, "a trial", scene).offer(rays::stages()).offer(intersect::stages());
-    chapter.offer(shade::stages()).offer(follow::stages())
+    Chapter::new(name, "a trial", scene).offer(stages::all())
 }
 
 /// All chapters that figures show.

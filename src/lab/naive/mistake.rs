@@ -11,7 +11,7 @@ use pinhole::extract::{
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
 use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_pdf, frame_of};
-use pinhole::intersect::{Hits, MaterialRows, SurfaceSides, Surfaces, offset_origin};
+use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
@@ -57,19 +57,13 @@ pub fn scatter_matte_by(sample: MatteSample) -> Stage {
         };
     Stage::new("Scatter with a mistake", TileSystems::SampleBsdfs, scatter)
         .kind(StageKind::Estimator)
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
         .appends::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<MaterialTable>()
         .when(material_evidence)
 }
 
 /// A stage that spoils what was scattered, after all that scatter.
 fn spoils(stage: Stage) -> Stage {
-    stage.kind(StageKind::Alternative).reads::<Scattered>().writes::<Scattered>().reads::<Surfaces>()
+    stage.kind(StageKind::Alternative)
 }
 
 fn spoil_ray(Scattered { r, g, b, .. }: &mut Scattered, ray: usize, factor: f64) {
@@ -94,9 +88,7 @@ pub fn metal_counted_as_matte() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget how metal was sampled", TileSystems::Roulette, spoil))
-        .table::<MaterialTable>()
-        .when(metal_evidence)
+    spoils(Stage::new("Forget how metal was sampled", TileSystems::Roulette, spoil)).when(metal_evidence)
 }
 
 /// A beam that enters glass becomes narrower, and its radiance is divided by η² on the path back to the camera; here it is not
@@ -118,11 +110,7 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget where rays leave glass", TileSystems::Roulette, spoil))
-        .reads::<SurfaceSides>()
-        .reads::<GlassRows>()
-        .table::<GlassTable>()
-        .when(glass_evidence)
+    spoils(Stage::new("Forget where rays leave glass", TileSystems::Roulette, spoil)).when(glass_evidence)
 }
 
 /// The missing cosine: rays to the sky are sampled uniformly, and each counts the same; in place of all stages that sample lights.
@@ -135,12 +123,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
     };
     Stage::new("Sample the open sky uniformly", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
-        .reads_if::<PixelSamples>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
         .appends::<LightRays>()
-        .table::<SamplingTable>()
-        .table::<IntegratorTable>()
         .when(occlusion_evidence)
 }
 
@@ -148,8 +131,6 @@ pub fn sky_in_all_directions_alike() -> Stage {
 pub fn light_samples_counted_in_full() -> Stage {
     Stage::new("Count light samples in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
         .kind(StageKind::Alternative)
-        .reads::<LightRays>()
-        .writes::<LightRays>()
         .when(mis_evidence)
 }
 
@@ -175,7 +156,6 @@ fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTabl
     Stage::new(name, TileSystems::SampleLights, forget)
         .kind(StageKind::Alternative)
         .appends::<LightRays>()
-        .table::<AreaLightTable>()
         .when(|scene| (area_light_stage().when)(scene))
 }
 
@@ -209,11 +189,7 @@ pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
             }
         }
     };
-    Stage::new("Sample the lens otherwise", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
-        .reads::<RasterPoints>()
-        .writes::<LensPoints>()
-        .table::<LensTable>()
+    Stage::new("Sample the lens otherwise", TileSystems::Lens, fill).kind(StageKind::Alternative)
 }
 
 /// The stage that draws times, by so many moments in turn.
@@ -224,9 +200,5 @@ pub fn moments_in_turn(frames: u32) -> Stage {
             times.time.extend(samples.sample.iter().map(|&sample| time_of_frame(sample, frames, shutter.length)));
         }
     };
-    Stage::new("Take moments in turn", TileSystems::Lens, fill)
-        .kind(StageKind::Alternative)
-        .reads::<PixelSamples>()
-        .writes::<RayTimes>()
-        .table::<ShutterTable>()
+    Stage::new("Take moments in turn", TileSystems::Lens, fill).kind(StageKind::Alternative)
 }

@@ -130,7 +130,7 @@ mod tests {
     use super::*;
     use pinhole::rays::RasterPoints;
     use pinhole::scene::{LookAt, Matte, PerspectiveCamera, Placement, Plane, PointLight, Resolution, Sphere};
-    use pinhole::{Chapter, intersect, rays, shade};
+    use pinhole::{Chapter, stages};
 
     /// The digests of a tile of two blocks, 3 pixels into the image, after `change`.
     fn two_blocks(change: impl Fn(&mut RasterPoints)) -> String {
@@ -177,10 +177,7 @@ mod tests {
 
     #[test]
     fn the_side_of_the_tiles_does_not_matter() -> Result {
-        let chapter = Chapter::new("digest", "for this test", scene)
-            .offer(rays::stages())
-            .offer(intersect::stages())
-            .offer(shade::stages());
+        let chapter = Chapter::new("digest", "for this test", scene).offer(stages::all());
         let (world, stages) = (chapter.world(&pinhole::Overrides::default()), chapter.stages());
         let text = digests_in_tiles(&world, &stages, 32)?;
         assert!(text.contains("\n\"Sample point lights\" writes light\n"), "{text}");

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 /// A plane with two coordinates in it, x and z, which are 0 at its centre: what disks and rectangles are cut from.
 ///
-/// A point p of the plane has the coordinates `along`[0] · (p − centre) and `along`[1] · (p − centre).
+/// A point p of the plane has the coordinates `along[0]` · (p − centre) and `along[1]` · (p − centre).
 /// They are 1 or −1 where a rectangle ends, and the sum of their squares is 1 where a disk does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planar {

@@ -5,7 +5,7 @@ use super::{
     CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MovingTable, PlaneTable, RectangleTable, SphereTable,
     TriangleTable, moves_while_open, unevenly_scaled,
 };
-use crate::plan::{Table, entities};
+use crate::plan::{Table, TableKind, entities};
 use crate::scene::{
     Cuboid, Disabled, Disk, Emissive, Plane, Rectangle, SceneError, Sphere, Triangle, UsesMaterial, called,
 };
@@ -36,17 +36,17 @@ impl ShapeKind {
     /// How many kinds there are.
     const COUNT: usize = 8;
 
-    /// The name of the table that it is laid in.
-    pub const fn table(self) -> &'static str {
+    /// The table that it is laid in.
+    pub fn table(self) -> TableKind {
         match self {
-            Self::Sphere => SphereTable::NAME,
-            Self::Plane => PlaneTable::NAME,
-            Self::Ellipsoid => EllipsoidTable::NAME,
-            Self::Disk => DiskTable::NAME,
-            Self::Rectangle => RectangleTable::NAME,
-            Self::Cuboid => CuboidTable::NAME,
-            Self::Triangle => TriangleTable::NAME,
-            Self::Moving => MovingTable::NAME,
+            Self::Sphere => TableKind::of::<SphereTable>(),
+            Self::Plane => TableKind::of::<PlaneTable>(),
+            Self::Ellipsoid => TableKind::of::<EllipsoidTable>(),
+            Self::Disk => TableKind::of::<DiskTable>(),
+            Self::Rectangle => TableKind::of::<RectangleTable>(),
+            Self::Cuboid => TableKind::of::<CuboidTable>(),
+            Self::Triangle => TableKind::of::<TriangleTable>(),
+            Self::Moving => TableKind::of::<MovingTable>(),
         }
     }
 }

@@ -33,9 +33,7 @@ pub fn add_to_film(mut tiles: Query<(&Radiance, Option<&PixelSamples>, Option<&S
 /// The stage that runs this system.
 pub fn film_stage() -> Stage {
     Stage::new("Accumulate film", TileSystems::Film, add_to_film)
-        .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<SampleSigns>(signed_evidence)
-        .writes::<FilmTile>()
         .when(|_| Evidence::always("every render produces a film"))
 }

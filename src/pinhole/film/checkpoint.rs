@@ -52,11 +52,11 @@ pub fn write_checkpoint(film: &Film, key: u64, path: &Path) -> Result {
 /// Errors, each one sentence: the file does not exist or cannot be read, is not a checkpoint, has another version or
 /// another key, or is truncated or damaged.
 pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Result<Film> {
-    let refused = |what: &str| Error::Usage(format!("cannot continue from {}: {what}", printable_path(path)));
-    let damaged = || refused("the file is cut short or damaged");
+    let failed = |what: &str| Error::Usage(format!("cannot continue from {}: {what}", printable_path(path)));
+    let damaged = || failed("the file is cut short or damaged");
     let unread = |error: io::Error| match error.kind() {
         io::ErrorKind::UnexpectedEof | io::ErrorKind::InvalidData => damaged(),
-        _ => refused(&error.to_string()),
+        _ => failed(&error.to_string()),
     };
     let opened = open_file(path, CHECKPOINT).map_err(|error| Error::Usage(format!("cannot continue: {error}")))?;
     let length = opened.metadata.len();
@@ -64,17 +64,17 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     let mut word = [0; WORD.len()];
     file.read_exact(&mut word).map_err(unread)?;
     if word != WORD {
-        return Err(refused("it is not a checkpoint of pinhole"));
+        return Err(failed("it is not a checkpoint of pinhole"));
     }
     let mut numbers = Numbers { stream: file, sum: crc32fast::Hasher::new() };
     let version = numbers.read_u32().map_err(unread)?;
     if version != VERSION {
-        return Err(refused(&format!("it has version {version}, but this program reads version {VERSION}")));
+        return Err(failed(&format!("it has version {version}, but this program reads version {VERSION}")));
     }
     if numbers.read_u64().map_err(unread)? != key {
-        return Err(refused(
-            "it belongs to another scene, size, seed, sampler, filter or set of layers than the present one, or to another \
-             build of the program; render without --resume to start over",
+        return Err(failed(
+            "it belongs to another scene, size, seed, sampler, filter or set of layers, or to another build of the \
+             program; render without --resume to start over",
         ));
     }
     let mut found = [0; 5];
@@ -89,7 +89,7 @@ pub fn read_checkpoint(key: u64, film: &Film, adaptive: bool, path: &Path) -> Re
     if found != expected || !(least..=most).contains(&length) {
         return Err(damaged());
     }
-    check_memory(length).map_err(|too_little| refused(&format!("its film {too_little}")))?;
+    check_memory(length).map_err(|too_little| failed(&format!("its film {too_little}")))?;
     let mut read = Film { pilot: extra & PILOT != 0, ..film.emptied() };
     if extra & PLANNED != 0 {
         read.planned = read.tiles.iter().map(|tile| vec![0; tile.count.len()]).collect();

@@ -1,8 +1,7 @@
 use super::develop::shown;
 use super::{FilmLayers, FilmMoments, FilmSplats};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Lifetime, column_component};
 use crate::rays::Tile;
-use bevy_ecs::prelude::*;
 
 /// The number of steps in which a render takes the first sample: for every eighth, fourth, second, and finally every
 /// pixel.
@@ -34,7 +33,7 @@ impl Rejected {
 /// All samples are summed; those of negative filter weight are also summed separately, so that both the weighted and
 /// the unweighted mean can be computed; a tile without any allocates nothing for them.
 /// Samples are added in order, so neither the number of threads nor the tile size changes a bit of the sums.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmTile {
     /// The pixels that it covers.
     pub tile: Tile,
@@ -162,6 +161,8 @@ impl FilmTile {
         [&mut self.r, &mut self.g, &mut self.b]
     }
 }
+
+column_component!(FilmTile);
 
 impl Column for FilmTile {
     const NAME: &'static str = "pixel";

@@ -1,6 +1,9 @@
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
 use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems};
+use crate::plan::{
+    Column, ColumnComponent, ColumnKind, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems,
+    column_component,
+};
 use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
 use crate::scene::LayerKind;
 use crate::shade::SurfaceColours;
@@ -12,7 +15,7 @@ use glam::DVec3;
 /// A sample whose camera ray misses adds nothing, so that a pixel at an edge describes the surface alone; the coverage
 /// layer says how much of the pixel that is.
 /// All samples have the same weight, whatever the reconstruction filter.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmLayers {
     /// The kinds, each once, in the order in which a file holds them.
     pub kinds: Vec<LayerKind>,
@@ -75,6 +78,8 @@ impl FilmLayers {
         self.taken.len() * (3 * size_of::<u32>() + self.sums.len() * size_of::<f64>()) + size_of::<Self>()
     }
 }
+
+column_component!(FilmLayers);
 
 impl Column for FilmLayers {
     const NAME: &'static str = "layers";
@@ -201,7 +206,6 @@ pub fn add_to_layers(
 /// The stage that runs this system.
 pub fn layers_stage() -> Stage {
     Stage::new("Accumulate layers", TileSystems::Layers, add_to_layers)
-        .reads::<RasterPoints>()
         .reads_where::<PixelSamples>(sampling_evidence)
         .reads_where::<Hits>(|scene| layer_evidence(scene, "hit layer", needs_hits))
         .reads_where::<WorldRays>(|scene| layer_evidence(scene, "depth layer", needs_rays))
@@ -209,8 +213,6 @@ pub fn layers_stage() -> Stage {
         .reads_where::<ShadingNormals>(|scene| layer_evidence(scene, "shading layer", needs_shading_normals))
         .reads_where::<SurfaceUvs>(|scene| layer_evidence(scene, "uv layer", |kind| kind == LayerKind::Uv))
         .reads_where::<SurfaceColours>(albedo_evidence)
-        .writes::<FilmLayers>()
-        .table::<LayerTable>()
         .table_where::<MaterialTable>(albedo_evidence)
         .when(|scene| layer_evidence(scene, "layer request", |_| true))
 }
@@ -240,11 +242,11 @@ fn needs_surfaces(kind: LayerKind) -> bool {
 }
 
 /// The column without which a layer would be 0 everywhere.
-pub fn column_of_layer(kind: LayerKind) -> Option<&'static str> {
+pub fn column_of_layer(kind: LayerKind) -> Option<ColumnKind> {
     match kind {
         LayerKind::Samples | LayerKind::Variance => None,
-        LayerKind::Uv => Some(SurfaceUvs::NAME),
-        _ if needs_surfaces(kind) => Some(Surfaces::NAME),
-        _ => Some(Hits::NAME),
+        LayerKind::Uv => Some(ColumnKind::of::<SurfaceUvs>()),
+        _ if needs_surfaces(kind) => Some(ColumnKind::of::<Surfaces>()),
+        _ => Some(ColumnKind::of::<Hits>()),
     }
 }

@@ -1,6 +1,6 @@
 use super::FilmTile;
 use crate::extract::layer_evidence;
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems, column_component};
 use crate::rays::{PixelSamples, sampling_evidence};
 use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 ///
 /// Exists only if the variance layer or adaptive sampling needs it.
 /// It is updated by Welford's recurrence (1962) on the film's own sums, which avoids the cancellation of large sums.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMoments {
     /// Sum of the squared deviations of red radiance from its mean.
     pub r: Vec<f64>,
@@ -54,6 +54,8 @@ impl FilmMoments {
         [self.r[row] * factor, self.g[row] * factor, self.b[row] * factor]
     }
 }
+
+column_component!(FilmMoments);
 
 impl Column for FilmMoments {
     const NAME: &'static str = "moments";
@@ -99,9 +101,6 @@ pub fn variance_evidence(scene: &World) -> Evidence {
 /// The stage that runs this system.
 pub fn moments_stage() -> Stage {
     Stage::new("Accumulate second moments", TileSystems::Moments, add_to_moments)
-        .reads::<Radiance>()
         .reads_where::<PixelSamples>(sampling_evidence)
-        .reads_if::<FilmTile>()
-        .writes::<FilmMoments>()
         .when(variance_evidence)
 }

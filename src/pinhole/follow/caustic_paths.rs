@@ -35,8 +35,5 @@ pub fn caustic_paths_stage() -> Stage {
         .on_camera_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .reads::<WorldRays>()
-        .reads::<MaterialRows>()
-        .writes::<CausticPaths>()
         .when(traced_evidence)
 }

@@ -94,12 +94,5 @@ impl MetalRows {
 
 /// The stage on offer.
 pub fn classify_materials_stage() -> Stage {
-    Stage::new("Classify materials", TileSystems::Classify, classify_materials)
-        .reads::<Hits>()
-        .writes::<MirrorRows>()
-        .writes::<GlassRows>()
-        .writes::<MetalRows>()
-        .table::<ShapeTable>()
-        .table::<MaterialTable>()
-        .when(shape_evidence)
+    Stage::new("Classify materials", TileSystems::Classify, classify_materials).when(shape_evidence)
 }

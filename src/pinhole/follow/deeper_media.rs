@@ -1,13 +1,13 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime};
+use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
 use bevy_ecs::prelude::*;
 
 /// What else each ray's origin lies in beyond the four kinds of glass that [`Media`] names, in order of rank; exists only
 /// where more than four shapes of glass may lie in one another.
 ///
 /// All rows share one list, so that a ray in a hundred glasses needs no memory of its own and one in none needs no place.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeeperMedia {
     /// Where in the list each row's part ends; it begins where that of the row before ends.
     end: Vec<u32>,
@@ -105,6 +105,8 @@ impl Carrier {
         std::mem::swap(&mut self.kept, with);
     }
 }
+
+column_component!(DeeperMedia);
 
 impl Column for DeeperMedia {
     const NAME: &'static str = "deeper media";

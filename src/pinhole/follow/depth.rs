@@ -99,35 +99,17 @@ pub fn gather_light(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
 
 /// The stage that adds a leg's light.
 pub fn add_bounce_stage() -> Stage {
-    Stage::new("Add the bounce's light to its path", TileSystems::AddBounce, add_bounce)
-        .reads::<Paths>()
-        .reads::<Radiance>()
-        .reads::<PathLight>()
-        .writes::<PathLight>()
-        .when(followed_evidence)
+    Stage::new("Add the bounce's light to its path", TileSystems::AddBounce, add_bounce).when(followed_evidence)
 }
 
 /// The stage that steps on to the next leg.
 pub fn step_stage() -> Stage {
-    Stage::new("Advance to the next bounce", TileSystems::Step, step_on)
-        .reads::<Scattered>()
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads::<Radiance>()
-        .writes::<WorldRays>()
-        .writes::<Paths>()
-        .writes::<Radiance>()
-        .table::<IntegratorTable>()
-        .when(followed_evidence)
+    Stage::new("Advance to the next bounce", TileSystems::Step, step_on).when(followed_evidence)
 }
 
 /// The stage that takes times along.
 pub fn times_stage() -> Stage {
     Stage::new("Carry times to the next bounce", TileSystems::Step, take_times_along)
-        .reads::<Scattered>()
-        .reads::<WorldRays>()
-        .reads::<RayTimes>()
-        .writes::<RayTimes>()
         .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
 }
 
@@ -135,9 +117,6 @@ pub fn times_stage() -> Stage {
 pub fn footprints_stage() -> Stage {
     Stage::new("Drop footprints", TileSystems::Step, take_footprints_away)
         .on_camera_paths()
-        .reads::<WorldRays>()
-        .reads::<Footprints>()
-        .writes::<Footprints>()
         .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
 }
 
@@ -160,8 +139,5 @@ pub fn follow_stage() -> Stage {
 pub fn gather_stage() -> Stage {
     Stage::new("Sum the light of all bounces", TileSystems::SumBounces, gather_light)
         .on_first_bounce()
-        .reads::<PathLight>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
         .when(followed_evidence)
 }

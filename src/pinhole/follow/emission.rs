@@ -74,17 +74,8 @@ pub fn mis_emission_stage() -> Stage {
     Stage::new("Add emission, weighted by MIS", TileSystems::Shade, add_mis_emission)
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .reads::<Paths>()
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<EmissiveRows>()
         .reads_where::<SurfaceSides>(one_sided_evidence)
         .reads_where::<CausticPaths>(traced_evidence)
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<EmissiveTable>()
-        .table::<AreaLightTable>()
-        .table::<IntegratorTable>()
         .when(mis_emission_evidence)
 }
 
@@ -124,14 +115,6 @@ pub fn add_mis_environment(
 pub fn mis_environment_stage() -> Stage {
     Stage::new("Add the environment, weighted by MIS", TileSystems::Background, add_mis_environment)
         .kind(StageKind::Alternative)
-        .reads::<Paths>()
-        .reads::<WorldRays>()
-        .reads_if::<Hits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<EnvironmentTable>()
-        .table::<EnvironmentLightTable>()
-        .table::<IntegratorTable>()
         .when(|scene| {
             environment_light_evidence(scene).and(|| followed_evidence(scene)).and(|| light_sampling_evidence(scene))
         })

@@ -184,8 +184,6 @@ pub fn glass_sample_stage() -> Stage {
     reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, scatter_glass::<false>))
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .reads_if::<PixelSamples>()
-        .table::<SamplingTable>()
         .when(|scene| {
             let both = split_evidence(scene);
             let one = Evidence { needed: !both.needed, ..both };
@@ -198,23 +196,11 @@ pub fn glass_light_stage() -> Stage {
     reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, scatter_glass::<true>))
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads_if::<PixelSamples>()
-        .table::<SamplingTable>()
         .when(|scene| traced_evidence(scene).and(|| glass_evidence(scene)))
 }
 
 fn reading(stage: Stage) -> Stage {
-    stage
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<SurfaceSides>()
-        .reads::<GlassRows>()
-        .reads_where::<Media>(media_evidence)
-        .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .appends::<Scattered>()
-        .table::<GlassTable>()
+    stage.reads_where::<Media>(media_evidence).reads_where::<DeeperMedia>(deeper_media_evidence).appends::<Scattered>()
 }
 
 /// Evidence that nothing is left to chance at glass.

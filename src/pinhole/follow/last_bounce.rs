@@ -18,8 +18,6 @@ pub fn end_at_max_depth(integrator: Res<Shared<IntegratorTable>>, mut tiles: Que
 /// The stage on offer.
 pub fn max_depth_stage() -> Stage {
     Stage::new("End at the maximum depth", TileSystems::Classify, end_at_max_depth)
-        .reads::<MaterialRows>()
-        .writes::<MaterialRows>()
-        .table::<IntegratorTable>()
+        .changes::<MaterialRows>()
         .when(followed_evidence)
 }

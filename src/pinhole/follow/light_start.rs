@@ -164,11 +164,5 @@ pub fn light_start_stage() -> Stage {
     Stage::new("Sample emitted rays", TileSystems::World, start_on_lights)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .writes::<WorldRays>()
-        .writes::<Paths>()
-        .writes::<LightPower>()
-        .writes::<Radiance>()
-        .table::<LightPathTable>()
-        .table::<SamplingTable>()
         .when(traced_evidence)
 }

@@ -83,18 +83,7 @@ pub fn matte_light_stage() -> Stage {
 }
 
 fn reading(stage: Stage) -> Stage {
-    stage
-        .kind(StageKind::Estimator)
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads_if::<SurfaceColours>()
-        .reads::<MaterialRows>()
-        .appends::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<MaterialTable>()
+    stage.kind(StageKind::Estimator).appends::<Scattered>()
 }
 
 /// Evidence that matte surfaces light each other.

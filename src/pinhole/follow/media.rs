@@ -9,7 +9,7 @@ use glam::DVec3;
 
 column! {
     /// The glass that each ray goes through, as a stack of what its origin lies in; exists where glass absorbs or overlaps.
-    pub struct Media("media", "light", "rows of the table of glass", Path) {
+    pub struct Media("media", "light", "rows of the table of glass", Path, begun in Media) {
         /// The one that is there.
         first: u32,
         /// The one that would be there without it.
@@ -118,37 +118,19 @@ pub fn carry_media(
 pub fn start_media_stage() -> Stage {
     Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
         .on_first_bounce()
-        .reads::<WorldRays>()
-        .reads::<SurfaceSides>()
-        .reads::<GlassRows>()
-        .writes::<Media>()
-        .writes::<DeeperMedia>()
         .when(media_evidence)
 }
 
 /// The stage that absorbs.
 pub fn absorb_stage() -> Stage {
     Stage::new("Absorb light in glass", TileSystems::Absorb, absorb_in_glass)
-        .reads::<Hits>()
-        .reads::<Media>()
-        .reads::<Paths>()
-        .writes::<Paths>()
-        .table::<GlassTable>()
         .when(|scene| absorption_evidence(scene).and(|| followed_evidence(scene)))
 }
 
 /// The stage that carries media over to the next leg.
 pub fn carry_media_stage() -> Stage {
     Stage::new("Carry media to the next bounce", TileSystems::Step, carry_media)
-        .reads::<Scattered>()
-        .reads::<Surfaces>()
-        .reads::<SurfaceSides>()
-        .reads::<GlassRows>()
-        .reads::<Media>()
         .reads_where::<DeeperMedia>(deeper_media_evidence)
-        .writes::<Media>()
-        .writes::<DeeperMedia>()
-        .table::<GlassTable>()
         .when(media_evidence)
 }
 

@@ -146,15 +146,7 @@ pub fn add_metal(
 pub fn metal_stage() -> Stage {
     Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, scatter_metal)
         .kind(StageKind::Estimator)
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MetalRows>()
         .appends::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<MetalTable>()
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| scattered_evidence(scene)))
 }
@@ -162,15 +154,6 @@ pub fn metal_stage() -> Stage {
 /// The stage that answers lamps.
 pub fn metal_light_stage() -> Stage {
     Stage::new("Evaluate direct light: metal", TileSystems::Shade, add_metal)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .table::<MetalTable>()
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| lit_evidence(scene)))
 }

@@ -39,12 +39,6 @@ pub fn scatter_mirror(
 /// The stage on offer.
 pub fn mirror_stage() -> Stage {
     Stage::new("Sample BSDFs: mirror", TileSystems::SampleBsdfs, scatter_mirror)
-        .reads::<WorldRays>()
-        .reads::<Paths>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MirrorRows>()
         .appends::<Scattered>()
-        .table::<MirrorTable>()
         .when(|scene| mirror_evidence(scene).and(|| followed_evidence(scene)))
 }

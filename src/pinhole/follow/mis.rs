@@ -41,12 +41,6 @@ fn light_rays_evidence(scene: &World) -> Evidence {
 pub fn mis_matte_stage() -> Stage {
     Stage::new("Compute MIS weights: matte", TileSystems::MisWeights, mis_matte)
         .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<LightPdfs>()
-        .reads::<LightRays>()
-        .writes::<LightRays>()
-        .table::<MaterialTable>()
         .when(|scene| light_rays_evidence(scene).and(|| mis_evidence(scene)).and(|| material_evidence(scene)))
 }
 
@@ -78,14 +72,6 @@ pub fn mis_metal(
 pub fn mis_metal_stage() -> Stage {
     Stage::new("Compute MIS weights: metal", TileSystems::MisWeights, mis_metal)
         .kind(StageKind::Alternative)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<LightPdfs>()
-        .reads::<LightRays>()
-        .writes::<LightRays>()
-        .table::<MaterialTable>()
-        .table::<MetalTable>()
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| light_rays_evidence(scene).and(|| mis_evidence(scene)).and(|| metal_evidence(scene)))
 }

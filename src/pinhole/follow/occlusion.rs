@@ -83,12 +83,7 @@ pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &Shadow
 pub fn sky_rays_stage() -> Stage {
     Stage::new("Sample the open sky", TileSystems::SampleLights, sample_sky)
         .kind(StageKind::Alternative)
-        .reads_if::<PixelSamples>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
         .appends::<LightRays>()
-        .table::<SamplingTable>()
-        .table::<IntegratorTable>()
         .when(|scene| occlusion_evidence(scene).and(|| shape_evidence(scene)))
 }
 
@@ -97,10 +92,5 @@ pub fn sky_stage() -> Stage {
     Stage::new("Show ambient occlusion", TileSystems::Shade, show_the_sky)
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .reads_if::<Hits>()
-        .reads_if::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
         .when(occlusion_evidence)
 }

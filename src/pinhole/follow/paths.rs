@@ -23,8 +23,5 @@ pub fn start_paths_stage() -> Stage {
     Stage::new("Start paths", TileSystems::Start, start_paths)
         .on_first_bounce()
         .on_camera_paths()
-        .reads::<WorldRays>()
-        .writes::<Paths>()
-        .writes::<PathLight>()
         .when(followed_evidence)
 }

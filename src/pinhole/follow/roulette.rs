@@ -52,11 +52,5 @@ pub fn play_roulette(
 pub fn roulette_stage() -> Stage {
     Stage::new("Russian roulette", TileSystems::Roulette, play_roulette)
         .kind(StageKind::Estimator)
-        .reads::<Paths>()
-        .reads_if::<PixelSamples>()
-        .reads::<Scattered>()
-        .writes::<Scattered>()
-        .table::<SamplingTable>()
-        .table::<IntegratorTable>()
         .when(|scene| needed_if(scene, |integrator| matches!(integrator, Integrator::Path { roulette: 1.., .. })))
 }

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 
 column! {
     /// Rays that go on from surfaces, each kind of matter's after the other's.
-    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray) {
+    pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the ray whose surface it starts on.
         path: u32,
         /// Origin, x: off the surface by its bound.
@@ -87,7 +87,5 @@ pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
 
 /// The stage on offer.
 pub fn start_scattered_stage() -> Stage {
-    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered)
-        .writes::<Scattered>()
-        .when(followed_evidence)
+    Stage::new("Clear scattered rays", TileSystems::Start, start_scattered).when(followed_evidence)
 }

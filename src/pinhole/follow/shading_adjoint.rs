@@ -52,12 +52,6 @@ pub fn shading_adjoint_stage() -> Stage {
     Stage::new("Correct for shading normals", TileSystems::Roulette, correct_for_shading_normals)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads::<ShadingNormals>()
-        .reads::<Scattered>()
-        .writes::<Scattered>()
-        .table::<MaterialTable>()
         .when(|scene| traced_evidence(scene).and(|| vertex_normal_evidence(scene)))
 }
 

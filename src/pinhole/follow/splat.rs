@@ -47,9 +47,7 @@ pub fn keep_specular_stage() -> Stage {
         .on_light_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .reads::<MaterialRows>()
-        .writes::<MaterialRows>()
-        .writes::<MetalRows>()
+        .changes::<MaterialRows>()
         .when(traced_evidence)
 }
 
@@ -86,12 +84,6 @@ pub fn splat_stage() -> Stage {
     Stage::new("Splat to the film", TileSystems::AddBounce, splat_light)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads::<Paths>()
-        .reads::<LightRays>()
         .reads_where::<JoinPoints>(lens_evidence)
-        .reads::<Radiance>()
-        .reads::<LightPower>()
-        .writes::<Splats>()
-        .table::<CameraJoinTable>()
         .when(traced_evidence)
 }

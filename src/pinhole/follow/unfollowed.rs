@@ -1,7 +1,7 @@
 //! Matter that no stage on offer sends light on from.
 
 use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
-use crate::plan::{Stage, Table, TileSystems};
+use crate::plan::{Stage, Table, TableKind, TileSystems};
 use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
@@ -11,9 +11,8 @@ use bevy_ecs::prelude::*;
 /// Errors: the first shape of such matter that no stage on offer sends light on from.
 pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
-    let unmet = |word: &'static str, table: &str, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
-        let scatters =
-            |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.iter().any(|read| read.name == table);
+    let unmet = |word: &'static str, table: TableKind, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
+        let scatters = |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.contains(&table);
         let goes_on = |stage: &Stage| stage.set == TileSystems::RemainingBounces;
         if offer.iter().any(scatters) && offer.iter().any(goes_on) {
             return Ok(());
@@ -26,10 +25,10 @@ pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<()
             return Ok(());
         };
         let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
-        let accepted = "no stage on offer sends light on from it; offer follow::stages(), which do";
+        let accepted = "no stage on offer sends light on from it; offer stages::all(), which do";
         Err(SceneError::new(name, word, "given", accepted))
     };
-    unmet("mirror", MirrorTable::NAME, &|entity| entity.contains::<Mirror>())?;
-    unmet("glass", GlassTable::NAME, &|entity| entity.contains::<Glass>())?;
-    unmet("metal", MetalTable::NAME, &|entity| entity.contains::<Metal>())
+    unmet("mirror", TableKind::of::<MirrorTable>(), &|entity| entity.contains::<Mirror>())?;
+    unmet("glass", TableKind::of::<GlassTable>(), &|entity| entity.contains::<Glass>())?;
+    unmet("metal", TableKind::of::<MetalTable>(), &|entity| entity.contains::<Metal>())
 }

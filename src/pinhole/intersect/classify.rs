@@ -111,20 +111,5 @@ fn clear_misses(hits: &Hits, surfaces: &mut Surfaces) {
 
 /// The stage that runs this system.
 pub fn classify_stage() -> Stage {
-    Stage::new("Classify hits", TileSystems::Classify, classify_hits)
-        .reads::<Hits>()
-        .writes::<SphereRows>()
-        .writes::<EllipsoidRows>()
-        .writes::<PlaneRows>()
-        .writes::<DiskRows>()
-        .writes::<RectangleRows>()
-        .writes::<CuboidRows>()
-        .writes::<TriangleRows>()
-        .writes::<MaterialRows>()
-        .writes::<EmissiveRows>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<ShapeTable>()
-        .when(shape_evidence)
+    Stage::new("Classify hits", TileSystems::Classify, classify_hits).when(shape_evidence)
 }

@@ -20,13 +20,13 @@ const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
 
 /// A t with an interval that contains its exact value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Between {
+struct Interval {
     t: f64,
     least: f64,
     most: f64,
 }
 
-impl Between {
+impl Interval {
     #[inline(always)]
     fn new(t: f64, error: f64) -> Self {
         Self { t, least: t - error, most: t + error }
@@ -34,13 +34,13 @@ impl Between {
 
     /// The larger of each number; a NaN is never taken over, for comparisons with it are false.
     #[inline(always)]
-    fn later(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         let larger = |a: f64, b: f64| if b > a { b } else { a };
         Self { t: larger(self.t, other.t), least: larger(self.least, other.least), most: larger(self.most, other.most) }
     }
 
     #[inline(always)]
-    fn earlier(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
         Self {
             t: smaller(self.t, other.t),
@@ -56,7 +56,7 @@ impl Between {
 /// A ray parallel to the slab divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, which is correct.
 /// If rounding leaves the sign of n·R uncertain, or whether the ray lies in a face, the interval is all of ℝ.
 #[inline(always)]
-fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
+fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Interval; 2] {
     let (of_f, of_direction) = (normal * f, normal * direction);
     let (middle, approach) = (of_f.x + of_f.y + of_f.z, of_direction.x + of_direction.y + of_direction.z);
     let (sum, sum_of_approach) = (l1_norm(of_f), l1_norm(of_direction));
@@ -71,7 +71,7 @@ fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Between; 2] {
     let unsure = if along { in_a_face } else { relative.is_nan() | (relative >= 0.25) };
     let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
     let bounds = |t: f64| {
-        if unsure { Between { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Between::new(t, error(t)) }
+        if unsure { Interval { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Interval::new(t, error(t)) }
     };
     [bounds(near), bounds(far)]
 }
@@ -85,8 +85,8 @@ pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> In
     let [near_x, far_x] = slab(f, direction, slabs.normal[0], slabs.half[0]);
     let [near_y, far_y] = slab(f, direction, slabs.normal[1], slabs.half[1]);
     let [near_z, far_z] = slab(f, direction, slabs.normal[2], slabs.half[2]);
-    let enters = near_x.later(near_y).later(near_z);
-    let leaves = far_x.earlier(far_y).earlier(far_z);
+    let enters = near_x.max(near_y).max(near_z);
+    let leaves = far_x.min(far_y).min(far_z);
 
     let surely_not = (enters.least > leaves.most) | (leaves.most < 0.0);
     let surely_inside = enters.most <= leaves.least;
@@ -236,27 +236,12 @@ pub fn fill_cuboid_surfaces(
 
 /// The stage that intersects camera rays.
 pub fn cuboid_stage() -> Stage {
-    Stage::new("Intersect cuboids", TileSystems::Intersect, intersect_cuboids::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<CuboidTable>()
-        .when(cuboid_evidence)
+    Stage::new("Intersect cuboids", TileSystems::Intersect, intersect_cuboids::<WorldRays, Hits>).when(cuboid_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn cuboid_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: cuboids", TileSystems::Surface, fill_cuboid_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<CuboidRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<CuboidTable>()
-        .table::<ShapeTable>()
-        .when(cuboid_evidence)
+    Stage::new("Compute surfaces: cuboids", TileSystems::Surface, fill_cuboid_surfaces).when(cuboid_evidence)
 }
 
 /// Evidence that the scene contains a cuboid.

@@ -1,5 +1,5 @@
 use super::double_double_planar::double_double_disk_t;
-use super::planar::{crossing, describe_planar};
+use super::planar::{crossing, fill_planar_surfaces};
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
 use super::rows::DiskRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
@@ -74,33 +74,18 @@ pub fn fill_disk_surfaces(
     for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         let planar_of = |shape: u32| &disks.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
 /// The stage that intersects camera rays.
 pub fn disk_stage() -> Stage {
-    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<DiskTable>()
-        .when(disk_evidence)
+    Stage::new("Intersect disks", TileSystems::Intersect, intersect_disks::<WorldRays, Hits>).when(disk_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn disk_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<DiskRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<DiskTable>()
-        .table::<ShapeTable>()
-        .when(disk_evidence)
+    Stage::new("Compute surfaces: disks", TileSystems::Surface, fill_disk_surfaces).when(disk_evidence)
 }
 
 /// Evidence that the scene contains a disk.

@@ -220,26 +220,12 @@ pub fn fill_ellipsoid_surfaces(
 /// The stage that intersects camera rays.
 pub fn ellipsoid_stage() -> Stage {
     Stage::new("Intersect ellipsoids", TileSystems::Intersect, intersect_ellipsoids::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<EllipsoidTable>()
         .when(ellipsoid_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn ellipsoid_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: ellipsoids", TileSystems::Surface, fill_ellipsoid_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<EllipsoidRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<EllipsoidTable>()
-        .table::<ShapeTable>()
-        .when(ellipsoid_evidence)
+    Stage::new("Compute surfaces: ellipsoids", TileSystems::Surface, fill_ellipsoid_surfaces).when(ellipsoid_evidence)
 }
 
 /// Evidence that the scene contains a sphere with a non-uniform scale.

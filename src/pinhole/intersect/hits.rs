@@ -6,7 +6,7 @@ pub const NO_SHAPE: u32 = u32::MAX;
 
 column! {
     /// The closest hit of each ray.
-    pub struct Hits("hit", "along the ray", "scene units", Ray) {
+    pub struct Hits("hit", "along the ray", "scene units", Ray, begun in Start) {
         /// The distance t in r(t) = O + tR; infinite for a miss.
         t: f64,
         /// The number of the shape; [`NO_SHAPE`] for a miss.

@@ -1,6 +1,6 @@
 //! Rays → the closest hit and its surface.
 //!
-//! Reads: a ray column ([`WorldRays`], later shadow rays) and the tables of shapes.
+//! Reads: a ray column ([`WorldRays`](crate::rays::WorldRays), or shadow rays) and the tables of shapes.
 //! Writes: [`Hits`], the lists of rows of each kind, and [`Surfaces`].
 //! Space: render space. The kinds of shapes run one after another over the whole tile, and each keeps the closest hits;
 //! at equal distances the lowest shape number wins, so the order of the kinds does not affect the result.
@@ -68,16 +68,3 @@ pub use triangle::{
 pub use triangle_exact::exact_triangle_t;
 pub use triangle_surface::{TriangleHit, triangle_surface, triangle_surface_stage};
 pub use uv::{cuboid_uv, planar_uv, sphere_uv};
-
-use crate::plan::Stage;
-
-/// All stages that intersect camera rays with shapes and compute the surfaces they hit.
-pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_stage(), sphere_stage(), ellipsoid_stage(), plane_stage()];
-    stages.extend([disk_stage(), rectangle_stage(), cuboid_stage(), classify_stage()]);
-    stages.extend([sphere_surface_stage(), ellipsoid_surface_stage(), plane_surface_stage()]);
-    stages.extend([disk_surface_stage(), rectangle_surface_stage(), cuboid_surface_stage()]);
-    stages.extend([triangle_stage(), triangle_surface_stage(), shading_normal_stage()]);
-    stages.extend([moving_stage(), moving_surface_stage()]);
-    stages
-}

@@ -123,24 +123,10 @@ pub fn fill_moving_surfaces(
 /// The stage that intersects camera rays.
 pub fn moving_stage() -> Stage {
     Stage::new("Intersect moving shapes", TileSystems::Intersect, intersect_moving::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<RayTimes>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<MovingTable>()
         .when(moving_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn moving_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: moving shapes", TileSystems::Surface, fill_moving_surfaces)
-        .reads::<WorldRays>()
-        .reads::<RayTimes>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceSides>()
-        .table::<MovingTable>()
-        .table::<ShapeTable>()
-        .when(moving_evidence)
+    Stage::new("Compute surfaces: moving shapes", TileSystems::Surface, fill_moving_surfaces).when(moving_evidence)
 }

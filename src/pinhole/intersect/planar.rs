@@ -57,7 +57,7 @@ pub fn crossing(origin: DVec3, direction: DVec3, planar: &Planar) -> Crossing {
 
 /// Fills the surfaces of the listed rows, all of which hit a planar shape, with their uvs and sides if those are
 /// needed.
-pub(super) fn describe_planar<'f>(
+pub(super) fn fill_planar_surfaces<'f>(
     planar_of: impl Fn(u32) -> &'f Planar,
     shapes: &ShapeTable,
     list: &[u32],

@@ -90,26 +90,12 @@ pub fn fill_plane_surfaces(
 
 /// The stage that intersects camera rays.
 pub fn plane_stage() -> Stage {
-    Stage::new("Intersect planes", TileSystems::Intersect, intersect_planes::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<PlaneTable>()
-        .when(plane_evidence)
+    Stage::new("Intersect planes", TileSystems::Intersect, intersect_planes::<WorldRays, Hits>).when(plane_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn plane_surface_stage() -> Stage {
     Stage::new("Compute surfaces: planes", TileSystems::Surface, fill_plane_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<PlaneRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<PlaneTable>()
-        .table::<ShapeTable>()
         .table_with::<UvSpaceTable, SurfaceUvs>()
         .when(plane_evidence)
 }

@@ -1,5 +1,5 @@
 use super::double_double_planar::double_double_rectangle_t;
-use super::planar::{crossing, describe_planar};
+use super::planar::{crossing, fill_planar_surfaces};
 use super::ray_block::{Intersection, LANES, RayBlock, keep_closest};
 use super::rows::RectangleRows;
 use super::surface::{SurfaceSides, SurfaceUvs, Surfaces};
@@ -77,33 +77,19 @@ pub fn fill_rectangle_surfaces(
     for (rays, hits, list, mut surfaces, mut uvs, mut sides) in &mut tiles {
         let planar_of = |shape: u32| &rectangles.planar[shapes.row[shape as usize] as usize];
         let beside = (uvs.as_deref_mut(), sides.as_deref_mut());
-        describe_planar(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
+        fill_planar_surfaces(planar_of, &shapes, &list.row, (rays, hits), &mut surfaces, beside);
     }
 }
 
 /// The stage that intersects camera rays.
 pub fn rectangle_stage() -> Stage {
     Stage::new("Intersect rectangles", TileSystems::Intersect, intersect_rectangles::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<RectangleTable>()
         .when(rectangle_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn rectangle_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: rectangles", TileSystems::Surface, fill_rectangle_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<RectangleRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<RectangleTable>()
-        .table::<ShapeTable>()
-        .when(rectangle_evidence)
+    Stage::new("Compute surfaces: rectangles", TileSystems::Surface, fill_rectangle_surfaces).when(rectangle_evidence)
 }
 
 /// Evidence that the scene contains a rectangle.

@@ -86,16 +86,7 @@ pub fn interpolate_normals(
 
 /// The stage that runs this system.
 pub fn shading_normal_stage() -> Stage {
-    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .reads::<TriangleRows>()
-        .writes::<ShadingNormals>()
-        .table::<TriangleTable>()
-        .table::<VertexNormalTable>()
-        .table::<ShapeTable>()
-        .when(vertex_normal_evidence)
+    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals).when(vertex_normal_evidence)
 }
 
 /// Evidence that the scene contains a triangle with vertex normals.

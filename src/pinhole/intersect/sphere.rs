@@ -176,26 +176,12 @@ pub fn fill_sphere_surfaces(
 
 /// The stage that intersects camera rays.
 pub fn sphere_stage() -> Stage {
-    Stage::new("Intersect spheres", TileSystems::Intersect, intersect_spheres::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<SphereTable>()
-        .when(sphere_evidence)
+    Stage::new("Intersect spheres", TileSystems::Intersect, intersect_spheres::<WorldRays, Hits>).when(sphere_evidence)
 }
 
 /// The stage that fills surfaces.
 pub fn sphere_surface_stage() -> Stage {
     Stage::new("Compute surfaces: spheres", TileSystems::Surface, fill_sphere_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<SphereRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<SphereTable>()
-        .table::<ShapeTable>()
         .table_with::<UvSpaceTable, SurfaceUvs>()
         .when(sphere_evidence)
 }

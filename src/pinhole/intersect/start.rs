@@ -15,5 +15,5 @@ pub fn start_hits(mut tiles: Query<(&WorldRays, &mut Hits)>) {
 
 /// The stage that runs this system.
 pub fn start_stage() -> Stage {
-    Stage::new("Clear hits", TileSystems::Start, start_hits).reads::<WorldRays>().writes::<Hits>().when(shape_evidence)
+    Stage::new("Clear hits", TileSystems::Start, start_hits).when(shape_evidence)
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 column! {
     /// The surface at each hit, in render space; all zero for a miss.
-    pub struct Surfaces("surface", "world, from the eye", "scene units", Ray) {
+    pub struct Surfaces("surface", "world, from the eye", "scene units", Ray, begun in Classify) {
         /// Position, x.
         px: f32,
         /// Position, y.

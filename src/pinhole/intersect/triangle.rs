@@ -74,11 +74,11 @@ pub struct Edges {
 #[inline(always)]
 pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Edges {
     const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
-    let seen = |corner: DVec3| {
-        let [x, y, z] = permuted::<Z>(corner - origin);
+    let sheared = |vertex: DVec3| {
+        let [x, y, z] = permuted::<Z>(vertex - origin);
         (x - shear.x * z, y - shear.y * z, z)
     };
-    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = facet.corners.map(seen);
+    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = facet.corners.map(sheared);
     let areas = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
     let lengths = ax.abs() + ay.abs() + bx.abs() + by.abs() + cx.abs() + cy.abs();
     let size = ray_size + facet.size;
@@ -266,10 +266,6 @@ fn keep_closest<const Z: usize>(
 /// The stage that intersects camera rays.
 pub fn triangle_stage() -> Stage {
     Stage::new("Intersect triangles", TileSystems::Intersect, intersect_triangles::<WorldRays, Hits>)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .writes::<Hits>()
-        .table::<TriangleTable>()
         .when(triangle_evidence)
 }
 

@@ -49,16 +49,16 @@ impl TriangleHit {
 
     /// Interpolates vectors given at the vertices.
     #[inline(always)]
-    pub fn interpolate(&self, corners: &[DVec3; 3]) -> DVec3 {
+    pub fn interpolate(&self, vectors: &[DVec3; 3]) -> DVec3 {
         let [a, b, c] = self.weights;
-        a * corners[0] + b * corners[1] + c * corners[2]
+        a * vectors[0] + b * vectors[1] + c * vectors[2]
     }
 
     /// Interpolates texture coordinates given at the vertices.
     #[inline(always)]
-    pub fn interpolate_uvs(&self, corners: &[DVec2; 3]) -> DVec2 {
+    pub fn interpolate_uvs(&self, uvs: &[DVec2; 3]) -> DVec2 {
         let [a, b, c] = self.weights;
-        a * corners[0] + b * corners[1] + c * corners[2]
+        a * uvs[0] + b * uvs[1] + c * uvs[2]
     }
 }
 
@@ -118,15 +118,5 @@ pub fn fill_triangle_surfaces(
 
 /// The stage that fills surfaces.
 pub fn triangle_surface_stage() -> Stage {
-    Stage::new("Compute surfaces: triangles", TileSystems::Surface, fill_triangle_surfaces)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<TriangleRows>()
-        .reads::<Surfaces>()
-        .writes::<Surfaces>()
-        .writes::<SurfaceUvs>()
-        .writes::<SurfaceSides>()
-        .table::<TriangleTable>()
-        .table::<ShapeTable>()
-        .when(triangle_evidence)
+    Stage::new("Compute surfaces: triangles", TileSystems::Surface, fill_triangle_surfaces).when(triangle_evidence)
 }

@@ -1,7 +1,7 @@
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Column, ExtractedTable, Plan, Stage, Table};
+use crate::plan::{Column, ColumnKind, ExtractedTable, Plan, Stage, Table};
 use crate::rays::{Depth, Tile};
 use crate::render::{Hook, look_at_pieces, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
@@ -135,7 +135,7 @@ fn turn([x, y]: [usize; 2]) -> usize {
 fn counting_hook() -> Hook {
     Arc::new(|_, stage: &Stage, _| {
         let [hits, shadows] =
-            [Hits::NAME, ShadowHits::NAME].map(|name| stage.writes.iter().any(|column| column.name == name));
+            [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
         let count = move |world: &mut World,
                           tiles: &mut QueryState<
             (&Depth, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),

@@ -1,4 +1,4 @@
-use crate::plan::{Column, ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
+use crate::plan::{ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
 use crate::rays::{Depth, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_pixel};
 use crate::scene::{SceneError, TracePixel};
@@ -113,7 +113,7 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
 /// or none.
 fn rows_at_depth(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize> {
     let later = tile.get::<Depth>().is_some_and(|depth| depth.0 > 0);
-    match tile.get::<Paths>().filter(|_| later && column.lifetime != Lifetime::Film && column.name != PathLight::NAME) {
+    match tile.get::<Paths>().filter(|_| later && column.lifetime != Lifetime::Film && !column.is::<PathLight>()) {
         None => column.rows_of_path(tile, path),
         Some(paths) => {
             let rays = (0..paths.first.len()).filter(|&ray| paths.first[ray] == path);

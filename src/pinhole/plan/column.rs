@@ -1,6 +1,8 @@
+use super::TileSystems;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use serde::Serialize;
+use std::any::TypeId;
 use std::fmt;
 
 /// How long a row of a column stays true.
@@ -133,6 +135,10 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     const UNIT: &'static str;
     /// How long its rows stay true.
     const LIFETIME: Lifetime;
+    /// The set whose stages begin it, where stages of later sets change in place what is there.
+    ///
+    /// None for a column that is written as a whole by whichever stage writes it.
+    const BEGUN: Option<TileSystems> = None;
 
     /// How many rows it holds.
     fn rows(&self) -> usize;
@@ -142,17 +148,42 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
     fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
 }
 
+/// Makes a type a component whose columns the plan knows as soon as bevy registers it in any world.
+///
+/// [`column!`](crate::column) does so by itself; columns that are written out by hand say it beside their type.
+#[macro_export]
+macro_rules! column_component {
+    ($column:ty) => {
+        impl bevy_ecs::component::Component for $column {
+            const STORAGE_TYPE: bevy_ecs::component::StorageType = bevy_ecs::component::StorageType::Table;
+            type Mutability = bevy_ecs::component::Mutable;
+
+            fn register_required_components(
+                _: bevy_ecs::component::ComponentId,
+                _: &mut bevy_ecs::component::RequiredComponentsRegistrator<'_, '_>,
+            ) {
+                $crate::plan::ColumnKind::of::<Self>().remember();
+            }
+        }
+    };
+}
+pub use column_component;
+
 /// Declares a column: its doc, its words (name, space, unit, lifetime), its lanes.
 ///
+/// After the lifetime may stand `begun in` and the set of stages that begin it; see
+/// [`Column::BEGUN`](crate::plan::Column::BEGUN).
 /// The struct gets one `Vec` a lane, `slices` and `slices_mut` that hand out all lanes at one length, and
 /// [`Column`](crate::plan::Column); the painting of a row is the type's own `paint_row`, which its author writes.
 #[macro_export]
 macro_rules! column {
-    ($(#[$doc:meta])* pub struct $column:ident($name:literal, $space:literal, $unit:literal, $lifetime:ident) {
+    ($(#[$doc:meta])* pub struct $column:ident(
+        $name:literal, $space:literal, $unit:literal, $lifetime:ident $(, begun in $begun:ident)?
+    ) {
         $($(#[$component_doc:meta])* $component:ident: $number:ty,)+
     }) => {
         $(#[$doc])*
-        #[derive(bevy_ecs::prelude::Component, Clone, Debug, Default, PartialEq)]
+        #[derive(Clone, Debug, Default, PartialEq)]
         pub struct $column { $($(#[$component_doc])* pub $component: Vec<$number>,)+ }
 
         #[allow(dead_code, unused_parens)]
@@ -177,11 +208,14 @@ macro_rules! column {
             }
         }
 
+        $crate::column_component!($column);
+
         impl $crate::plan::Column for $column {
             const NAME: &'static str = $name;
             const SPACE: &'static str = $space;
             const UNIT: &'static str = $unit;
             const LIFETIME: $crate::plan::Lifetime = $crate::plan::Lifetime::$lifetime;
+            $(const BEGUN: Option<$crate::plan::TileSystems> = Some($crate::plan::TileSystems::$begun);)?
 
             fn rows(&self) -> usize {
                 [$(self.$component.len()),+][0]
@@ -207,6 +241,8 @@ pub use column;
 /// This one registry is behind `trace`, `--view`, snapshots and statistics.
 #[derive(Clone, Copy)]
 pub struct ColumnKind {
+    /// The column's type, by which columns are told apart.
+    pub id: TypeId,
     /// The word that `--view`, `trace` and the plan use.
     pub name: &'static str,
     /// The space its rows are in.
@@ -215,6 +251,8 @@ pub struct ColumnKind {
     pub unit: &'static str,
     /// How long its rows stay true.
     pub lifetime: Lifetime,
+    /// The set whose stages begin it, where those of later sets change it in place.
+    pub begun: Option<TileSystems>,
     /// Gives a tile's entity the empty column.
     pub insert: fn(&mut EntityWorldMut<'_>),
     /// Whether a tile's entity has the column.
@@ -231,10 +269,12 @@ impl ColumnKind {
     /// The registry entry of a column type.
     pub fn of<C: Column>() -> Self {
         Self {
+            id: TypeId::of::<C>(),
             name: C::NAME,
             space: C::SPACE,
             unit: C::UNIT,
             lifetime: C::LIFETIME,
+            begun: C::BEGUN,
             insert: |tile| {
                 tile.insert(C::default());
             },
@@ -243,6 +283,11 @@ impl ColumnKind {
             components: |tile| tile.get::<C>().map_or_else(Vec::new, C::components),
             paint: |tile, row, size| tile.get::<C>().map_or([0.0; 3], |column| column.paint(row, size)),
         }
+    }
+
+    /// Whether it is the column of this type.
+    pub fn is<C: Column>(&self) -> bool {
+        self.id == TypeId::of::<C>()
     }
 
     /// Whether a view may ask for it: on the first leg it holds what a ray met, not yet what a path has gathered.
@@ -272,9 +317,11 @@ impl ColumnKind {
 
 impl PartialEq for ColumnKind {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.id == other.id
     }
 }
+
+impl Eq for ColumnKind {}
 
 impl std::fmt::Debug for ColumnKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -1,7 +1,8 @@
-use super::{ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
+use super::{Column, ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
 use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
 use serde::Serialize;
+use std::any::TypeId;
 use std::collections::BTreeSet;
 use thiserror::Error;
 
@@ -99,33 +100,50 @@ pub struct Plan {
     pub statistics: bool,
 }
 
+impl Plan {
+    /// Whether a column of this type will exist.
+    pub fn keeps<C: Column>(&self) -> bool {
+        self.columns.contains(&ColumnKind::of::<C>())
+    }
+}
+
 /// Decides which of the stages on offer this scene needs.
 ///
 /// Pure and deterministic: the same scene and offer give the same plan.
+/// Stages of one set keep the order in which they are offered.
 pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
-    // Where stages of one set add to the same sums, their order must not depend on who offered which first.
-    let by_name = |stage: &Stage| if stage.set.order_free() { "" } else { stage.name };
-    offer.sort_by_key(|stage| (stage.set, by_name(stage)));
+    offer.sort_by_key(|stage| stage.set);
     let view = requested::<View>(scene).map(|view| find_view(&offer, &view.column)).transpose()?;
+    let painters = offer.iter().filter(|stage| stage.reads_view);
+    let over: Vec<ColumnKind> = painters.flat_map(|stage| &stage.writes).copied().collect();
+    let painted = view.map(|column| Painted { column, over: &over });
 
-    let mut wanted: BTreeSet<&'static str> = BTreeSet::new();
-    let mut decided: Vec<(&Stage, PlanRow)> = Vec::new();
+    let mut wanted: BTreeSet<TypeId> = BTreeSet::new();
+    let mut decided: Vec<Decided<'_>> = Vec::new();
     for stage in offer.iter().rev() {
-        let row = decide(scene, stage, view, &wanted);
-        if row.kept {
-            wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.name));
+        let decision = decide(scene, stage, painted, &wanted);
+        if decision.row.kept {
+            wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.id));
             let asked = stage.reads_where.iter().filter(|(_, predicate)| predicate(scene).needed);
-            wanted.extend(asked.map(|(column, _)| column.name));
-            if let (true, Some(column)) = (stage.reads_view, view) {
-                wanted.insert(column.name);
-            }
+            wanted.extend(asked.map(|(column, _)| column.id));
+            wanted.extend(view.filter(|_| stage.reads_view).map(|column| column.id));
         }
-        decided.push((stage, row));
+        decided.push(decision);
     }
     decided.reverse();
     check_producers(&decided, view)?;
     Ok(collect(scene, decided, view))
+}
+
+/// A stage on offer and what is decided about it.
+struct Decided<'s> {
+    stage: &'s Stage,
+    row: PlanRow,
+    /// The columns that it will write.
+    columns: Vec<ColumnKind>,
+    /// The tables that it will read.
+    tables: Vec<TableKind>,
 }
 
 /// The columns that a view may ask for among these stages, in order.
@@ -134,74 +152,78 @@ pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
 pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
-    let mut names = Vec::new();
+    let mut columns = Vec::new();
     let seen = offer.iter().filter(|stage| stage.runs_in(RowKind::Pixel));
     for column in seen.flat_map(|stage| &stage.writes).filter(|column| column.is_viewed()) {
-        if !names.contains(&column.name) {
-            names.push(column.name);
+        if !columns.contains(column) {
+            columns.push(*column);
         }
     }
-    names
+    columns.iter().map(|column| column.name).collect()
 }
 
-fn decide(scene: &World, stage: &Stage, view: Option<ColumnKind>, wanted: &BTreeSet<&'static str>) -> PlanRow {
+/// A view, and what is painted over for it.
+#[derive(Clone, Copy)]
+struct Painted<'p> {
+    column: ColumnKind,
+    /// The columns that the stage which paints it writes.
+    over: &'p [ColumnKind],
+}
+
+fn decide<'s>(scene: &World, stage: &'s Stage, view: Option<Painted<'_>>, wanted: &BTreeSet<TypeId>) -> Decided<'s> {
     let evidence = (stage.when)(scene);
-    let is_film = stage.writes.iter().any(|column| column.lifetime == Lifetime::Film);
-    let read: Vec<&'static str> = stage
-        .writes
-        .iter()
-        .filter(|column| wanted.contains(column.name) || column.lifetime == Lifetime::Film)
-        .map(|column| column.name)
-        .collect();
-    let painted_over = view.is_some_and(|column| column.name != "radiance" || !stage.runs_in(RowKind::Pixel))
-        && !stage.reads_view
-        && (matches!(stage.set, TileSystems::Step | TileSystems::RemainingBounces)
-            || !stage.runs_in(RowKind::Pixel)
-            || stage.writes.iter().all(|column| column.name == "radiance"));
+    let of_film = |column: &ColumnKind| column.lifetime == Lifetime::Film;
+    let read = stage.writes.iter().filter(|column| wanted.contains(&column.id) || of_film(column));
+    let read: Vec<ColumnKind> = read.copied().collect();
+    let is_painted_over = |view: &Painted<'_>| {
+        (!view.over.contains(&view.column) || !stage.runs_in(RowKind::Pixel))
+            && !stage.reads_view
+            && (matches!(stage.set, TileSystems::Step | TileSystems::RemainingBounces)
+                || !stage.runs_in(RowKind::Pixel)
+                || stage.writes.iter().all(|column| view.over.contains(column)))
+    };
     let (kept, reason) = if !evidence.needed {
         (false, evidence.reason)
-    } else if let (true, Some(column)) = (painted_over, view) {
-        (false, format!("the view paints `{}` instead", column.name))
-    } else if is_film || !read.is_empty() {
+    } else if let Some(view) = view.filter(is_painted_over) {
+        (false, format!("the view paints `{}` instead", view.column.name))
+    } else if !read.is_empty() {
         (true, evidence.reason)
     } else {
         let words: Vec<String> = stage.writes.iter().map(|column| format!("`{}`", column.name)).collect();
         (false, format!("nothing that runs reads {}", words.join(" or ")))
     };
-    let (columns, tables) = if kept {
-        let tables = stage.tables_for(scene, &read);
-        (read, tables.iter().map(|table| table.name).collect())
-    } else {
-        (Vec::new(), Vec::new())
+    let columns = if kept { read } else { Vec::new() };
+    let tables = if kept { stage.tables_for(scene, &columns) } else { Vec::new() };
+    let row = PlanRow {
+        stage: stage.name,
+        kept,
+        reason,
+        count: if kept || !evidence.needed { evidence.count } else { 0 },
+        columns: columns.iter().map(|column| column.name).collect(),
+        tables: tables.iter().map(|table| table.name).collect(),
     };
-    let count = if kept || !evidence.needed { evidence.count } else { 0 };
-    PlanRow { stage: stage.name, kept, reason, count, columns, tables }
+    Decided { stage, row, columns, tables }
 }
 
-fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> Result<(), PlanError> {
-    let mut written: BTreeSet<&'static str> = BTreeSet::new();
-    for (stage, row) in decided.iter().filter(|(_, row)| row.kept) {
-        if let (true, Some(column)) = (stage.reads_view, view)
-            && !written.contains(column.name)
-        {
-            return Err(PlanError::NoSuchView { asked: column.name.into(), why: fate(decided, column.name) });
+fn check_producers(decided: &[Decided<'_>], view: Option<ColumnKind>) -> Result<(), PlanError> {
+    let mut written: BTreeSet<TypeId> = BTreeSet::new();
+    for Decided { stage, columns, .. } in decided.iter().filter(|decision| decision.row.kept) {
+        if let Some(column) = view.filter(|column| stage.reads_view && !written.contains(&column.id)) {
+            return Err(PlanError::NoSuchView { asked: column.name.into(), why: fate(decided, column) });
         }
-        for column in &stage.reads {
-            if !written.contains(column.name) {
-                let why = fate(decided, column.name);
-                return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
-            }
+        for &column in stage.reads.iter().filter(|column| !written.contains(&column.id)) {
+            let why = fate(decided, column);
+            return Err(PlanError::NoProducer { stage: stage.name, column: column.name, why });
         }
         let beside = stage.reads_if.iter().chain(stage.reads_where.iter().map(|(column, _)| column));
         // The film's columns hold the samples before this one.
-        for column in beside.filter(|column| column.lifetime != Lifetime::Film) {
-            let of = |(_, row): &&(&Stage, PlanRow)| row.kept && row.columns.contains(&column.name);
-            let writer = decided.iter().find(of).map(|(writer, _)| writer.name);
-            if let (false, Some(writer)) = (written.contains(column.name), writer) {
+        for column in beside.filter(|column| column.lifetime != Lifetime::Film && !written.contains(&column.id)) {
+            if let Some(writer) = decided.iter().find(|other| other.columns.contains(column)) {
+                let writer = writer.stage.name;
                 return Err(PlanError::WrittenAfterwards { stage: stage.name, column: column.name, writer });
             }
         }
-        written.extend(&row.columns);
+        written.extend(columns.iter().map(|column| column.id));
     }
     Ok(())
 }
@@ -209,14 +231,14 @@ fn check_producers(decided: &[(&Stage, PlanRow)], view: Option<ColumnKind>) -> R
 /// What became of the stages that could have written a column, in words.
 ///
 /// Kinds of which the scene holds nothing, not even disabled, are passed over where another kind has something to say.
-fn fate(decided: &[(&Stage, PlanRow)], column: &str) -> String {
-    let could = |stage: &Stage| stage.writes.iter().any(|own| own.name == column);
+fn fate(decided: &[Decided<'_>], column: ColumnKind) -> String {
+    let could = |stage: &Stage| stage.writes.contains(&column);
     let holds_none = |row: &PlanRow| row.reason.starts_with("0 ") && !row.reason.contains('"');
-    let none_to_tell = !decided.iter().any(|(stage, row)| could(stage) && !holds_none(row));
+    let none_to_tell = !decided.iter().any(|other| could(other.stage) && !holds_none(&other.row));
     let writers: Vec<String> = decided
         .iter()
-        .filter(|(stage, row)| could(stage) && (none_to_tell || !holds_none(row)))
-        .map(|(stage, row)| format!("\"{}\" is left out here ({})", stage.name, row.reason))
+        .filter(|other| could(other.stage) && (none_to_tell || !holds_none(&other.row)))
+        .map(|other| format!("\"{}\" is left out here ({})", other.row.stage, other.row.reason))
         .collect();
     match &writers[..] {
         [] => "no stage on offer writes it".into(),
@@ -237,24 +259,24 @@ fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
     })
 }
 
-fn collect(scene: &World, decided: Vec<(&Stage, PlanRow)>, view: Option<ColumnKind>) -> Plan {
+fn collect(scene: &World, decided: Vec<Decided<'_>>, view: Option<ColumnKind>) -> Plan {
     let (mut columns, mut tables): (Vec<ColumnKind>, Vec<TableKind>) = (Vec::new(), Vec::new());
     let (mut stages, mut rows) = (Vec::new(), Vec::new());
-    for (stage, row) in decided {
-        if row.kept {
-            for column in stage.writes.iter().filter(|column| row.columns.contains(&column.name)) {
-                if !columns.contains(column) {
-                    columns.push(*column);
-                }
+    for decision in decided {
+        for column in decision.columns {
+            if !columns.contains(&column) {
+                columns.push(column);
             }
-            for table in stage.tables_for(scene, &row.columns) {
-                if !tables.contains(&table) {
-                    tables.push(table);
-                }
-            }
-            stages.push(stage.clone());
         }
-        rows.push(row);
+        for table in decision.tables {
+            if !tables.contains(&table) {
+                tables.push(table);
+            }
+        }
+        if decision.row.kept {
+            stages.push(decision.stage.clone());
+        }
+        rows.push(decision.row);
     }
     let mut passes = vec![Pass { name: "camera", row: RowKind::Pixel, product: "film" }];
     if stages.iter().any(|stage: &Stage| !stage.runs_in(RowKind::Pixel)) {

@@ -7,6 +7,7 @@
 //! A stage is kept when the scene needs it *and* something that is kept, or a request, reads what it writes.
 //! What is dropped is never built, so it costs nothing.
 
+mod access;
 mod column;
 mod decide;
 mod evidence;
@@ -17,6 +18,7 @@ mod table;
 
 pub use column::{
     Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
+    column_component,
 };
 pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
 pub use evidence::{ComponentKind, Evidence, counted, entities};

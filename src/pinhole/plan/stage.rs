@@ -1,7 +1,9 @@
+use super::access::Access;
 use super::{Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
+use std::any::TypeId;
 use std::sync::Arc;
 
 /// What leaving a stage out does to the picture where its predicate says that it is not needed.
@@ -22,6 +24,8 @@ pub struct Slot(pub usize);
 /// A stage on offer: what it is called, what it reads and writes, when a scene needs it, the system that runs.
 #[derive(Clone)]
 pub struct Stage {
+    /// The type of its system, by which stages are told apart.
+    pub id: TypeId,
     /// In words, such as "Transform rays to world space".
     pub name: &'static str,
     /// Where it stands in the order.
@@ -57,24 +61,34 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// A stage that reads and writes nothing yet and is always needed.
-    pub fn new<Marker: 'static>(
-        name: &'static str,
-        set: TileSystems,
-        system: impl IntoScheduleConfigs<ScheduleSystem, Marker> + Clone + Send + Sync + 'static,
-    ) -> Self {
+    /// A stage that is always needed, and reads and writes what its system's parameters say.
+    ///
+    /// `&C` is a column it cannot run without, `Option<&C>` one that it reads where it exists, `&mut C` one that it
+    /// writes, `Res<Shared<T>>` a table.
+    /// A column that stages of an earlier set begin ([`Column::BEGUN`]) is read as well, for it is changed in place.
+    /// An exclusive system (`&mut World`) says nothing by its parameters, so what it touches is added one by one.
+    pub fn new<Marker: 'static, S>(name: &'static str, set: TileSystems, system: S) -> Self
+    where
+        S: IntoScheduleConfigs<ScheduleSystem, Marker> + Clone + Send + Sync + 'static,
+    {
+        let id = TypeId::of::<S>();
+        let made = system.clone();
+        let access = Access::of(id, || made.into_configs());
+        let changed = |column: &&ColumnKind| column.begun.is_some_and(|begun| begun < set);
+        let changed: Vec<ColumnKind> = access.needs.iter().filter(changed).copied().collect();
         Self {
+            id,
             name,
             set,
             kind: StageKind::Exact,
-            reads: Vec::new(),
-            reads_if: Vec::new(),
+            reads: access.reads.iter().chain(&changed).copied().collect(),
+            reads_if: access.reads_if.clone(),
             reads_where: Vec::new(),
-            writes: Vec::new(),
+            writes: access.writes.clone(),
             on_every_bounce: set.on_every_bounce(),
             passes: set.passes(),
             appends: false,
-            tables: Vec::new(),
+            tables: access.tables.clone(),
             tables_where: Vec::new(),
             tables_with: Vec::new(),
             reads_view: false,
@@ -101,63 +115,74 @@ impl Stage {
         self
     }
 
+    /// Whether it is made of the same system as the stage that `constructor` makes.
+    pub fn is(&self, constructor: fn() -> Self) -> bool {
+        *self == constructor()
+    }
+
     /// Whether it runs in the pass whose rows are of this kind.
     pub fn runs_in(&self, row: RowKind) -> bool {
         self.passes.contains(&row)
     }
 
-    /// It cannot run without this column.
+    /// It cannot run without this column: said of exclusive systems only.
     pub fn reads<C: Column>(mut self) -> Self {
-        self.reads.push(ColumnKind::of::<C>());
-        self
-    }
-
-    /// It reads this column where it exists.
-    pub fn reads_if<C: Column>(mut self) -> Self {
-        self.reads_if.push(ColumnKind::of::<C>());
+        add(&mut self.reads, ColumnKind::of::<C>());
         self
     }
 
     /// It reads this column where it exists, and it asks for it only where the scene gives a reason.
     pub fn reads_where<C: Column>(mut self, predicate: fn(&World) -> Evidence) -> Self {
-        self.reads_where.push((ColumnKind::of::<C>(), predicate));
+        let column = ColumnKind::of::<C>();
+        self.reads.retain(|own| *own != column);
+        self.reads_if.retain(|own| *own != column);
+        self.reads_where.push((column, predicate));
         self
     }
 
-    /// It writes this column.
+    /// It writes this column: said of exclusive systems only.
     pub fn writes<C: Column>(mut self) -> Self {
-        self.writes.push(ColumnKind::of::<C>());
+        add(&mut self.writes, ColumnKind::of::<C>());
         self
+    }
+
+    /// It changes this column in place, although it stands in the set whose stages begin it.
+    pub fn changes<C: Column>(self) -> Self {
+        self.reads::<C>().writes::<C>()
     }
 
     /// It appends rows to this column, which cannot exist without a stage that empties it first.
     pub fn appends<C: Column>(mut self) -> Self {
         self.appends = true;
-        self.reads::<C>().writes::<C>()
+        self.changes::<C>()
     }
 
-    /// It reads this table.
+    /// It reads this table: said of exclusive systems only.
     pub fn table<T: Table>(mut self) -> Self {
-        self.tables.push(TableKind::of::<T>());
+        add(&mut self.tables, TableKind::of::<T>());
         self
     }
 
     /// It reads this table where the scene gives a reason for it.
     pub fn table_where<T: Table>(mut self, predicate: fn(&World) -> Evidence) -> Self {
-        self.tables_where.push((TableKind::of::<T>(), predicate));
+        let table = TableKind::of::<T>();
+        self.tables.retain(|own| *own != table);
+        self.tables_where.push((table, predicate));
         self
     }
 
     /// It reads this table only to write that column, so only where the column is read.
     pub fn table_with<T: Table, C: Column>(mut self) -> Self {
-        self.tables_with.push((TableKind::of::<T>(), ColumnKind::of::<C>()));
+        let table = TableKind::of::<T>();
+        self.tables.retain(|own| *own != table);
+        self.tables_with.push((table, ColumnKind::of::<C>()));
         self
     }
 
     /// The tables it reads of this scene, where of the columns that it writes these are read.
-    pub fn tables_for(&self, scene: &World, columns: &[&'static str]) -> Vec<TableKind> {
+    pub fn tables_for(&self, scene: &World, columns: &[ColumnKind]) -> Vec<TableKind> {
         let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
-        let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(&column.name));
+        let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(column));
         let more = asked.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
         self.tables.iter().chain(more).copied().collect()
     }
@@ -178,6 +203,18 @@ impl Stage {
     pub fn kind(mut self, kind: StageKind) -> Self {
         self.kind = kind;
         self
+    }
+}
+
+fn add<T: PartialEq>(list: &mut Vec<T>, item: T) {
+    if !list.contains(&item) {
+        list.push(item);
+    }
+}
+
+impl PartialEq for Stage {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
     }
 }
 

@@ -1,5 +1,8 @@
 use crate::scene::SceneError;
+use bevy_ecs::component::{ComponentId, Mutable, RequiredComponentsRegistrator, StorageType};
 use bevy_ecs::prelude::*;
+use bevy_ecs::resource::IsResource;
+use std::any::TypeId;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -14,8 +17,20 @@ pub trait Table: Sized + Send + Sync + 'static {
 }
 
 /// A table as a resource of a render world; all worlds share one copy.
-#[derive(Resource)]
 pub struct Shared<T: Table>(Arc<T>);
+
+// What `#[derive(Resource)]` writes, and one line more: the plan learns of the table where bevy registers it.
+impl<T: Table> Component for Shared<T> {
+    const STORAGE_TYPE: StorageType = StorageType::SparseSet;
+    type Mutability = Mutable;
+
+    fn register_required_components(id: ComponentId, required: &mut RequiredComponentsRegistrator<'_, '_>) {
+        TableKind::of::<T>().remember::<T>();
+        required.register_required::<IsResource>(move || IsResource::new(id));
+    }
+}
+
+impl<T: Table> Resource for Shared<T> {}
 
 impl<T: Table> Shared<T> {
     /// A table ready to be inserted into a world.
@@ -34,6 +49,8 @@ impl<T: Table> Deref for Shared<T> {
 /// A table as the plan handles it, without its type.
 #[derive(Clone, Copy)]
 pub struct TableKind {
+    /// The table's type, by which tables are told apart.
+    pub id: TypeId,
     /// The word that the plan uses.
     pub name: &'static str,
     /// Reads it off the scene.
@@ -44,6 +61,8 @@ pub struct TableKind {
 
 /// A table read off the scene, ready for any number of render worlds.
 pub struct ExtractedTable {
+    /// The table's type.
+    pub id: TypeId,
     /// The word that the plan uses.
     pub name: &'static str,
     /// Bytes that its arrays take.
@@ -56,23 +75,31 @@ impl TableKind {
     /// The registry entry of a table type.
     pub fn of<T: Table>() -> Self {
         Self {
+            id: TypeId::of::<T>(),
             name: T::NAME,
             extract: |scene| {
                 let table = Arc::new(T::extract(scene)?);
                 let bytes = table.bytes();
                 let insert = Box::new(move |world: &mut World| world.insert_resource(Shared(Arc::clone(&table))));
-                Ok(ExtractedTable { name: T::NAME, bytes, insert })
+                Ok(ExtractedTable { id: TypeId::of::<T>(), name: T::NAME, bytes, insert })
             },
             present: |world| world.contains_resource::<Shared<T>>(),
         }
+    }
+
+    /// Whether it is the table of this type.
+    pub fn is<T: Table>(&self) -> bool {
+        self.id == TypeId::of::<T>()
     }
 }
 
 impl PartialEq for TableKind {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.id == other.id
     }
 }
+
+impl Eq for TableKind {}
 
 impl std::fmt::Debug for TableKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -86,9 +86,6 @@ pub fn fill_orthographic(window: Res<Shared<OrthographicWindow>>, mut tiles: Que
 pub fn perspective_stage() -> Stage {
     Stage::new("Generate camera rays: perspective", TileSystems::Camera, fill_perspective)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
-        .table::<PerspectiveProjection>()
         .when(|scene| match lens_evidence(scene) {
             lens if lens.needed => Evidence { needed: false, ..lens },
             _ => Evidence::of::<PerspectiveCamera>(scene, "perspective camera"),
@@ -99,9 +96,6 @@ pub fn perspective_stage() -> Stage {
 pub fn orthographic_stage() -> Stage {
     Stage::new("Generate camera rays: orthographic", TileSystems::Camera, fill_orthographic)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
-        .table::<OrthographicWindow>()
         .when(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
 }
 

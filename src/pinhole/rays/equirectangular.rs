@@ -41,8 +41,5 @@ pub fn fill_equirectangular(image: Res<Shared<ImageFrame>>, mut tiles: Query<(&S
 pub fn equirectangular_stage() -> Stage {
     Stage::new("Generate camera rays: equirectangular", TileSystems::Camera, fill_equirectangular)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
-        .table::<ImageFrame>()
         .when(|scene| Evidence::of::<EquirectangularCamera>(scene, "equirectangular camera"))
 }

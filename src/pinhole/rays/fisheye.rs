@@ -45,8 +45,5 @@ pub fn fill_fisheye(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenP
 pub fn fisheye_stage() -> Stage {
     Stage::new("Generate camera rays: fisheye", TileSystems::Camera, fill_fisheye)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .writes::<CameraRays>()
-        .table::<ImageCircle>()
         .when(fisheye_evidence)
 }

@@ -122,24 +122,12 @@ pub fn fill_lens_rays(
 
 /// The stage that samples points of the lens.
 pub fn lens_point_stage() -> Stage {
-    Stage::new("Sample the lens", TileSystems::Lens, draw_lens_points)
-        .kind(StageKind::Alternative)
-        .reads::<RasterPoints>()
-        .reads_if::<PixelSamples>()
-        .writes::<LensPoints>()
-        .table::<LensTable>()
-        .table::<SamplingTable>()
-        .when(lens_evidence)
+    Stage::new("Sample the lens", TileSystems::Lens, draw_lens_points).kind(StageKind::Alternative).when(lens_evidence)
 }
 
 /// The stage for perspective cameras with a thin lens.
 pub fn lens_stage() -> Stage {
     Stage::new("Generate camera rays: thin lens", TileSystems::Camera, fill_lens_rays)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .reads::<LensPoints>()
-        .writes::<CameraRays>()
-        .table::<PerspectiveProjection>()
-        .table::<LensTable>()
         .when(lens_evidence)
 }

@@ -45,14 +45,3 @@ pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stag
 pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
 pub use times::{RayTimes, draw_times, time_stage};
 pub use world::{WorldRays, fill_world, world_stage};
-
-use crate::plan::Stage;
-
-/// All stages of ray generation, for chapters in which they are a closed box.
-pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![raster_stage(), place_samples_stage(), ndc_stage(), screen_stage()];
-    stages.extend([perspective_stage(), orthographic_stage(), world_stage()]);
-    stages.extend([lens_point_stage(), lens_stage(), fisheye_stage(), equirectangular_stage()]);
-    stages.push(time_stage());
-    stages
-}

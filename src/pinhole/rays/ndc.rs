@@ -52,9 +52,6 @@ fn ndc_rows(raster: &RasterPoints, size: DVec2, ndc: &mut NdcPoints) {
 /// The stage that runs this system.
 pub fn ndc_stage() -> Stage {
     Stage::new("Compute NDC points", TileSystems::Ndc, fill_ndc)
-        .reads::<RasterPoints>()
-        .writes::<NdcPoints>()
-        .table::<ImageFrame>()
 }
 
 #[cfg(test)]

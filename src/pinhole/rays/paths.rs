@@ -2,7 +2,7 @@ use crate::plan::column;
 
 column! {
     /// The path that each ray belongs to: its pixel, its throughput, and the pdf of its last direction.
-    pub struct Paths("path", "light", "throughput, 1/sr", Path) {
+    pub struct Paths("path", "light", "throughput, 1/sr", Path, begun in Start) {
         /// The row of the path's camera ray.
         first: u32,
         /// Throughput, red: the factor by which radiance along this ray contributes to the film.
@@ -32,7 +32,7 @@ impl Paths {
 
 column! {
     /// The radiance that each path has contributed to the film so far.
-    pub struct PathLight("path light", "light", "linear Rec. 709", Path) {
+    pub struct PathLight("path light", "light", "linear Rec. 709", Path, begun in Start) {
         /// Red.
         r: f64,
         /// Green.

@@ -118,14 +118,7 @@ fn spread(offset: impl Fn(f64) -> f64, active: &[u32], tile: &Tile, xs: &mut [f6
 
 /// The stage that places samples, the alternative to raster points at the centres of pixels.
 pub fn place_samples_stage() -> Stage {
-    Stage::new("Place samples", TileSystems::Raster, place_samples)
-        .kind(StageKind::Alternative)
-        .writes::<RasterPoints>()
-        .writes::<PixelSamples>()
-        .writes::<SampleSigns>()
-        .table::<SamplingTable>()
-        .table::<FilterTable>()
-        .when(sampling_evidence)
+    Stage::new("Place samples", TileSystems::Raster, place_samples).kind(StageKind::Alternative).when(sampling_evidence)
 }
 
 /// Evidence that the camera places its samples at random.

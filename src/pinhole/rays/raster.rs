@@ -80,13 +80,12 @@ pub fn fill_raster(mut tiles: Query<(&Tile, &mut RasterPoints)>) {
 // ANCHOR: raster_stage
 /// The stage that runs this system.
 pub fn raster_stage() -> Stage {
-    Stage::new("Place raster points", TileSystems::Raster, fill_raster)
-        .kind(StageKind::Alternative)
-        .writes::<RasterPoints>()
-        .when(|scene| match sampling_evidence(scene) {
+    Stage::new("Place raster points", TileSystems::Raster, fill_raster).kind(StageKind::Alternative).when(|scene| {
+        match sampling_evidence(scene) {
             samples if samples.needed => Evidence { needed: false, ..samples },
             _ => Evidence::always("every picture needs it"),
-        })
+        }
+    })
 }
 // ANCHOR_END: raster_stage
 

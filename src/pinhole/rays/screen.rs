@@ -52,9 +52,6 @@ fn screen_rows(ndc: &NdcPoints, aspect: f64, screen: &mut ScreenPoints) {
 /// The stage that runs this system.
 pub fn screen_stage() -> Stage {
     Stage::new("Compute screen points", TileSystems::Screen, fill_screen)
-        .reads::<NdcPoints>()
-        .writes::<ScreenPoints>()
-        .table::<ImageFrame>()
 }
 
 #[cfg(test)]

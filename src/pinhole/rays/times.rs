@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// The time of each ray, which is that of its whole path.
-    pub struct RayTimes("time", "since the shutter opened", "units of time", Ray) {
+    pub struct RayTimes("time", "since the shutter opened", "units of time", Ray, begun in Lens) {
         /// In [0, the duration for which the shutter is open).
         time: f64,
     }
@@ -36,11 +36,5 @@ pub fn draw_times(
 
 /// The stage that runs this system.
 pub fn time_stage() -> Stage {
-    Stage::new("Sample times", TileSystems::Lens, draw_times)
-        .reads::<RasterPoints>()
-        .reads_if::<PixelSamples>()
-        .writes::<RayTimes>()
-        .table::<ShutterTable>()
-        .table::<SamplingTable>()
-        .when(motion_evidence)
+    Stage::new("Sample times", TileSystems::Lens, draw_times).when(motion_evidence)
 }

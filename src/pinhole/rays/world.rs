@@ -1,13 +1,14 @@
 use super::{CameraRays, RayTimes};
-use crate::extract::{CameraAxes, LensTable, OrthographicWindow, ShutterTable, camera_moves_evidence};
-use crate::plan::{Column, Shared, Stage, TileSystems, column};
+use crate::extract::{CameraAxes, LensTable, OrthographicWindow, ShutterTable, camera_moves_evidence, lens_evidence};
+use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::scene::OrthographicCamera;
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use multiversion::multiversion;
 
 column! {
     /// Rays in render space: the world's axes, with the eye at the origin (PBRT's camera-world space).
-    pub struct WorldRays("world", "world, from the eye", "scene units", Ray) {
+    pub struct WorldRays("world", "world, from the eye", "scene units", Ray, begun in World) {
         /// Origin, x.
         ox: f32,
         /// Origin, y.
@@ -89,9 +90,8 @@ fn moved_rows(camera: &CameraRays, world_from_camera: DMat3, velocity: DVec3, ti
 /// The stage that runs this system.
 pub fn world_stage() -> Stage {
     Stage::new("Transform rays to world space", TileSystems::World, fill_world)
-        .reads::<CameraRays>()
-        .writes::<WorldRays>()
-        .table::<CameraAxes>()
         .reads_where::<RayTimes>(camera_moves_evidence)
         .table_where::<ShutterTable>(camera_moves_evidence)
+        .table_where::<OrthographicWindow>(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
+        .table_where::<LensTable>(lens_evidence)
 }

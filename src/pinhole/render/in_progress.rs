@@ -9,11 +9,12 @@ use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable};
 use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
-use crate::plan::{Column, ExtractedTable, Plan, Shared, Stage, Table};
+use crate::plan::{ExtractedTable, Plan, Shared, Stage, Table};
 use crate::rays::PixelSamples;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
+use std::any::TypeId;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -94,7 +95,7 @@ impl RenderInProgress {
 
     /// Whether the camera takes samples; where it does not, all is one step.
     pub fn is_sampled(&self) -> bool {
-        self.plan.columns.iter().any(|column| column.name == PixelSamples::NAME)
+        self.plan.keeps::<PixelSamples>()
     }
 
     /// The steps that the camera asks for.
@@ -174,7 +175,7 @@ impl RenderInProgress {
 
     /// From now on samples are placed by these numbers.
     fn renumber(&mut self, numbers: SamplingTable) {
-        for table in self.tables.iter_mut().filter(|table| table.name == SamplingTable::NAME) {
+        for table in self.tables.iter_mut().filter(|table| table.id == TypeId::of::<SamplingTable>()) {
             table.insert = Box::new(move |world: &mut World| world.insert_resource(Shared::new(numbers)));
         }
     }
@@ -196,15 +197,14 @@ impl RenderInProgress {
 
 /// A film with the columns that the plan keeps beside sums and counts.
 pub(super) fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
-    let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
-    if keeps(FilmMoments::NAME) {
+    if plan.keeps::<FilmMoments>() {
         film.moments = rows.clone().map(FilmMoments::new).collect();
     }
-    if keeps(Splats::NAME) {
+    if plan.keeps::<Splats>() {
         film.splats = Some(FilmSplats::new(film.width, film.height));
     }
-    if keeps(FilmLayers::NAME) {
+    if plan.keeps::<FilmLayers>() {
         let kinds = LayerTable::kinds_of(scene);
         film.layers = rows.map(|rows| FilmLayers::new(rows, &kinds)).collect();
     }

@@ -1,7 +1,7 @@
 use crate::extract::{FilterTable, ImageFrame, LayerTable, adaptive_of};
 use crate::film::{FilmLayers, FilmMoments};
 use crate::follow::Splats;
-use crate::plan::{Column, Plan, Table};
+use crate::plan::{Plan, Table};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
 
@@ -17,19 +17,18 @@ pub fn peak_memory() -> Option<u64> {
 pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
-    let keeps = |name: &str| plan.columns.iter().any(|column| column.name == name);
     let mut film = THREE + COUNT;
     if matches!(FilterTable::extract(scene)?.filter, Filter::Mitchell { .. }) {
         film += THREE + COUNT;
     }
-    if keeps(FilmMoments::NAME) {
+    if plan.keeps::<FilmMoments>() {
         film += THREE;
     }
-    if keeps(Splats::NAME) {
+    if plan.keeps::<Splats>() {
         film += THREE;
     }
     let mut written = 0;
-    if keeps(FilmLayers::NAME) {
+    if plan.keeps::<FilmLayers>() {
         let channels = |kinds: &[LayerKind]| kinds.iter().map(|kind| kind.channels().len() as u64).sum::<u64>();
         let kinds = LayerTable::kinds_of(scene);
         let means: Vec<LayerKind> = kinds.iter().copied().filter(|kind| kind.is_mean()).collect();

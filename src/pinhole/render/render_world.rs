@@ -5,7 +5,7 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::{Stop, check_materials_are_followed, is_whole};
-use crate::plan::{Bounce, Column, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
+use crate::plan::{Bounce, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_intersected;
 use bevy_ecs::prelude::*;
@@ -152,7 +152,7 @@ fn spawn_tile(world: &mut World, plan: &Plan, row: RowKind) -> Entity {
     let columns: Vec<&ColumnKind> = plan.columns.iter().filter(written).collect();
     if row == RowKind::LightPath {
         tile.insert(SampleNumber::default());
-    } else if columns.iter().any(|column| column.name == PixelSamples::NAME) {
+    } else if columns.iter().any(|column| column.is::<PixelSamples>()) {
         tile.insert((SampleNumber::default(), ActivePixels::default()));
     }
     for column in columns {

@@ -1,5 +1,5 @@
 use crate::extract::shape_entities;
-use crate::plan::{Column, Plan};
+use crate::plan::{ColumnKind, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
 use bevy_ecs::prelude::*;
 
@@ -17,8 +17,9 @@ const LEAST: u32 = 2;
 /// From every pixel a ray goes to each light without an area, and all of a tile's are held at once.
 /// No bit of a picture depends on the side.
 pub(super) fn tile_side(scene: &World, plan: &Plan, most: u32) -> u32 {
-    let of_light = |name: &str| [LightRays::NAME, LightPdfs::NAME, ShadowHits::NAME].contains(&name);
-    let columns = plan.columns.iter().filter(|column| of_light(column.name));
+    let of_light =
+        |column: &&ColumnKind| column.is::<LightRays>() || column.is::<LightPdfs>() || column.is::<ShadowHits>();
+    let columns = plan.columns.iter().filter(of_light);
     let bytes: usize = columns.map(|column| column.bytes_a_row()).sum();
     let lights = if bytes > 0 { point_evidence(scene).count.max(1) } else { 1 } as f64;
     let shapes = shape_entities(scene).len().max(1) as f64;

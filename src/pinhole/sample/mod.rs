@@ -3,7 +3,7 @@
 //! Therefore neither threads, tiles, the order of work, nor a stage that the plan drops can change one of them.
 //!
 //! Reads: the seed and the number of samples, nothing else of a scene.
-//! Gives: 32-bit fractions, which [`unit`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
+//! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
 //! in pixels, distributed as the reconstruction filter.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
 //! decided outside the loop over pixels.

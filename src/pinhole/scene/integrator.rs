@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub enum Integrator {
     /// Emission and direct light at the first hit; mirrors, glass and metal stay black.
     RayCasting,
-    /// Also specular reflection and refraction, both of which are traced at every surface of glass, so that nothing is
-    /// random (Whitted 1980).
+    /// Ray casting with specular reflection and refraction, both of which are traced at every surface of glass, so that
+    /// nothing is random (Whitted 1980).
     Whitted {
         /// The largest number of path segments.
         max_depth: u32,
@@ -34,7 +34,8 @@ pub enum Integrator {
         max_depth: u32,
         /// How direct light is estimated.
         lights: LightStrategy,
-        /// The depth from which Russian roulette ends paths, which leaves the expected value unchanged; 0 for never.
+        /// The path length, in segments, from which Russian roulette may end a path (Mitsuba's `rr_depth`); it leaves the
+        /// expected value unchanged; 0 for never.
         roulette: u32,
     },
 }
@@ -42,7 +43,7 @@ pub enum Integrator {
 /// How a path tracer estimates direct light from emitters that have an area, and from the environment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LightStrategy {
-    /// BSDF sampling alone: paths hit emitters by chance.
+    /// BSDF sampling alone: an emitter contributes if a sampled direction hits it.
     Bsdf,
     /// Light sampling (next-event estimation) alone.
     Light,

@@ -117,15 +117,7 @@ fn aim_rows<D: Draw>(
 pub fn area_light_stage() -> Stage {
     Stage::new("Sample area lights", TileSystems::SampleLights, sample_area_lights)
         .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
-        .reads_if::<PixelSamples>()
-        .reads_if::<Paths>()
         .appends::<LightRays>()
-        .writes::<LightPdfs>()
-        .table::<AreaLightTable>()
-        .table::<SamplingTable>()
         .when(|scene| {
             area_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
         })

@@ -25,15 +25,10 @@ pub fn add_background(background: Res<Shared<BackgroundTable>>, mut tiles: Query
 
 /// The stage on offer.
 pub fn background_stage() -> Stage {
-    Stage::new("Add the background", TileSystems::Background, add_background)
-        .reads_if::<Hits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<BackgroundTable>()
-        .when(|scene| {
-            let found = Evidence::among::<With<Background>>(scene, "coloured background", |entity| {
-                entity.get::<Background>().is_some_and(|background| background.colour != Rgb::BLACK)
-            });
-            unless_occlusion(scene, found)
-        })
+    Stage::new("Add the background", TileSystems::Background, add_background).when(|scene| {
+        let found = Evidence::among::<With<Background>>(scene, "coloured background", |entity| {
+            entity.get::<Background>().is_some_and(|background| background.colour != Rgb::BLACK)
+        });
+        unless_occlusion(scene, found)
+    })
 }

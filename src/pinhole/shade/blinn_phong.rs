@@ -42,14 +42,5 @@ pub fn add_blinn_phong(
 /// The stage on offer.
 pub fn blinn_phong_stage() -> Stage {
     Stage::new("Add Blinn–Phong highlights", TileSystems::Shade, add_blinn_phong)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .table::<BlinnPhongTable>()
         .when(|scene| material_kind_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(|| light_evidence(scene)))
 }

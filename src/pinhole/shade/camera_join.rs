@@ -53,11 +53,6 @@ pub fn join_point_stage() -> Stage {
     Stage::new("Sample the lens for connections", TileSystems::Join, draw_join_points)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads::<Paths>()
-        .reads::<MaterialRows>()
-        .writes::<JoinPoints>()
-        .table::<LensTable>()
-        .table::<SamplingTable>()
         .when(|scene| traced_evidence(scene).and(|| lens_evidence(scene)))
 }
 
@@ -106,12 +101,7 @@ pub fn camera_join_stage() -> Stage {
     Stage::new("Connect to the camera", TileSystems::SampleLights, connect_to_camera)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
         .reads_where::<JoinPoints>(lens_evidence)
         .appends::<LightRays>()
-        .table::<CameraJoinTable>()
         .when(traced_evidence)
 }

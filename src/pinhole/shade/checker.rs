@@ -109,24 +109,12 @@ fn colour_rows(
 /// The stage on offer for checkers.
 pub fn checker_stage() -> Stage {
     Stage::new("Evaluate textures: checkers", TileSystems::Texture, colour_checkers)
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .reads::<TexturePoints>()
-        .reads::<SurfaceColours>()
-        .writes::<SurfaceColours>()
-        .table::<CheckerTable>()
         .when(|scene| texture_of_kind::<Checker>(scene, "checkered material", |_| true))
 }
 
 /// The stage on offer for stripes.
 pub fn stripes_stage() -> Stage {
     Stage::new("Evaluate textures: stripes", TileSystems::Texture, colour_stripes)
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .reads::<TexturePoints>()
-        .reads::<SurfaceColours>()
-        .writes::<SurfaceColours>()
-        .table::<StripesTable>()
         .when(|scene| texture_of_kind::<Stripes>(scene, "striped material", |_| true))
 }
 

@@ -3,7 +3,7 @@ use crate::plan::column;
 column! {
     /// The share of light that each surface sends on equally in all directions; exists where it is not the material's
     /// own colour everywhere.
-    pub struct SurfaceColours("colour", "surface", "linear Rec. 709", Ray) {
+    pub struct SurfaceColours("colour", "surface", "linear Rec. 709", Ray, begun in Colour) {
         /// Red, from 0 to 1.
         r: f64,
         /// Green.

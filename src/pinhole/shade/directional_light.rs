@@ -43,12 +43,7 @@ pub fn sample_directional_lights(
 /// The stage on offer.
 pub fn directional_light_stage() -> Stage {
     Stage::new("Sample directional lights", TileSystems::SampleLights, sample_directional_lights)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
         .appends::<LightRays>()
-        .writes::<LightPdfs>()
-        .table::<DirectionalLightTable>()
         .when(|scene| {
             unless_occlusion(
                 scene,

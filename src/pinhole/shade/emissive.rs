@@ -32,11 +32,7 @@ pub fn emissive_stage() -> Stage {
     Stage::new("Add emission", TileSystems::Shade, add_emission)
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .reads::<EmissiveRows>()
         .reads_where::<SurfaceSides>(one_sided_evidence)
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<EmissiveTable>()
         .when(|scene| {
             let found = emissive_evidence(scene);
             let follows = followed_evidence(scene).needed;

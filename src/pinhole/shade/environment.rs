@@ -85,14 +85,8 @@ pub fn add_environment(
 
 /// The stage on offer.
 pub fn environment_stage() -> Stage {
-    Stage::new("Add the environment", TileSystems::Background, add_environment)
-        .kind(StageKind::Alternative)
-        .reads::<WorldRays>()
-        .reads_if::<Hits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<EnvironmentTable>()
-        .when(|scene| {
+    Stage::new("Add the environment", TileSystems::Background, add_environment).kind(StageKind::Alternative).when(
+        |scene| {
             let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
             });
@@ -104,7 +98,8 @@ pub fn environment_stage() -> Stage {
                 return Evidence { needed: false, reason, count: 0 };
             }
             unless_occlusion(scene, found)
-        })
+        },
+    )
 }
 
 #[cfg(test)]

@@ -113,16 +113,7 @@ pub fn sample_environment(
 pub fn environment_light_stage() -> Stage {
     Stage::new("Sample the environment", TileSystems::SampleLights, sample_environment)
         .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
-        .reads_if::<PixelSamples>()
-        .reads_if::<Paths>()
         .appends::<LightRays>()
-        .writes::<LightPdfs>()
-        .table::<EnvironmentTable>()
-        .table::<EnvironmentLightTable>()
-        .table::<SamplingTable>()
         .when(|scene| {
             environment_light_evidence(scene).and(|| light_sampling_evidence(scene)).and(|| material_evidence(scene))
         })

@@ -8,7 +8,7 @@ use glam::DVec3;
 column! {
     /// What a pixel covers of each surface: where its right and its lower neighbour's rays would meet the tangent plane,
     /// from where its own does; infinite where they would not.
-    pub struct Footprints("footprint", "world", "scene units", Ray) {
+    pub struct Footprints("footprint", "world", "scene units", Ray, begun in Footprint) {
         /// The step to the right, x.
         rx: f64,
         /// The step to the right, y.
@@ -85,14 +85,7 @@ pub fn measure_footprints(
 
 /// The stage on offer.
 pub fn footprint_stage() -> Stage {
-    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .writes::<Footprints>()
-        .table::<PixelSteps>()
-        .when(filtered_evidence)
+    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints).when(filtered_evidence)
 }
 
 #[cfg(test)]

@@ -34,18 +34,12 @@ pub fn add_gradient(
 
 /// The stage on offer.
 pub fn gradient_stage() -> Stage {
-    Stage::new("Add the gradient", TileSystems::Background, add_gradient)
-        .reads::<WorldRays>()
-        .reads_if::<Hits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<GradientTable>()
-        .when(|scene| {
-            let found = Evidence::among::<With<Gradient>>(scene, "coloured gradient", |entity| {
-                entity.get::<Gradient>().is_some_and(|own| own.bottom != Rgb::BLACK || own.top != Rgb::BLACK)
-            });
-            unless_occlusion(scene, found)
-        })
+    Stage::new("Add the gradient", TileSystems::Background, add_gradient).when(|scene| {
+        let found = Evidence::among::<With<Gradient>>(scene, "coloured gradient", |entity| {
+            entity.get::<Gradient>().is_some_and(|own| own.bottom != Rgb::BLACK || own.top != Rgb::BLACK)
+        });
+        unless_occlusion(scene, found)
+    })
 }
 
 #[cfg(test)]

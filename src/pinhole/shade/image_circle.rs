@@ -28,9 +28,5 @@ pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&Scre
 pub fn image_circle_stage() -> Stage {
     Stage::new("Mask the image circle", TileSystems::Mask, blacken_outside)
         .kind(StageKind::Alternative)
-        .reads::<ScreenPoints>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<ImageCircle>()
         .when(fisheye_evidence)
 }

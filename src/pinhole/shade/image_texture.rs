@@ -46,11 +46,5 @@ fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
 /// The stage on offer.
 pub fn image_stage() -> Stage {
     Stage::new("Evaluate textures: images", TileSystems::Texture, colour_images)
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .reads::<TexturePoints>()
-        .reads::<SurfaceColours>()
-        .writes::<SurfaceColours>()
-        .table::<ImageTable>()
         .when(|scene| texture_of_kind::<ImageTexture>(scene, "image texture", |_| true))
 }

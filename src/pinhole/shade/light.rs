@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 column! {
     /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if nothing is
     /// in the way.
-    pub struct LightRays("light", "world, from the eye", "scene units", Ray) {
+    pub struct LightRays("light", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
         path: u32,
         /// Origin, x: off the surface by its bound.
@@ -280,23 +280,12 @@ pub fn add_light(
 /// The stage that starts.
 pub fn start_light_stage() -> Stage {
     Stage::new("Clear light rays", TileSystems::Start, start_light)
-        .writes::<LightRays>()
-        .writes::<LightPdfs>()
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
 /// The stage that adds.
 pub fn light_stage() -> Stage {
-    Stage::new("Evaluate direct light", TileSystems::Shade, add_light)
-        .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<SurfaceColours>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .when(lit_evidence)
+    Stage::new("Evaluate direct light", TileSystems::Shade, add_light).kind(StageKind::Alternative).when(lit_evidence)
 }
 
 /// Evidence of the one where it is needed, or else the other.

@@ -70,44 +70,5 @@ pub use shadow::{
 pub use spot_light::{sample_spot_lights, spot_light_stage, spot_share, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
 pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
-pub use unlit::{shade_unlit, unlit_stage};
+pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
 pub use unmet::check_shapes_are_intersected;
-
-use crate::plan::Stage;
-
-/// What light does at surfaces, with shadows, and what is behind everything.
-pub fn stages() -> Vec<Stage> {
-    let mut stages = vec![start_stage(), start_light_stage()];
-    stages.extend(colour_stages());
-    stages.extend(background_stages());
-    stages.push(unlit_stage());
-    stages.extend([point_light_stage(), directional_light_stage(), spot_light_stage(), area_light_stage()]);
-    stages.extend([environment_light_stage(), start_shadow_stage()]);
-    stages.extend([sphere_shadow_stage(), ellipsoid_shadow_stage()]);
-    stages.extend([
-        plane_shadow_stage(),
-        disk_shadow_stage(),
-        rectangle_shadow_stage(),
-        cuboid_shadow_stage(),
-        triangle_shadow_stage(),
-        moving_shadow_stage(),
-    ]);
-    stages.extend([light_stage(), phong_stage(), blinn_phong_stage(), emissive_stage()]);
-    stages.push(image_circle_stage());
-    stages
-}
-
-/// A surface's own colour, whether the scene has lights or not, and what is behind everything.
-pub fn unlit_stages() -> Vec<Stage> {
-    vec![start_stage(), background_stage(), unlit_stage().when(unlit::shown_evidence)]
-}
-
-/// Surfaces with colours of their own: textures, and what a pixel covers of them.
-pub fn colour_stages() -> Vec<Stage> {
-    vec![footprint_stage(), colour_stage(), lay_stage(), checker_stage(), stripes_stage(), image_stage()]
-}
-
-/// What is behind everything, of every kind.
-pub fn background_stages() -> Vec<Stage> {
-    vec![background_stage(), gradient_stage(), environment_stage()]
-}

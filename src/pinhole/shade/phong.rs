@@ -42,14 +42,5 @@ pub fn add_phong(
 /// The stage on offer.
 pub fn phong_stage() -> Stage {
     Stage::new("Add Phong highlights", TileSystems::Shade, add_phong)
-        .reads::<WorldRays>()
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<LightRays>()
-        .reads_if::<ShadowHits>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .table::<PhongTable>()
         .when(|scene| material_kind_evidence::<Phong>(scene, "Phong surface").and(|| light_evidence(scene)))
 }

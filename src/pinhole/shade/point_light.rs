@@ -43,14 +43,9 @@ fn aim_rows(lit: &LightRows<'_>, lights: &PointLightTable, light: usize, rays: R
 
 /// The stage on offer.
 pub fn point_light_stage() -> Stage {
-    Stage::new("Sample point lights", TileSystems::SampleLights, sample_point_lights)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
-        .appends::<LightRays>()
-        .writes::<LightPdfs>()
-        .table::<PointLightTable>()
-        .when(|scene| {
+    Stage::new("Sample point lights", TileSystems::SampleLights, sample_point_lights).appends::<LightRays>().when(
+        |scene| {
             unless_occlusion(scene, Evidence::of::<PointLight>(scene, "point light").and(|| material_evidence(scene)))
-        })
+        },
+    )
 }

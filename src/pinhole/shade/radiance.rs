@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 column! {
     /// The light that comes back along each ray.
-    pub struct Radiance("radiance", "light", "linear Rec. 709", Ray) {
+    pub struct Radiance("radiance", "light", "linear Rec. 709", Ray, begun in Start) {
         /// Red.
         r: f32,
         /// Green.
@@ -36,7 +36,5 @@ pub fn start_stage() -> Stage {
     Stage::new("Clear radiance", TileSystems::Start, start_radiance)
         .on_first_bounce()
         .on_camera_paths()
-        .reads::<RasterPoints>()
-        .writes::<Radiance>()
         .when(|_| Evidence::always("light is added to it"))
 }

@@ -1,22 +1,18 @@
 use super::LightRays;
 use super::light::{LIGHTS, either, or_light};
-use crate::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-    material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
-};
+use crate::extract::{material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion};
 use crate::intersect::{
     HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
     intersect_ellipsoids, intersect_moving, intersect_planes, intersect_rectangles, intersect_spheres,
     intersect_triangles, rectangle_evidence, sphere_evidence, triangle_evidence,
 };
 use crate::plan::{Column, Evidence, Stage, TileSystems, column};
-use crate::rays::RayTimes;
 use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
 column! {
     /// What stands between a surface and a light.
-    pub struct ShadowHits("shadow", "along the light ray", "scene units", Ray) {
+    pub struct ShadowHits("shadow", "along the light ray", "scene units", Ray, begun in ClearShadows) {
         /// The distance of what stands in between, or the light ray's reach where nothing does.
         t: f64,
         /// The number of the shape in between; none where the light is seen.
@@ -55,20 +51,13 @@ pub fn start_shadows(mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
 
 /// The stage that starts.
 pub fn start_shadow_stage() -> Stage {
-    Stage::new("Clear shadow hits", TileSystems::ClearShadows, start_shadows)
-        .reads::<LightRays>()
-        .writes::<ShadowHits>()
-        .when(shadow_evidence)
+    Stage::new("Clear shadow hits", TileSystems::ClearShadows, start_shadows).when(shadow_evidence)
 }
 
 // ANCHOR: sphere_shadow_stage
 /// The stage that intersects shadow rays with spheres.
 pub fn sphere_shadow_stage() -> Stage {
     Stage::new("Trace shadow rays: spheres", TileSystems::TraceShadowRays, intersect_spheres::<LightRays, ShadowHits>)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<SphereTable>()
         .when(|scene| sphere_evidence(scene).and(|| shadow_evidence(scene)))
 }
 // ANCHOR_END: sphere_shadow_stage
@@ -77,20 +66,12 @@ pub fn sphere_shadow_stage() -> Stage {
 pub fn ellipsoid_shadow_stage() -> Stage {
     let intersect = intersect_ellipsoids::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: ellipsoids", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<EllipsoidTable>()
         .when(|scene| ellipsoid_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
 /// The stage that intersects shadow rays with planes.
 pub fn plane_shadow_stage() -> Stage {
     Stage::new("Trace shadow rays: planes", TileSystems::TraceShadowRays, intersect_planes::<LightRays, ShadowHits>)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<PlaneTable>()
         .when(|scene| Evidence::of::<Plane>(scene, "plane").and(|| shadow_evidence(scene)))
 }
 
@@ -98,10 +79,6 @@ pub fn plane_shadow_stage() -> Stage {
 pub fn disk_shadow_stage() -> Stage {
     let intersect = intersect_disks::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: disks", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<DiskTable>()
         .when(|scene| disk_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
@@ -109,10 +86,6 @@ pub fn disk_shadow_stage() -> Stage {
 pub fn rectangle_shadow_stage() -> Stage {
     let intersect = intersect_rectangles::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: rectangles", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<RectangleTable>()
         .when(|scene| rectangle_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
@@ -120,10 +93,6 @@ pub fn rectangle_shadow_stage() -> Stage {
 pub fn cuboid_shadow_stage() -> Stage {
     let intersect = intersect_cuboids::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: cuboids", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<CuboidTable>()
         .when(|scene| cuboid_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
@@ -131,10 +100,6 @@ pub fn cuboid_shadow_stage() -> Stage {
 pub fn triangle_shadow_stage() -> Stage {
     let intersect = intersect_triangles::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: triangles", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<TriangleTable>()
         .when(|scene| triangle_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
@@ -142,11 +107,6 @@ pub fn triangle_shadow_stage() -> Stage {
 pub fn moving_shadow_stage() -> Stage {
     let intersect = intersect_moving::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: moving shapes", TileSystems::TraceShadowRays, intersect)
-        .reads::<LightRays>()
-        .reads::<RayTimes>()
-        .reads::<ShadowHits>()
-        .writes::<ShadowHits>()
-        .table::<MovingTable>()
         .when(|scene| moving_evidence(scene).and(|| shadow_evidence(scene)))
 }
 

@@ -60,16 +60,11 @@ pub fn sample_spot_lights(
 
 /// The stage on offer.
 pub fn spot_light_stage() -> Stage {
-    Stage::new("Sample spot lights", TileSystems::SampleLights, sample_spot_lights)
-        .reads::<Surfaces>()
-        .reads_if::<ShadingNormals>()
-        .reads::<MaterialRows>()
-        .appends::<LightRays>()
-        .writes::<LightPdfs>()
-        .table::<SpotLightTable>()
-        .when(|scene| {
+    Stage::new("Sample spot lights", TileSystems::SampleLights, sample_spot_lights).appends::<LightRays>().when(
+        |scene| {
             unless_occlusion(scene, Evidence::of::<SpotLight>(scene, "spot light").and(|| material_evidence(scene)))
-        })
+        },
+    )
 }
 
 #[cfg(test)]

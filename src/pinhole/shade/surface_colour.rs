@@ -31,10 +31,5 @@ impl SurfaceColours {
 
 /// The stage on offer: what textures then colour again.
 pub fn colour_stage() -> Stage {
-    Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces)
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
-        .writes::<SurfaceColours>()
-        .table::<MaterialTable>()
-        .when(texture_evidence)
+    Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces).when(texture_evidence)
 }

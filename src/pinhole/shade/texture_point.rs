@@ -163,15 +163,7 @@ fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
 /// The stage on offer.
 pub fn lay_stage() -> Stage {
     Stage::new("Compute texture points", TileSystems::Colour, lay_textures)
-        .reads::<WorldRays>()
-        .reads::<Hits>()
-        .reads::<Surfaces>()
-        .reads::<MaterialRows>()
         .reads_where::<SurfaceUvs>(by_uv_evidence)
-        .reads_if::<Footprints>()
-        .writes::<TexturePoints>()
-        .table::<TextureMaps>()
-        .table::<ShapeSpaces>()
         .table_where::<UvSlopes>(filtered_by_uv_evidence)
         .when(texture_evidence)
 }

@@ -25,24 +25,16 @@ pub fn shade_unlit(
 
 /// The stage on offer: the alternative to light, for scenes without any.
 pub fn unlit_stage() -> Stage {
-    Stage::new("Show unlit surfaces", TileSystems::Shade, shade_unlit)
-        .kind(StageKind::Alternative)
-        .reads::<Surfaces>()
-        .reads_if::<SurfaceColours>()
-        .reads::<MaterialRows>()
-        .reads::<Radiance>()
-        .writes::<Radiance>()
-        .table::<MaterialTable>()
-        .when(|scene| {
-            let material = shown_evidence(scene);
-            let followed = followed_evidence(scene).or(occlusion_evidence(scene));
-            let shining = light_evidence(scene).or(emissive_evidence(scene)).or(followed);
-            if material.needed { Evidence { needed: !shining.needed, ..shining }.and(|| material) } else { material }
-        })
+    Stage::new("Show unlit surfaces", TileSystems::Shade, shade_unlit).kind(StageKind::Alternative).when(|scene| {
+        let material = shown_evidence(scene);
+        let followed = followed_evidence(scene).or(occlusion_evidence(scene));
+        let shining = light_evidence(scene).or(emissive_evidence(scene)).or(followed);
+        if material.needed { Evidence { needed: !shining.needed, ..shining }.and(|| material) } else { material }
+    })
 }
 
 /// Evidence that there is a surface to be shown.
-pub(super) fn shown_evidence(scene: &World) -> Evidence {
+pub fn shown_evidence(scene: &World) -> Evidence {
     let shapes = shape_evidence(scene);
     if shapes.needed { material_evidence(scene) } else { shapes }
 }

@@ -3,7 +3,7 @@
 use super::shadow::ShadowHits;
 use crate::extract::ShapeTable;
 use crate::intersect::{Hits, Surfaces};
-use crate::plan::{Column, Plan, Stage, Table};
+use crate::plan::{ColumnKind, Plan, Stage, Table, TableKind};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 
@@ -13,23 +13,25 @@ use bevy_ecs::prelude::*;
 ///
 /// Errors: the first shape that no stage on offer looks for.
 pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
-    let meets = |column: &str, table: &str| {
-        let writes = |stage: &Stage| stage.writes.iter().any(|written| written.name == column);
-        offer.iter().any(|stage| writes(stage) && stage.tables.iter().any(|read| read.name == table))
+    let meets = |column: ColumnKind, table: TableKind| {
+        offer.iter().any(|stage| stage.writes.contains(&column) && stage.tables.contains(&table))
     };
     let columns = [
-        (Hits::NAME, "no stage on offer intersects that; offer intersect::stages(), which do"),
-        (Surfaces::NAME, "no stage on offer describes that; offer intersect::stages(), which do"),
-        (ShadowHits::NAME, "no stage on offer looks for that in the way of light; offer shade::stages(), which do"),
+        (ColumnKind::of::<Hits>(), "no stage on offer intersects that; offer stages::all(), which do"),
+        (ColumnKind::of::<Surfaces>(), "no stage on offer describes that; offer stages::all(), which do"),
+        (
+            ColumnKind::of::<ShadowHits>(),
+            "no stage on offer looks for that in the way of light; offer stages::all(), which do",
+        ),
     ];
     for (column, accepted) in columns {
-        if !plan.columns.iter().any(|kept| kept.name == column) {
+        if !plan.columns.contains(&column) {
             continue;
         }
         let shapes = ShapeTable::extract(scene)?;
         let unmet = shapes.kind.iter().zip(&shapes.name).find(|(kind, _)| !meets(column, kind.table()));
         if let Some((kind, name)) = unmet {
-            let value = format!("in the table of {}", kind.table());
+            let value = format!("in the table of {}", kind.table().name);
             return Err(SceneError::new(name.clone(), "shape", value, accepted));
         }
     }

@@ -1,11 +1,10 @@
 use bevy_ecs::prelude::*;
 use pinhole::extract::camera_entity;
-use pinhole::film::{FilmTile, film_stage};
+use pinhole::film::FilmTile;
 use pinhole::plan::Stage;
-use pinhole::rays::place_samples_stage;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Filter, Resolution, Sampler, Sampling};
-use pinhole::{Result, follow, intersect, rays, shade};
+use pinhole::{Result, stages};
 
 /// A number that theory knows.
 pub struct ClosedForm {
@@ -104,10 +103,5 @@ impl ClosedForm {
 
 /// All that closed forms are measured by.
 pub fn every_stage() -> Vec<Stage> {
-    let mut stages = [rays::stages(), intersect::stages(), shade::stages(), follow::stages()].concat();
-    if !stages.iter().any(|stage| stage.name == place_samples_stage().name) {
-        stages.push(place_samples_stage());
-    }
-    stages.push(film_stage());
-    stages
+    stages::all()
 }

@@ -9,12 +9,12 @@ use crate::naive::film::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::film::{FilmTile, film_stage};
-use pinhole::intersect;
 use pinhole::plan::Stage;
-use pinhole::rays::{self, Tile};
+use pinhole::rays::Tile;
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
-use pinhole::shade::{self, Radiance};
+use pinhole::shade::Radiance;
+use pinhole::stages;
 use std::ops::Range;
 
 /// Samples of a pixel that is watched until f32 has stopped long since.
@@ -201,11 +201,8 @@ fn scene(number: u64) -> World {
 
 /// Every stage up to direct light.
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
-    offer.extend(shade::stages());
-    offer.push(film_stage());
-    offer
+    let rays = [stages::camera_rays(), stages::intersection(), stages::transforms(), stages::surfaces()].concat();
+    [rays, stages::direct_light(), stages::film()].concat()
 }
 
 /// Pixel by pixel the bits of the sums, of a film that so many threads rendered in tiles of this side; none where the

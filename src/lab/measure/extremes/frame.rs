@@ -8,12 +8,13 @@ use bevy_ecs::prelude::*;
 use glam::Vec3;
 use pinhole::extract::SphereTable;
 use pinhole::film::film_stage;
-use pinhole::intersect::{self, Hits};
+use pinhole::intersect::Hits;
 use pinhole::look::view_stage;
 use pinhole::plan::{Column, Stage, Table};
-use pinhole::rays::{self, WorldRays};
+use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
+use pinhole::stages;
 use std::ops::Range;
 
 /// The side of a frame in pixels.
@@ -39,8 +40,7 @@ fn check(range: Range<u64>) -> Tally {
 
 /// The stages of chapter 3: up to the hits, which a view asks for.
 fn offer() -> Vec<Stage> {
-    let mut offer = rays::stages();
-    offer.extend(intersect::stages());
+    let mut offer = [stages::camera_rays(), stages::intersection()].concat();
     offer.push(view_stage(&offer));
     offer.push(film_stage());
     offer

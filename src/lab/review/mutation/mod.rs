@@ -29,8 +29,8 @@ use std::sync::Arc;
 pub struct Mutation {
     /// The word that `review --mutate` takes.
     pub name: &'static str,
-    /// The stage that a review must name.
-    pub stage: &'static str,
+    /// The stage that a review must name; none for the development of the film, which is no stage.
+    at: Option<fn() -> Stage>,
     /// The mistake, in a few words.
     pub mistake: &'static str,
     /// A chapter whose picture runs that stage.
@@ -52,6 +52,11 @@ enum Bug {
 }
 
 impl Mutation {
+    /// The name of the stage that a review must name.
+    pub fn stage(&self) -> &'static str {
+        self.at.map_or(DEVELOP, |stage| stage().name)
+    }
+
     /// The bug of a name.
     ///
     /// Errors: no such name; the nearest is told.
@@ -71,10 +76,12 @@ impl Mutation {
     /// Errors: a chapter whose picture does not run the stage; what a render would be refused for.
     pub fn snapshots(&self, chapter: &Chapter) -> Result<Snapshots> {
         let stages = chapter.stages();
-        if self.stage != DEVELOP && !runs(chapter, &stages, self.stage)? {
+        if let Some(stage) = self.at.map(|stage| stage())
+            && !runs(chapter, &stages, &stage)?
+        {
             return Err(Error::Usage(format!(
                 "{} does not run \"{}\", where {} belongs; {} does",
-                chapter.name, self.stage, self.name, self.chapter
+                chapter.name, stage.name, self.name, self.chapter
             )));
         }
         let develop = if let Bug::Develop(develop) = self.bug { develop } else { byte_from_linear };
@@ -83,7 +90,7 @@ impl Mutation {
     }
 
     fn mutated_in(&self, mut stage: Stage) -> Stage {
-        if stage.name != self.stage {
+        if self.at.is_none_or(|mutated| !stage.is(mutated)) {
             return stage;
         }
         match self.bug {
@@ -98,8 +105,8 @@ impl Mutation {
     }
 }
 
-fn runs(chapter: &Chapter, stages: &[Stage], name: &str) -> Result<bool> {
+fn runs(chapter: &Chapter, stages: &[Stage], wanted: &Stage) -> Result<bool> {
     let world = chapter.world(&Overrides { resolution: Some(SNAPSHOT_SIZE), ..Overrides::default() });
     let plan = pinhole::plan::plan(&world, stages)?;
-    Ok(plan.stages.iter().any(|stage| stage.name == name))
+    Ok(plan.stages.contains(wanted))
 }

@@ -16,7 +16,7 @@ const THREE_NUMBERS: &str = "three numbers in round brackets, such as (0.0, 1.0,
 const TWO_NUMBERS: &str = "two numbers in round brackets, such as (0.0, 1.0)";
 const FOUR_NUMBERS: &str = "four numbers in round brackets, such as (0.0, 0.0, 0.0, 1.0)";
 
-const THREE_OF_THEM: &str = "three of them in round brackets, one a corner, each in brackets of its own";
+const THREE_OF_THEM: &str = "three of them in round brackets, one per vertex, each in brackets of its own";
 
 /// A word of an entity, and its position.
 pub struct FilePart {
@@ -63,7 +63,7 @@ pub fn read_entity(text: &str, entity: &EntityText<'_>) -> Result<FileEntity, Mi
     let who = read.name.as_ref().map_or_else(|| "an unnamed entity".into(), |name| quoted(name));
     for part in &entity.parts {
         if read.parts.iter().any(|earlier| earlier.word == part.word) {
-            let what = format!("{who} is given `{}` twice, but an entity has one of a kind", part.word);
+            let what = format!("{who} is given `{}` twice, but an entity has each component once", part.word);
             return Err(Mistake::new(part.at, what));
         }
         match (part.word, Word::find(part.word)) {
@@ -90,7 +90,7 @@ fn read_name(text: &str, part: &Part<'_>) -> Result<String, Mistake> {
     let name: String = read_value(text, part, "an entity")?;
     if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
         let what = format!(
-            "an entity's name is {}, but a name is one line of at most {LONGEST_NAME} letters",
+            "an entity's name is {}, but a name is one line of at most {LONGEST_NAME} characters",
             shown(text.get(part.value.clone()).unwrap_or(""))
         );
         return Err(Mistake::new(part.value.start, what));
@@ -145,7 +145,7 @@ fn value_mistake(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -
         }
         Error::DuplicateStructField { field, .. } => {
             let at = fields.iter().rev().find(|own| own.word == *field).map_or(stopped, |own| own.at);
-            Mistake::new(at, format!("{whose}: {field} is given twice, but a component has one of a kind"))
+            Mistake::new(at, format!("{whose}: {field} is given twice, but a component has each field once"))
         }
         Error::ExpectedComma => {
             let at = token_at(text, &part.value, stopped);
@@ -218,6 +218,6 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
         Error::InvalidValueForType { expected, .. } => expected.clone(),
         Error::InvalidEscape(_) => "a text whose backslashes are escapes of RON, such as \\n or \\\"".into(),
-        _ => "a value as RON has them".into(),
+        _ => "a value in RON syntax".into(),
     }
 }

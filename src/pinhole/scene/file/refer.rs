@@ -49,8 +49,7 @@ fn find(
         [one] => return Ok(*one),
         [first, .., last] => {
             let [first, last] = [first, last].map(|&number| place_of(text, entities[number].at).line);
-            let is_called =
-                format!("more than one entity is called that, the first on line {first}, the last on {last}");
+            let is_called = format!("several entities have that name, the first on line {first}, the last on {last}");
             format!("{who}: {} is {}, but {is_called}", part.word, shown(&format!("\"{name}\"")))
         }
         [] => {
@@ -72,11 +71,11 @@ fn check_parents(entities: &[FileEntity]) -> Result<(), Mistake> {
             let circle = above.contains(&parent);
             if circle || steps > MOST_PARENTS {
                 let found = if circle {
-                    format!("leads in a circle through {}", who(&entities[parent]))
+                    format!("forms a cycle through {}", who(&entities[parent]))
                 } else {
-                    format!("has more than {MOST_PARENTS} others above it")
+                    format!("has more than {MOST_PARENTS} ancestors")
                 };
-                let accepted = format!("parents must lead to an entity without one in at most {MOST_PARENTS} steps");
+                let accepted = format!("parents must lead to a root entity in at most {MOST_PARENTS} steps");
                 let place = entity.parts.iter().find(|part| part.word == "parent");
                 let place = place.map_or(entity.at, |part| part.value.start);
                 return Err(Mistake::new(place, format!("{}: parent {found}, but {accepted}", who(entity))));

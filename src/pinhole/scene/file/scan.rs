@@ -39,7 +39,7 @@ pub fn entities(text: &str) -> Result<Vec<EntityText<'_>>, Mistake> {
     cursor.skip_space()?;
     if cursor.rest().is_empty() {
         let what =
-            "there is nothing here, but a scene file is a list of entities, such as [(name: \"ball\", sphere: ())]";
+            "no list begins here, but a scene file is a list of entities, such as [(name: \"ball\", sphere: ())]";
         return Err(Mistake::new(cursor.at, what));
     }
     if !cursor.take('[') {
@@ -290,7 +290,7 @@ impl<'t> Cursor<'t> {
         } else {
             self.at += self.rest().chars().next().map_or(0, char::len_utf8);
         }
-        let what = "found `'`, but a single letter and another `'` do not follow; a text stands in double quotes";
+        let what = "found `'`, but a single letter and another `'` do not follow; text is written in double quotes";
         if self.take('\'') { Ok(()) } else { Err(Mistake::new(began, what)) }
     }
 }

@@ -50,7 +50,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
     if let Some(name) = entity.get::<Name>() {
         if name.chars().any(char::is_control) || name.chars().count() > LONGEST_NAME {
             let value = format!("\"{}\"", printable(name, LONGEST_NAME));
-            let accepted = format!("in a scene file a name is one line of at most {LONGEST_NAME} letters");
+            let accepted = format!("in a scene file a name is one line of at most {LONGEST_NAME} characters");
             return Err(SceneError::new("an entity", "name", value, accepted));
         }
         parts.push(format!("name: {}", quoted(name)?));
@@ -58,7 +58,7 @@ fn parts(scene: &World, entity: &EntityRef<'_>, carriers: &HashMap<&str, usize>)
     let refer = |word: &'static str, other: Entity| match scene.get::<Name>(other) {
         Some(name) if carriers.get(name.as_str()) == Some(&1) => Ok(format!("{word}: {}", quoted(name)?)),
         _ => {
-            let accepted = "in a scene file it is meant by name, so it must have one that no other has";
+            let accepted = "a scene file refers to it by name, so its name must be unique";
             Err(SceneError::new(who.clone(), word, called(scene, other), accepted))
         }
     };
@@ -100,7 +100,7 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
             .type_id()
             .is_some_and(|kind| relations.contains(&kind) || Word::all().iter().any(|word| (word.kind)() == kind));
         if !has_word {
-            let accepted = "it has no word in scene files, where every component needs one";
+            let accepted = "scene files have no word for it";
             return Err(SceneError::new(who, "component", info.name().shortname(), accepted));
         }
     }

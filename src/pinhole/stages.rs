@@ -1,0 +1,341 @@
+//! What the renderer does, from top to bottom: every stage once, in the order of the data.
+//!
+//! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
+//! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
+//! Stages of one set run in the order of this list, whichever group was offered first.
+
+use crate::plan::Stage;
+use crate::{film, follow, intersect, rays, shade};
+use std::any::TypeId;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// The groups in which stages are offered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Group {
+    CameraRays,
+    Samples,
+    WideCameras,
+    Lens,
+    Motion,
+    Intersection,
+    Surfaces,
+    Transforms,
+    Shadows,
+    Radiance,
+    Unlit,
+    DirectLight,
+    Lights,
+    Highlights,
+    Textures,
+    Environment,
+    Bounces,
+    PathContinuation,
+    SpecularReflection,
+    RoughMetal,
+    Glass,
+    AreaLights,
+    AmbientOcclusion,
+    Mis,
+    LightTracing,
+    Film,
+}
+use Group::*;
+
+/// All stages in the order of the data.
+///
+/// Where several of one set add to the same sums, their order here decides the last bits of a picture.
+#[rustfmt::skip]
+const LIST: &[(Group, fn() -> Stage)] = &[
+    // Points of the image become rays in the world, or rays start on the lights.
+    (CameraRays, rays::raster_stage),
+    (Samples, rays::place_samples_stage),
+    (CameraRays, rays::ndc_stage),
+    (CameraRays, rays::screen_stage),
+    (Lens, rays::lens_point_stage),
+    (Motion, rays::time_stage),
+    (CameraRays, rays::perspective_stage),
+    (CameraRays, rays::orthographic_stage),
+    (Lens, rays::lens_stage),
+    (WideCameras, rays::fisheye_stage),
+    (WideCameras, rays::equirectangular_stage),
+    (LightTracing, follow::light_start_stage),
+    (CameraRays, rays::world_stage),
+
+    // What each bounce fills is cleared.
+    (Intersection, intersect::start_stage),
+    (Radiance, shade::start_stage),
+    (DirectLight, shade::start_light_stage),
+    (Bounces, follow::start_paths_stage),
+    (Bounces, follow::start_scattered_stage),
+
+    // Rays are intersected with each kind of shape, and the closest hit is kept.
+    (Intersection, intersect::sphere_stage),
+    (Transforms, intersect::ellipsoid_stage),
+    (Intersection, intersect::plane_stage),
+    (Intersection, intersect::disk_stage),
+    (Intersection, intersect::rectangle_stage),
+    (Intersection, intersect::cuboid_stage),
+    (Intersection, intersect::triangle_stage),
+    (Motion, intersect::moving_stage),
+
+    // Rows are sorted by the kinds of shapes and materials that were hit.
+    (Surfaces, intersect::classify_stage),
+    (SpecularReflection, follow::classify_materials_stage),
+    (Bounces, follow::max_depth_stage),
+    (LightTracing, follow::keep_specular_stage),
+    (LightTracing, follow::caustic_paths_stage),
+
+    // Positions, normals and colours of the surfaces that were hit.
+    (Surfaces, intersect::sphere_surface_stage),
+    (Transforms, intersect::ellipsoid_surface_stage),
+    (Surfaces, intersect::plane_surface_stage),
+    (Surfaces, intersect::disk_surface_stage),
+    (Surfaces, intersect::rectangle_surface_stage),
+    (Surfaces, intersect::cuboid_surface_stage),
+    (Surfaces, intersect::triangle_surface_stage),
+    (Motion, intersect::moving_surface_stage),
+    (Transforms, intersect::shading_normal_stage),
+    (Textures, shade::footprint_stage),
+    (Textures, shade::colour_stage),
+    (Textures, shade::lay_stage),
+    (Textures, shade::checker_stage),
+    (Textures, shade::stripes_stage),
+    (Textures, shade::image_stage),
+
+    // What rays that hit nothing bring back.
+    (Radiance, shade::background_stage),
+    (Environment, shade::environment_stage),
+    (AreaLights, follow::mis_environment_stage),
+    (Environment, shade::gradient_stage),
+
+    // What else is kept of each pixel.
+    (Film, film::layers_stage),
+
+    // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
+    (LightTracing, shade::join_point_stage),
+    (Lights, shade::directional_light_stage),
+    (AreaLights, shade::area_light_stage),
+    (DirectLight, shade::point_light_stage),
+    (Lights, shade::spot_light_stage),
+    (LightTracing, shade::camera_join_stage),
+    (AreaLights, shade::environment_light_stage),
+    (AmbientOcclusion, follow::sky_rays_stage),
+
+    // Shadow rays are traced.
+    (Shadows, shade::start_shadow_stage),
+    (Shadows, shade::sphere_shadow_stage),
+    (Transforms, shade::ellipsoid_shadow_stage),
+    (Shadows, shade::plane_shadow_stage),
+    (Shadows, shade::disk_shadow_stage),
+    (Shadows, shade::rectangle_shadow_stage),
+    (Shadows, shade::cuboid_shadow_stage),
+    (Shadows, shade::triangle_shadow_stage),
+    (Motion, shade::moving_shadow_stage),
+
+    // Light that arrives is reflected towards where the ray came from.
+    (Mis, follow::mis_matte_stage),
+    (Mis, follow::mis_metal_stage),
+    (Highlights, shade::blinn_phong_stage),
+    (Highlights, shade::phong_stage),
+    (RoughMetal, follow::metal_light_stage),
+    (DirectLight, shade::light_stage),
+    (Lights, shade::emissive_stage),
+    (AreaLights, follow::mis_emission_stage),
+    (AmbientOcclusion, follow::sky_stage),
+    (Unlit, shade::unlit_stage),
+
+    // The path goes on from each surface, or ends there.
+    (Glass, follow::start_media_stage),
+    (Glass, follow::absorb_stage),
+    (Glass, follow::glass_stage),
+    (SpecularReflection, follow::mirror_stage),
+    (Glass, follow::glass_sample_stage),
+    (LightTracing, follow::glass_light_stage),
+    (LightTracing, follow::matte_light_stage),
+    (PathContinuation, follow::matte_stage),
+    (RoughMetal, follow::metal_stage),
+    (LightTracing, follow::shading_adjoint_stage),
+    (PathContinuation, follow::roulette_stage),
+    (Bounces, follow::add_bounce_stage),
+    (LightTracing, follow::splat_stage),
+    (Glass, follow::carry_media_stage),
+    (Bounces, follow::step_stage),
+    (Bounces, follow::footprints_stage),
+    (Bounces, follow::times_stage),
+
+    // All further bounces; then the light of the whole path lands on the film.
+    (Bounces, follow::follow_stage),
+    (Bounces, follow::gather_stage),
+    (WideCameras, shade::image_circle_stage),
+    (Film, film::moments_stage),
+    (Film, film::film_stage),
+];
+
+fn of(group: Group) -> Vec<Stage> {
+    LIST.iter().filter(|(own, _)| *own == group).map(|(_, stage)| stage()).collect()
+}
+
+/// Everything, as scene files are offered it: all but the painting of a view, which depends on what else is on offer.
+pub fn all() -> Vec<Stage> {
+    LIST.iter().map(|(_, stage)| stage()).collect()
+}
+
+/// Puts stages into the order of the list; those that are not in it follow, as they stood.
+pub fn sort(offer: &mut [Stage]) {
+    static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
+    let places =
+        PLACES.get_or_init(|| LIST.iter().enumerate().map(|(place, (_, stage))| (stage().id, place)).collect());
+    offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
+}
+
+/// A ray through the middle of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic
+/// cameras.
+pub fn camera_rays() -> Vec<Stage> {
+    of(CameraRays)
+}
+
+/// Several samples a pixel, where the camera asks for them.
+pub fn samples() -> Vec<Stage> {
+    of(Samples)
+}
+
+/// Fisheye and equirectangular cameras.
+pub fn wide_cameras() -> Vec<Stage> {
+    of(WideCameras)
+}
+
+/// A thin lens in place of the pinhole.
+pub fn lens() -> Vec<Stage> {
+    of(Lens)
+}
+
+/// Times at which rays are traced, and shapes that move meanwhile.
+pub fn motion() -> Vec<Stage> {
+    of(Motion)
+}
+
+/// The closest hit of each ray with spheres, planes, disks, rectangles, cuboids and triangles.
+pub fn intersection() -> Vec<Stage> {
+    of(Intersection)
+}
+
+/// Positions and normals of what was hit.
+pub fn surfaces() -> Vec<Stage> {
+    of(Surfaces)
+}
+
+/// What transforms make of shapes: spheres scaled unevenly, and shading normals.
+pub fn transforms() -> Vec<Stage> {
+    of(Transforms)
+}
+
+/// Shadow rays from surfaces to lights.
+pub fn shadows() -> Vec<Stage> {
+    of(Shadows)
+}
+
+/// Each surface in its own colour before a background, where no light is on offer.
+pub fn unlit() -> Vec<Stage> {
+    let shown = of(Unlit).into_iter().map(|stage| stage.when(shade::shown_evidence));
+    of(Radiance).into_iter().chain(shown).collect()
+}
+
+/// Point lights on matte surfaces, with shadows, before a background; where nothing shines, surfaces are shown unlit.
+pub fn direct_light() -> Vec<Stage> {
+    [Radiance, DirectLight, Shadows, Unlit].into_iter().flat_map(of).collect()
+}
+
+/// Directional lights, spot lights, and surfaces that emit light of their own.
+pub fn lights() -> Vec<Stage> {
+    of(Lights)
+}
+
+/// The highlights of Phong's and of Blinn's model.
+pub fn highlights() -> Vec<Stage> {
+    of(Highlights)
+}
+
+/// Surfaces with more than one colour, averaged over what a pixel covers of them.
+pub fn textures() -> Vec<Stage> {
+    of(Textures)
+}
+
+/// What lies behind everything, where it is more than one colour: a gradient or an image.
+pub fn environment() -> Vec<Stage> {
+    of(Environment)
+}
+
+/// What carries a path from bounce to bounce and adds up its light.
+pub fn bounces() -> Vec<Stage> {
+    of(Bounces)
+}
+
+/// Mirrors, where paths go on in one direction only.
+pub fn specular_reflection() -> Vec<Stage> {
+    of(SpecularReflection)
+}
+
+/// Rough metal: its BSDF sampled, and evaluated for direct light.
+pub fn rough_metal() -> Vec<Stage> {
+    of(RoughMetal)
+}
+
+/// Glass: reflection and refraction, and the light that it absorbs.
+pub fn glass() -> Vec<Stage> {
+    of(Glass)
+}
+
+/// Lights that fill a solid angle: surfaces that emit, and the environment.
+pub fn area_lights() -> Vec<Stage> {
+    of(AreaLights)
+}
+
+/// How much of the sky each surface sees.
+pub fn ambient_occlusion() -> Vec<Stage> {
+    of(AmbientOcclusion)
+}
+
+/// Paths that go on from matte surfaces, and Russian roulette, which ends them.
+pub fn path_continuation() -> Vec<Stage> {
+    of(PathContinuation)
+}
+
+/// Multiple importance sampling: light that BSDF sampling finds too counts for less.
+pub fn mis() -> Vec<Stage> {
+    of(Mis)
+}
+
+/// Paths from the lights to the camera.
+pub fn light_tracing() -> Vec<Stage> {
+    of(LightTracing)
+}
+
+/// The film: sums of samples, and what else is kept of each pixel.
+pub fn film() -> Vec<Stage> {
+    of(Film)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_stage_stands_in_the_list_once_and_the_list_follows_the_sets() {
+        let all = all();
+        let ids: BTreeSet<TypeId> = all.iter().map(|stage| stage.id).collect();
+        let names: BTreeSet<&str> = all.iter().map(|stage| stage.name).collect();
+        assert_eq!((ids.len(), names.len()), (all.len(), all.len()));
+        for pair in all.windows(2) {
+            assert!(pair[0].set <= pair[1].set, "\"{}\" stands before \"{}\"", pair[0].name, pair[1].name);
+        }
+    }
+
+    #[test]
+    fn the_order_of_the_offer_does_not_matter() {
+        let mut reversed: Vec<Stage> = all().into_iter().rev().collect();
+        sort(&mut reversed);
+        assert_eq!(reversed, all());
+    }
+}

@@ -1,0 +1,151 @@
+//! What stages read and write comes from their systems' parameters; little is left to declare.
+
+use super::*;
+use pinhole::follow::follow_stage;
+use pinhole::intersect::{classify_stage, sphere_stage};
+use pinhole::plan::{Column, Shared, column};
+use pinhole::rays::{CameraRays, RasterPoints, lens_point_stage, world_stage};
+use pinhole::shade::{Radiance, image_circle_stage, point_light_stage};
+use std::path::{Path, PathBuf};
+
+/// The most that is declared by hand; 592 before stages declared themselves.
+const MOST: usize = 100;
+
+/// What a stage says that its system's parameters do not, and what a column says for all that change it.
+const DECLARATIONS: [&str; 9] = [
+    ".reads::<",
+    ".writes::<",
+    ".table::<",
+    ".reads_where::<",
+    ".table_where::<",
+    ".table_with::<",
+    ".appends::<",
+    ".changes::<",
+    ".reads_the_view()",
+];
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder of sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn little_is_declared_by_hand() {
+    let mut files = Vec::new();
+    sources(Path::new("src/pinhole"), &mut files);
+    assert!(files.len() > 200, "{} files", files.len());
+    let (mut by_stages, mut by_columns) = (0, 0);
+    for file in files.iter().filter(|file| !file.starts_with("src/pinhole/plan")) {
+        let text = std::fs::read_to_string(file).expect("a source");
+        by_stages += DECLARATIONS.iter().map(|word| text.matches(word).count()).sum::<usize>();
+        by_columns += text.matches(", begun in ").count();
+    }
+    eprintln!("declared: {by_stages} lines at stages, {by_columns} at columns");
+    assert!(by_stages > 20 && by_columns > 5, "the test must see them");
+    assert!(by_stages + by_columns <= MOST, "{by_stages} + {by_columns} are more than {MOST}");
+}
+
+/// A stage's columns and tables: those it needs, those it reads where they are, those for a reason, those it writes, its
+/// tables and those for a reason.
+fn touched(stage: &Stage) -> [Vec<&'static str>; 6] {
+    let names = |columns: &[ColumnKind]| columns.iter().map(|column| column.name).collect();
+    let tables = stage.tables.iter().map(|table| table.name);
+    [
+        names(&stage.reads),
+        names(&stage.reads_if),
+        stage.reads_where.iter().map(|(column, _)| column.name).collect(),
+        names(&stage.writes),
+        tables.collect(),
+        stage.tables_where.iter().map(|(table, _)| table.name).collect(),
+    ]
+}
+
+#[test]
+fn systems_say_what_stages_touch() {
+    let none: Vec<&str> = Vec::new();
+    let stage = lens_point_stage();
+    let expected =
+        [vec!["raster"], vec!["samples"], none.clone(), vec!["lens"], vec!["lens", "sampling"], none.clone()];
+    assert_eq!(touched(&stage), expected, "an optional column");
+
+    let stage = world_stage();
+    let reasons = vec!["shutter", "view rectangle", "lens"];
+    let expected = [vec!["camera"], none.clone(), vec!["time"], vec!["world"], vec!["camera axes"], reasons];
+    assert_eq!(touched(&stage), expected, "what the scene must give a reason for");
+
+    let stage = sphere_stage();
+    let expected = [vec!["world", "hit"], none.clone(), none.clone(), vec!["hit"], vec!["spheres"], none.clone()];
+    assert_eq!(touched(&stage), expected, "a column that an earlier set began is changed in place");
+    assert!(!stage.appends);
+
+    let stage = point_light_stage();
+    let [reads, reads_if, _, writes, ..] = touched(&stage);
+    assert_eq!((reads, reads_if), (vec!["surface", "material rows", "light"], vec!["shading"]), "a stage that appends");
+    assert_eq!((writes, stage.appends), (vec!["light", "light pdf"], true));
+
+    let stage = follow_stage();
+    let [reads, _, reasons, writes, tables, _] = touched(&stage);
+    assert_eq!((reads, writes), (vec!["world", "path light"], vec!["path light"]), "an exclusive system declares");
+    assert_eq!((reasons.len(), tables), (4, vec!["integrator"]));
+
+    let chapter = chapters::all().into_iter().find(|chapter| chapter.name == "12_how_it_is_built").expect("a chapter");
+    let own = chapter.offer.iter().find(|stage| stage.name == "Compute facing ratios").expect("on offer");
+    let expected = [vec!["world", "surface"], none.clone(), none.clone(), vec!["facing"], none.clone(), none];
+    assert_eq!(touched(own), expected, "a column of a chapter's own");
+}
+
+#[test]
+fn exclusive_systems_are_the_only_ones_that_declare_what_they_read() {
+    let offer = offer();
+    let named: Vec<&str> = offer.iter().filter(|stage| exclusive(stage)).map(|stage| stage.name).collect();
+    assert_eq!(named, ["Trace the remaining bounces", "Paint the view"]);
+}
+
+fn exclusive(stage: &Stage) -> bool {
+    let mut schedule = Schedule::default();
+    schedule.add_systems((stage.system)());
+    schedule.initialize(&mut World::new()).map(|_| ()).expect("one system is a schedule");
+    schedule.systems_with_access().expect("initialised").any(|(_, system)| system.access().is_exclusive())
+}
+
+column! {
+    /// A column of this test's, which no stage of the renderer writes.
+    pub struct Made("made", "none", "1", Ray) {
+        /// A number.
+        number: f32,
+    }
+}
+
+impl Made {
+    fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [self.number[row]; 3]
+    }
+}
+
+fn make(_: Res<Shared<ImageFrame>>, mut tiles: Query<(&RasterPoints, Option<&CameraRays>, &mut Made)>) {
+    tiles.iter_mut().for_each(|(raster, _, mut made)| made.number.resize(raster.rows(), 0.5));
+}
+
+fn darken(mut tiles: Query<(&Made, &mut Radiance)>) {
+    tiles.iter_mut().for_each(|(_, mut radiance)| radiance.r.fill(0.0));
+}
+
+#[test]
+fn stages_are_told_apart_by_their_systems() {
+    let [one, other] = [Stage::new("one", TileSystems::Shade, make), Stage::new("other", TileSystems::Mask, make)];
+    assert_eq!(one, other, "a name does not tell stages apart");
+    assert_ne!(one, Stage::new("one", TileSystems::Shade, darken));
+    assert!(sphere_stage().is(sphere_stage) && !classify_stage().is(sphere_stage));
+    assert_ne!(image_circle_stage(), point_light_stage());
+
+    let both = Stage::new("both", TileSystems::Shade, (make, darken));
+    let [reads, reads_if, _, writes, tables, _] = touched(&both);
+    assert_eq!((reads, reads_if), (vec!["raster", "radiance"], vec!["camera"]), "several systems as one stage");
+    assert_eq!((writes, tables), (vec!["made", "radiance"], vec!["image shape"]));
+}
