@@ -1,4 +1,4 @@
-//! pinhole speaks the language of its field: no private word stands in the sources, the chapters, the tests or the book.
+//! pinhole speaks the language of its field: no private word stands in sources, chapters, tests or book.
 //!
 //! `cargo test --test renderer words -- --nocapture` lists each one with the field's term.
 //! Words are read file by file, so a phrase may run over a line's end; names are split at `_` and at capitals.
@@ -13,6 +13,8 @@ use std::path::Path;
 
 const FOLDERS: [&str; 6] = ["src", "chapters", "tests", "book/src", "book/builder", "README.md"];
 const ENDINGS: [&str; 6] = ["rs", "md", "snap", "txt", "json", "ron"];
+/// Where a lane is a SIMD lane.
+const KERNELS: [&str; 2] = ["src/pinhole/intersect/", "tests/bench/fused.rs"];
 /// This file and its rules, which have to name them.
 const EXEMPT: &str = "tests/words";
 
@@ -142,6 +144,7 @@ impl Checker {
                 let here = match RULES[*number].place {
                     Place::Everywhere => true,
                     Place::Code => kinds.get(*place) == Some(&Kind::Code),
+                    Place::OutsideKernels => !KERNELS.iter().any(|kernel| path.starts_with(kernel)),
                     Place::CommentsOfSrc => path.starts_with("src/") && kinds.get(*place) == Some(&Kind::Comment),
                 };
                 let [allowed, wrong] = &self.allowed[*number];
@@ -251,7 +254,7 @@ fn the_rules_know_a_private_word_from_an_idiom() {
         "probability density",
         "two edges meet at a corner",
         "a SIMD lane",
-        "within reach of",
+        "// within reach of",
         "// `reach` of old",
         "\"Verdict\"",
         "a microfacet",
@@ -263,6 +266,8 @@ fn the_rules_know_a_private_word_from_an_idiom() {
     ] {
         assert_eq!(found("tests/x.rs", idiom), 0, "{idiom:?} is taken for a private word");
     }
+    assert!(found("src/pinhole/plan/x.rs", "let lane = 0;") > 0);
+    assert_eq!(found("src/pinhole/intersect/x.rs", "let lane = 0;"), 0);
     assert_eq!(found("src/x.rs", "/// the lamp's light"), 1);
     assert_eq!(found("src/x.rs", "/// an entity called \"lamp\"\nName::new(\"lamp\")"), 0);
     assert_eq!(words("RayBlockMut of_tile BSDFs x2").len(), 8);

@@ -8,6 +8,8 @@ pub enum Place {
     Code,
     /// Comments in `src`, but for names in quotes.
     CommentsOfSrc,
+    /// Outside the kernels, in which a lane is a SIMD lane.
+    OutsideKernels,
 }
 
 /// Words or phrases, `|` between them, and what the field says instead.
@@ -60,7 +62,7 @@ pub const RULES: &[Rule] = &[
         .but("share a|share an|share one|share the|share this|share no|share it|share them|share its|\
               share their|share all|share both|share code|share nothing|share and share alike|shares a|\
               shares an|shares one|shares the|shares this|shares no|shares it|shares its|shares all|\
-              shares nothing|to share|not share|may share|can share|must share|they share")
+              shares nothing|to share|not share|would share|may share|can share|must share|they share")
         .not_but("a share|the share|its share|this share|what share|whose share|each share|every share|\
               share of|shares of|same share|largest share|light share|spot share"),
     Rule::new("density|densities", "pdf")
@@ -103,8 +105,8 @@ pub const RULES: &[Rule] = &[
     Rule::new("reach", "t_max, extent")
         .only(Place::Code),
     Rule::new("lane|lanes", "component (of a column)")
-        .but("simd lane|simd lanes|lanes of simd|lanes wide|four lanes|eight lanes|sixteen lanes|of lanes|\
-              per lane"),
+        .but("simd lane|simd lanes|lanes of simd|lanes wide|four lanes|eight lanes|sixteen lanes")
+        .only(Place::OutsideKernels),
     Rule::new("judge|judges|judged|judging|judgement", "oracle; check, compare"),
     Rule::new("slip|slips", "mistake")
         .but("slip between|slips between|slip through|slips through|slip past|slips past"),
