@@ -255,7 +255,7 @@ fn the_rules_know_a_private_word_from_an_idiom() {
         "two edges meet at a corner",
         "a SIMD lane",
         "// within reach of",
-        "// `reach` of old",
+        "// `reach`, once",
         "\"Verdict\"",
         "a microfacet",
         "it reaches the wall",
