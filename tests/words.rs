@@ -256,7 +256,7 @@ fn the_rules_know_a_private_word_from_an_idiom() {
         "a SIMD lane",
         "// within reach of",
         "// `reach`, once",
-        "\"Verdict\"",
+        "\"Told\"",
         "a microfacet",
         "it reaches the wall",
         "a ray hits a light",
