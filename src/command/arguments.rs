@@ -52,7 +52,7 @@ pub enum Command {
     Render(RenderChapter),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
-    /// Print what would be said before rendering a chapter's scene or a scene file; without one, of scenes gone wrong
+    /// Print the warnings that a render would begin with; without a scene, those of scenes gone wrong
     Preflight(TryPreflight),
     /// Print what a scene's camera sees across each axis of the image, in degrees
     Angles(PlanChapter),
@@ -60,7 +60,7 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
-    /// Measure what theory knows, by whole renders, with the standard error of each number
+    /// Compare whole renders with closed forms, and print each one's standard error
     ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
@@ -97,7 +97,7 @@ pub struct ReviewSnapshots {
     /// Only this chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: Option<String>,
     /// Show the page as it would look with a mutation of one stage (all: a table of all mutations)
-    #[arg(long, value_name = "BUG")]
+    #[arg(long, value_name = "MUTATION")]
     pub mutate: Option<String>,
     /// Write one picture instead of the page
     #[arg(long, requires = "mutate")]
@@ -164,7 +164,7 @@ pub struct TryClosedForms {
     /// Only those whose name holds this text
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub case: String,
-    /// How many times the samples that tell each number to 1 %; 100 times tell it to 0.1 %
+    /// Take this many times the samples that give each number to 1 %; 100 times as many give it to 0.1 %
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub times: u32,
     /// Another seed, other random numbers
@@ -220,7 +220,7 @@ pub struct CompareConventions {
     /// too-wide or rolled
     #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
     pub mistake: Option<Mistake>,
-    /// Send so many cameras into each program's words and back, and print how far they have moved
+    /// Convert this many cameras to each program's terms and back, and print how far they have moved
     #[arg(long, value_name = "N", conflicts_with = "mistake", value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     pub round_trips: Option<u64>,
     /// Where to write the picture, ending in .png (default: in out/)

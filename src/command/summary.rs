@@ -165,13 +165,13 @@ fn count(number: u64) -> String {
 
 /// A line that is not too wide; of a wider one the end is left, where a path has its file's name.
 fn cut(line: &str) -> String {
-    let double_double = line.chars().count();
-    if double_double <= WIDEST {
+    let length = line.chars().count();
+    if length <= WIDEST {
         return line.into();
     }
     let half = (WIDEST - 1) / 2;
     let letters = || line.chars();
-    letters().take(half).chain(['…']).chain(letters().skip(double_double - half)).collect()
+    letters().take(half).chain(['…']).chain(letters().skip(length - half)).collect()
 }
 
 #[cfg(test)]

@@ -46,8 +46,8 @@ pub fn hang(figure: &Figure, exhibits: &[Exhibit], columns: usize, foot: &str) -
     let mut svg = Svg::new(figure.name, MARGIN + rows.iter().sum::<f64>() + FOOT);
     let mut top = MARGIN;
     for (row, height) in exhibits.chunks(columns).zip(&rows) {
-        let double_double = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
-        let mut left = (WIDTH - double_double) / 2.0;
+        let width = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
+        let mut left = (WIDTH - width) / 2.0;
         for Exhibit { picture, lines } in row {
             let size = DVec2::from(picture.size.map(f64::from)) * scale;
             svg.picture(DVec2::new(left, top), size, picture);

@@ -91,10 +91,10 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
     // Both halves are named where there is room for both names.
-    let double_double = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
+    let wide = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
     for (from, to, row, name) in [
         (0.0, chord.near, rows[0], "`near` = `s` − `half_chord`"),
-        (chord.near, chord.s, rows[0], if double_double { "`half_chord`" } else { "" }),
+        (chord.near, chord.s, rows[0], if wide { "`half_chord`" } else { "" }),
         (chord.s, chord.far, rows[0], "`half_chord`"),
         (0.0, chord.s, rows[1], "`s`"),
         (0.0, chord.far, rows[2], "`far` = `s` + `half_chord`"),

@@ -58,17 +58,17 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let arrives = direction(-degrees.to_radians());
         svg.line(foot - DVec2::X * half, foot + DVec2::X * half, Pen::new(INK, 1.6));
         svg.line(foot, foot - DVec2::Y * EXTENT, Pen::new(INK, 0.9).faint(0.6).dashed("5 4"));
-        svg.arrow(foot + planar(arrives) * (half * 0.95), foot, Pen::new(LIGHT, 2.2));
+        svg.arrow(foot + on_page(arrives) * (half * 0.95), foot, Pen::new(LIGHT, 2.2));
         let beside = DVec2::new(foot.x, ACROSS);
         svg.line(beside, beside - DVec2::Y * EXTENT, Pen::new(INK, 0.9).faint(0.6).dashed("5 4"));
         let mirrored = direction(degrees.to_radians());
         for ((pen, model), name) in models.iter().zip(&names) {
             let colour = pen.colour;
             let at =
-                |angle: f64| foot + planar(direction(angle)) * (EXTENT * model([arrives, direction(angle)]) / longest);
+                |angle: f64| foot + on_page(direction(angle)) * (EXTENT * model([arrives, direction(angle)]) / longest);
             let across = |angle: f64| {
                 let eye = mirrored * libm::cos(angle) + DVec3::Z * libm::sin(angle);
-                beside + planar(direction(angle)) * (EXTENT * model([arrives, eye]) / longest)
+                beside + on_page(direction(angle)) * (EXTENT * model([arrives, eye]) / longest)
             };
             let angle = |step: u32| (f64::from(step) / f64::from(STEPS) * 2.0 - 1.0) * FRAC_PI_2;
             for step in 0..STEPS {
@@ -104,6 +104,6 @@ fn direction(angle: f64) -> DVec3 {
 }
 
 /// The same in the drawing, where y points down.
-fn planar(direction: DVec3) -> DVec2 {
+fn on_page(direction: DVec3) -> DVec2 {
     DVec2::new(direction.x, -direction.y)
 }

@@ -45,18 +45,18 @@ struct Hit<'s> {
 
 impl Hit<'_> {
     /// A vector of render space in that plane.
-    fn planar(&self, v: DVec3) -> DVec2 {
+    fn in_section(&self, v: DVec3) -> DVec2 {
         DVec2::new(v.dot(self.along), v.dot(self.surface.normal.as_dvec3()))
     }
 
     /// How far rounding has put the position below the surface, in bounds.
     fn depth(&self) -> f64 {
-        -self.planar(self.surface.position.as_dvec3() - self.point).y / f64::from(self.surface.bound)
+        -self.in_section(self.surface.position.as_dvec3() - self.point).y / f64::from(self.surface.bound)
     }
 
     /// More where depth and both sides of the box of rounding are large.
     fn telling(&self) -> f64 {
-        let corners = rounding_box(self.surface.position, |point| self.planar(point - self.point));
+        let corners = rounding_box(self.surface.position, |point| self.in_section(point - self.point));
         let low = corners.iter().fold(DVec2::INFINITY, |low, &corner| low.min(corner));
         let high = corners.iter().fold(DVec2::NEG_INFINITY, |high, &corner| high.max(corner));
         let thinnest = (high - low).min_element() / f64::from(self.surface.bound);
@@ -85,7 +85,7 @@ fn telling_hit(subject: &Subject) -> Option<Hit<'_>> {
 /// The sphere, the hit, its normal and the direction to the light, at the scene's own scale.
 fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     let frame = Frame { low: DVec2::new(26.0, 44.0), high: DVec2::new(MIDDLE - 26.0, HEIGHT - 56.0) };
-    let [centre, light] = [hit.ball.centre, hit.light].map(|place| hit.planar(place - hit.point));
+    let [centre, light] = [hit.ball.centre, hit.light].map(|place| hit.in_section(place - hit.point));
     let radius = hit.ball.radius;
     // Turned so that the light is to the upper right: the drawing's y goes down.
     let up = (light - centre).normalize_or(DVec2::Y);
@@ -143,8 +143,8 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     let scale = BOUND / f64::from(hit.surface.bound);
     let origin = DVec2::new((MIDDLE + WIDTH) / 2.0 - 60.0, 218.0);
     let place = |point: DVec3| {
-        let planar = hit.planar(point - hit.point) * scale;
-        origin + DVec2::new(planar.x, -planar.y)
+        let in_section = hit.in_section(point - hit.point) * scale;
+        origin + DVec2::new(in_section.x, -in_section.y)
     };
     let (left, right, floor) = (MIDDLE + 14.0, WIDTH - 12.0, HEIGHT - 46.0);
     let inside =
@@ -162,7 +162,7 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     }
     let [p, p_off] = [position, start].map(|point| place(point.as_dvec3()));
     let toward = (hit.light - hit.point).normalize_or(hit.along);
-    let toward = DVec2::new(hit.planar(toward).x, -hit.planar(toward).y);
+    let toward = DVec2::new(hit.in_section(toward).x, -hit.in_section(toward).y);
     // The naive ray starts inside and hits its own surface.
     let to_surface = (origin.y - p.y) / toward.y;
     if to_surface > 0.0 {
@@ -211,8 +211,8 @@ mod tests {
         let hit = telling_hit(&subject).expect("a hit");
         let Surface { position, normal, bound, .. } = hit.surface;
         let start = offset_origin(position, normal, bound).as_dvec3();
-        assert!(hit.depth() > 0.0 && hit.planar(start - hit.point).y > 0.0);
-        let box_of_hit = rounding_box(position, |point| hit.planar(point - hit.point) / f64::from(bound));
+        assert!(hit.depth() > 0.0 && hit.in_section(start - hit.point).y > 0.0);
+        let box_of_hit = rounding_box(position, |point| hit.in_section(point - hit.point) / f64::from(bound));
         assert!(box_of_hit.len() >= 4 && box_of_hit.iter().all(|corner| corner.length() < 1.0));
     }
 }

@@ -46,10 +46,10 @@ impl Sketch {
     pub fn fitting(toward_viewer: DVec3, up: DVec3, things: &[Extent], frame: Frame) -> Result<Self> {
         let look = LookAt { eye: toward_viewer, target: DVec3::ZERO, up };
         let axes = look_at_axes("the figure", &look).map_err(Error::from)?;
-        let planar = Self { axes, scale: 1.0, origin: DVec2::ZERO };
+        let unscaled = Self { axes, scale: 1.0, origin: DVec2::ZERO };
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for &(centre, extent) in things {
-            let at = planar.point(centre);
+            let at = unscaled.point(centre);
             (low, high) = (low.min(at - extent), high.max(at + extent));
         }
         let room = (frame.high - frame.low) / (high - low).max(DVec2::splat(1e-9));

@@ -110,8 +110,8 @@ mod tests {
         for (direction, t) in [(Vec3::NEG_Z, Some(2.0)), (Vec3::Z, None), (Vec3::X, None)] {
             assert_eq!(hit_f32(Vec3::ZERO, direction, centre, radius), t);
             assert_eq!(hit_haines_f32(Vec3::ZERO, direction, centre, radius), t);
-            let double_double = hit_f64_plain(Vec3::ZERO, direction, centre.as_dvec3(), f64::from(radius));
-            assert_eq!(double_double, t.map(f64::from));
+            let in_f64 = hit_f64_plain(Vec3::ZERO, direction, centre.as_dvec3(), f64::from(radius));
+            assert_eq!(in_f64, t.map(f64::from));
         }
     }
 
@@ -145,16 +145,16 @@ mod tests {
             let haines = misclassified(RAYS, distance, |ray, centre, radius| {
                 hit_haines_f32(ray.origin, ray.direction, centre, radius).is_some()
             });
-            let double_double = misclassified(RAYS, distance, |ray, centre, radius| {
+            let in_f64 = misclassified(RAYS, distance, |ray, centre, radius| {
                 let (centre, radius) = (centre.as_dvec3(), f64::from(radius));
                 hit_f64_plain(ray.origin, ray.direction, centre, radius).is_some()
             });
             eprintln!(
                 "{RAYS} silhouette rays at {distance:e} radii, misclassified: \
-                 {plain} f32, {haines} f32 perpendicular, {double_double} f64"
+                 {plain} f32, {haines} f32 perpendicular, {in_f64} f64"
             );
             assert!(plain > 0, "the textbook is expected to break");
-            assert!(distance < 1e7 || double_double > 0, "f64 is expected to break");
+            assert!(distance < 1e7 || in_f64 > 0, "f64 is expected to break");
         }
     }
 }

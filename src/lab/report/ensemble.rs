@@ -85,13 +85,13 @@ impl Ensemble {
         let images: Vec<&Numbers> = runs.iter().chain(&reference.deviations).collect();
         let finite = |pixel: usize| images.iter().all(|image| image.pixels[pixel].iter().all(|part| part.is_finite()));
         let kept: Vec<usize> = (0..reference.mean.pixels.len()).filter(|&pixel| finite(pixel)).collect();
-        let planar = |image: &Numbers| kept.iter().flat_map(|&pixel| image.pixels[pixel]).collect::<Vec<f64>>();
-        let runs: Vec<Vec<f64>> = runs.iter().map(planar).collect();
-        let batches: Vec<Vec<f64>> = reference.deviations.iter().map(planar).collect();
+        let numbers = |image: &Numbers| kept.iter().flat_map(|&pixel| image.pixels[pixel]).collect::<Vec<f64>>();
+        let runs: Vec<Vec<f64>> = runs.iter().map(numbers).collect();
+        let batches: Vec<Vec<f64>> = reference.deviations.iter().map(numbers).collect();
         let products = |rows: &[Vec<f64>], columns: &[Vec<f64>]| {
             rows.iter().map(|row| columns.iter().map(|column| mean_product(row, column)).collect()).collect()
         };
-        let mean = planar(&reference.mean);
+        let mean = numbers(&reference.mean);
         Self {
             compared: kept.len() as u64,
             square: mean_product(&mean, &mean),

@@ -34,7 +34,7 @@ pub fn rays(before: &str, now: &str) -> Option<String> {
         let (place, _) = probe.split_once("   ").unwrap_or((probe, ""));
         let _ = write!(
             text,
-            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"double_double\"><table>\
+            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"wide\"><table>\
              <thead><tr><th scope=\"col\">column</th><th scope=\"col\">component</th><th scope=\"col\">before</th>\
              <th scope=\"col\">now</th></tr></thead><tbody>\n{lines}</tbody></table></div></details>\n",
             escape(place)
