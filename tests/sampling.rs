@@ -101,8 +101,8 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
     const WIDTH: u32 = 65_536;
     let (mut tried, mut worst) = (0, 0.0_f64);
     for sampling in samplings() {
-        let double_double = empty([WIDTH, 1], Sampling { samples: 4, seed: 9, ..sampling }, Rgb::grey(1.0));
-        let inspection = inspect(&double_double, &offer(), 1024).expect("inspects");
+        let row_of_pixels = empty([WIDTH, 1], Sampling { samples: 4, seed: 9, ..sampling }, Rgb::grey(1.0));
+        let inspection = inspect(&row_of_pixels, &offer(), 1024).expect("inspects");
         let cells = FilterCells::of(sampling.filter);
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);

@@ -212,18 +212,13 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, t_max: f64, any: bool
         let (x, y, z) =
             (&spheres.x[start..start + here], &spheres.y[start..start + here], &spheres.z[start..start + here]);
         let radius = &spheres.radius[start..start + here];
-        for component in 0..here {
-            near[component] = nearness(
-                DVec3::new(x[component], y[component], z[component]) - origin,
-                direction,
-                inverse,
-                radius[component],
-            );
+        for lane in 0..here {
+            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, inverse, radius[lane]);
         }
-        for component in 0..here {
-            if near[component] >= 0.0 {
-                let found = sphere_t(origin, direction, spheres.centre(start + component), radius[component]);
-                keep_closest(found, spheres.shape[start + component], &mut t, &mut shape);
+        for lane in 0..here {
+            if near[lane] >= 0.0 {
+                let found = sphere_t(origin, direction, spheres.centre(start + lane), radius[lane]);
+                keep_closest(found, spheres.shape[start + lane], &mut t, &mut shape);
             }
         }
         start += LANES;
