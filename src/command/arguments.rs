@@ -35,6 +35,7 @@ pub fn after_help() -> String {
         "report 18 --quick",
         "export 05_pinhole",
         "check",
+        "render 5 --mine",
     ];
     let tries: Vec<String> = tries.iter().map(|words| format!("  {}", called(words))).collect();
     format!(
@@ -268,6 +269,10 @@ pub struct RenderChapter {
     /// Render the scene file again whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "stats")]
     pub watch: bool,
+    /// Render the chapter with the function that you have written for its exercise in place of pinhole's (default: to
+    /// out/, as 05_mine.png)
+    #[arg(long, conflicts_with = "watch")]
+    pub mine: bool,
     #[command(flatten)]
     pub options: RenderOptions,
 }

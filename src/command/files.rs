@@ -6,6 +6,7 @@ use pinhole::extract::ShapeTable;
 use pinhole::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
 use pinhole::plan::{Plan, Table};
 use pinhole::scene::printable_path;
+use pinhole_lab::exercise::Mine;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -83,14 +84,16 @@ pub struct Files {
     /// The names of shapes by their numbers, for the layer that tells them.
     names: Vec<String>,
     curve: Curve,
+    /// The reader's function, where it stands in a stage; nothing is written once it fails.
+    mine: Option<Mine>,
 }
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &World, plan: &Plan) -> Self {
+    pub fn new(targets: Targets, scene: &World, plan: &Plan, mine: Option<Mine>) -> Self {
         let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
         let names = ShapeTable::extract(scene).map(|shapes| shapes.name).unwrap_or_default();
-        Self { targets, names, curve }
+        Self { targets, names, curve, mine }
     }
 
     /// Writes the files anew, each whole.
@@ -100,15 +103,18 @@ impl Files {
 
     /// Writes one of them.
     pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
-        Ok(match (is(picture, "exr"), film.layers.is_empty()) {
+        self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
+        match (is(picture, "exr"), film.layers.is_empty()) {
             (false, _) => write_png(film, self.curve, picture)?,
             (true, true) => write_exr(film, picture)?,
             (true, false) => write_layered_exr(film, &self.names, picture)?,
-        })
+        }
+        Ok(())
     }
 
     /// Sends the picture to standard output, where that is asked for.
     pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
+        self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         if self.targets.standard_output {
             out.write_all(&png_bytes(film, self.curve)?)?;
             out.flush()?;

@@ -2,14 +2,14 @@ use super::check::{at_most_one, kind_and_name, number};
 use crate::scene::{Adaptive, Layers, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The fewest samples that tell a variance worth deciding from.
+/// The fewest pilot samples from which a variance can be estimated usefully.
 const FEWEST_PILOT: u32 = 4;
-/// The most, beyond which the pilot is the render.
+/// The most pilot samples; beyond this the pilot would be the render itself.
 const MOST_PILOT: u32 = 65_536;
 
-/// What the scene asks of adaptive sampling, if it does.
+/// The adaptive sampling that the scene requests, if any.
 ///
-/// Errors: two that ask, an error or a number of samples out of range, a camera that takes no samples.
+/// Errors: two requests, an error or a number of samples out of range, a camera that takes no samples.
 pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, SceneError> {
     let Some(camera) = at_most_one::<Adaptive>(scene, "adaptive", "Adaptive")? else { return Ok(None) };
     let adaptive = scene.get::<Adaptive>(camera).copied().unwrap_or_default();
@@ -28,7 +28,7 @@ pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, SceneError> {
     Ok(Some(adaptive))
 }
 
-/// Checks what the scene asks to be kept of every pixel.
+/// Checks the layers that the scene requests for every pixel.
 pub fn check_layers(scene: &World) -> Result<(), SceneError> {
     let Some(camera) = at_most_one::<Layers>(scene, "layers", "Layers")? else { return Ok(()) };
     if scene.get::<Layers>(camera).is_some_and(|layers| layers.kinds.is_empty()) {

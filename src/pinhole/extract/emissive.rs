@@ -4,16 +4,16 @@ use crate::plan::{Evidence, Table, entities};
 use crate::scene::{Emissive, SceneError, Sides};
 use bevy_ecs::prelude::*;
 
-/// What surfaces emit, in spawn order.
+/// The emission of surfaces, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EmissiveTable {
-    /// The radiance that leaves every point, linear Rec. 709.
+    /// The radiance emitted at every point, linear Rec. 709.
     pub radiance: Vec<[f32; 3]>,
-    /// Whether it leaves on the side of the shape's own normal only.
+    /// Whether it is emitted only on the side of the shape's own normal.
     pub one_sided: Vec<bool>,
 }
 
-/// The enabled entities that carry an [`Emissive`], in spawn order; a row of the table is an entity here.
+/// The enabled entities that carry an [`Emissive`], in spawn order, one for each row of the table.
 pub(super) fn emissive_entities(scene: &World) -> Vec<Entity> {
     entities::<With<Emissive>>(scene)
 }
@@ -45,7 +45,7 @@ pub fn one_sided_evidence(scene: &World) -> Evidence {
     if found.needed && emissive_entities(scene).iter().any(one_sided) {
         return Evidence { reason: format!("{}, on one side", found.reason), ..found };
     }
-    Evidence { needed: false, reason: "0 surfaces that shine on one side".into(), count: 0 }
+    Evidence { needed: false, reason: "0 surfaces that emit on one side".into(), count: 0 }
 }
 
 /// Evidence that a shape emits light.

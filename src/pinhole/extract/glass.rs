@@ -5,17 +5,17 @@ use crate::plan::{Evidence, Table, entities};
 use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
 use bevy_ecs::prelude::*;
 
-/// The least index of refraction that is accepted, and one over the largest.
+/// The least accepted index of refraction, and the reciprocal of the greatest.
 const LEAST_INDEX: f64 = 1e-3;
 
-/// Kinds of glass, in spawn order.
+/// Kinds of glass (dielectrics), in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlassTable {
-    /// The index of refraction against the vacuum.
+    /// The index of refraction relative to a vacuum.
     pub ior: Vec<f64>,
-    /// The absorption a scene unit: red, green, blue, at least 0.
+    /// The absorption coefficient per scene unit: red, green, blue, at least 0.
     pub absorption: Vec<[f64; 3]>,
-    /// Which is there where two overlap: the higher.
+    /// Where two overlap, the one with the higher priority is present.
     pub priority: Vec<u32>,
 }
 
@@ -51,12 +51,12 @@ fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), 
     Ok((glass.ior, absorption, glass.priority))
 }
 
-/// Checks a glass's numbers; equally in all directions it sends on nothing.
+/// Checks a glass's values; its diffuse colour is black.
 pub(super) fn glass_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
     glass_numbers(scene, entity).map(|_| [0.0; 3])
 }
 
-/// Checks that no shape without an inside is made of glass.
+/// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &World) -> Result<(), SceneError> {
     for shape in shape_entities(scene) {
         let kind = match (scene.get::<Disk>(shape), scene.get::<Rectangle>(shape)) {
@@ -68,7 +68,7 @@ fn check_closed(scene: &World) -> Result<(), SceneError> {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
-        let accepted = "glass needs a shape with an inside: a sphere, a cuboid, a plane or triangles that close";
+        let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
         return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
     }
     Ok(())

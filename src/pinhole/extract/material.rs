@@ -10,13 +10,13 @@ use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, Sce
 use bevy_ecs::prelude::*;
 use std::collections::BTreeSet;
 
-/// In the place of a row of a table: none.
+/// Stands for no row, in a column of row numbers.
 pub const NO_ROW: u32 = u32::MAX;
 
 /// The kinds of material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialKind {
-    /// It sends the light it gets equally in all directions.
+    /// Diffuse reflection, the same in all directions.
     Matte,
     /// A row of the table of Phong highlights.
     Phong,
@@ -31,33 +31,34 @@ pub enum MaterialKind {
 }
 
 impl MaterialKind {
-    /// How many kinds there are.
+    /// The number of kinds.
     const COUNT: usize = 6;
 
-    /// Whether it spreads the light of a lamp over many directions, so that light aimed at it from there is seen.
-    pub const fn spreads(self) -> bool {
+    /// Whether it reflects light in a continuous range of directions (not specular), so that light sampling can find
+    /// light for it.
+    pub const fn is_non_specular(self) -> bool {
         !matches!(self, Self::Mirror | Self::Glass)
     }
 }
 
-/// What shapes are made of, in spawn order, whatever the kind; kinds with more numbers have a table of their own.
+/// The materials of shapes of all kinds, in spawn order; kinds with further parameters have a table of their own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialTable {
     /// The kind of each.
     pub kind: Vec<MaterialKind>,
-    /// Its row among those of its kind, which is its row in the kind's own table.
+    /// Its row in the table of its kind.
     pub row: Vec<u32>,
-    /// The share of light that each sends on equally in all directions: red, green, blue, from 0 to 1.
+    /// The diffuse albedo of each: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
 }
 
 type Colour = fn(&World, Entity, &str) -> Result<[f64; 3], SceneError>;
 
-/// A kind of material as an author writes it.
+/// A component that is a material.
 struct Written {
     /// The component's name.
     component: &'static str,
-    /// What messages call it.
+    /// Its name in messages.
     word: &'static str,
     kind: fn(&World, Entity) -> MaterialKind,
     entities: fn(&World) -> Vec<Entity>,
@@ -77,7 +78,7 @@ impl Written {
     }
 }
 
-/// Every component that is a material; a new one joins with a line.
+/// The components that are materials; a new one is added with a line.
 const WRITTEN: &[Written] = &[
     Written::of::<Matte>(
         "Matte",
@@ -95,7 +96,7 @@ const WRITTEN: &[Written] = &[
     Written::of::<Metal>("Metal", "metal", metal_kind, metal_colour),
 ];
 
-/// The enabled entities that carry a material, in spawn order; a row of the table is an entity here.
+/// The enabled entities that carry a material, in spawn order, one for each row of the table.
 pub fn material_entities(scene: &World) -> Vec<Entity> {
     let mut materials: Vec<Entity> = WRITTEN.iter().flat_map(|written| (written.entities)(scene)).collect();
     materials.sort_by_key(|material| material.index());
@@ -103,13 +104,13 @@ pub fn material_entities(scene: &World) -> Vec<Entity> {
     materials
 }
 
-/// The kind of an entity's material; none where it carries none.
+/// The kind of an entity's material; none where it has none.
 pub(super) fn material_kind(scene: &World, entity: Entity) -> Option<MaterialKind> {
     let written = WRITTEN.iter().find(|written| (written.carries)(scene, entity));
     written.map(|written| (written.kind)(scene, entity))
 }
 
-/// The enabled entity whose material a shape is made of: itself, or the one that it uses.
+/// The enabled entity that holds a shape's material: itself, or the one that it uses.
 pub(super) fn used_material(scene: &World, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let is_there = |entity: &Entity| is_material(scene, *entity) && scene.get::<Disabled>(*entity).is_none();
@@ -121,20 +122,20 @@ pub(super) fn is_material(scene: &World, entity: Entity) -> bool {
     WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
-/// The components that are a material, in words: `Matte, Phong … or Metal`.
+/// The components that are materials, in words: `Matte, Phong … or Metal`.
 pub(super) fn materials_in_words() -> String {
     let names: Vec<&str> = WRITTEN.iter().map(|written| written.component).collect();
     let (last, others) = names.split_last().unwrap_or((&"", &[]));
     format!("{} or {last}", others.join(", "))
 }
 
-/// The one material that an entity is.
+/// The one material component of an entity.
 fn one_material(scene: &World, entity: Entity) -> Result<&'static Written, SceneError> {
-    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
-    match carried[..] {
+    let present: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match present[..] {
         [one] => Ok(one),
         _ => {
-            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let names: Vec<&str> = present.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
             let who = kind_and_name(scene, "material", entity);
             Err(SceneError::new(who, "material", value, "an entity may be one material only"))
@@ -165,41 +166,41 @@ impl Table for MaterialTable {
     }
 }
 
-/// The entities that shapes are, or use for their material.
-fn reached(scene: &World) -> BTreeSet<Entity> {
+/// The entities that hold the materials of shapes.
+fn in_use(scene: &World) -> BTreeSet<Entity> {
     let shapes = shape_entities(scene);
     let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
     used.chain(shapes.iter().copied()).collect()
 }
 
-/// Evidence that a shape is there whose matter spreads the light that falls on it: any but mirrors and glass.
+/// Evidence of a shape whose material is not specular: any but mirrors and glass.
 pub fn material_evidence(scene: &World) -> Evidence {
-    let reached = reached(scene);
+    let in_use = in_use(scene);
     const MATERIALS: [ComponentKind; 3] =
         [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
-    let matte = Evidence::among_any(scene, "material", &MATERIALS, |entity| reached.contains(&entity.id()));
+    let matte = Evidence::among_any(scene, "material", &MATERIALS, |entity| in_use.contains(&entity.id()));
     let metal = metal_evidence(scene);
     if metal.needed { matte.or(metal) } else { matte }
 }
 
-/// Evidence that a shape is there that sends on light equally in all directions, whatever else it does.
+/// Evidence of a shape with diffuse reflection, whatever else its material has.
 pub fn matte_evidence(scene: &World) -> Evidence {
-    let reached = reached(scene);
+    let in_use = in_use(scene);
     const MATERIALS: [ComponentKind; 3] =
         [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
-    Evidence::among_any(scene, "matte surface", &MATERIALS, |entity| reached.contains(&entity.id()))
+    Evidence::among_any(scene, "matte surface", &MATERIALS, |entity| in_use.contains(&entity.id()))
 }
 
-/// Evidence that a shape is made of such a material of one kind; those of the kind that are not such count for nothing.
-pub(super) fn reached_of<C: Component>(scene: &World, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
-    let reached = reached(scene);
+/// Evidence of a shape whose material is of one kind and passes a test; others of the kind do not count.
+pub(super) fn in_use_of<C: Component>(scene: &World, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
+    let in_use = in_use(scene);
     Evidence::of_kind::<With<C>>(scene, noun, |entity| {
-        reached.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
+        in_use.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
     })
 }
 
-/// Evidence that a shape carries this component, or uses a material that does.
+/// Evidence of a shape that carries this component, or uses a material that does.
 pub fn material_kind_evidence<C: Component>(scene: &World, noun: &str) -> Evidence {
-    let reached = reached(scene);
-    Evidence::among::<With<C>>(scene, noun, |entity| reached.contains(&entity.id()))
+    let in_use = in_use(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| in_use.contains(&entity.id()))
 }

@@ -1,19 +1,19 @@
 use super::MaterialKind;
 use super::check::{kind_and_name, number, reflectance};
-use super::material::{material_entities, material_kind, reached_of};
+use super::material::{in_use_of, material_entities, material_kind};
 use crate::plan::{Evidence, Table};
 use crate::scene::{Metal, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The least α with which metal is rough; below it, it is a perfect mirror.
+/// The least α of a rough metal; below it, metal is a perfect mirror.
 ///
-/// There its highlight falls to half within 0.07° of its middle.
+/// There its highlight falls to one half within 0.07° of its centre.
 pub const SMOOTHEST_METAL: f64 = 1e-3;
 
 /// Rough metals, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MetalTable {
-    /// The share of the light that each tiny mirror sends on: red, green, blue, from 0 to 1.
+    /// The reflectance of each metal's microfacets: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
     /// GGX's α, from 0.001 to 1.
     pub alpha: Vec<f64>,
@@ -51,33 +51,33 @@ pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], 
     }
 }
 
-/// Checks a metal's numbers; equally in all directions it sends on nothing.
+/// Checks a metal's values; its diffuse colour is black.
 pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
     metal_numbers(scene, entity).map(|_| [0.0; 3])
 }
 
-/// Whether metal is a mirror of its own.
+/// The kind of a metal: a perfect mirror where it is smooth enough.
 pub(super) fn metal_kind(scene: &World, entity: Entity) -> MaterialKind {
     let smooth = scene.get::<Metal>(entity).is_some_and(|metal| metal.roughness < SMOOTHEST_METAL);
     if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
 }
 
-/// Of each row of [`MetalTable`], whether light that meets several of its tiny mirrors comes out too.
-pub fn metals_of_several_mirrors(scene: &World) -> Vec<bool> {
+/// For each row of [`MetalTable`], whether it models multiple scattering between microfacets.
+pub fn multiple_scattering_metals(scene: &World) -> Vec<bool> {
     let rough = material_entities(scene).into_iter();
     let rough = rough.filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
     rough.map(|entity| scene.get::<Metal>(entity).is_some_and(|metal| metal.multiple_scattering)).collect()
 }
 
-/// Evidence of light that meets several tiny mirrors.
+/// Evidence of multiple scattering between microfacets.
 pub fn multiple_scattering_evidence(scene: &World) -> Evidence {
-    reached_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
+    in_use_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
         metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
     })
 }
 
-/// Evidence that a shape is made of rough metal.
+/// Evidence of a shape made of rough metal.
 pub fn metal_evidence(scene: &World) -> Evidence {
-    // What is no number counts, so that it is refused and not overlooked.
-    reached_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+    // NaN counts too, so that it is reported and not overlooked.
+    in_use_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
 }

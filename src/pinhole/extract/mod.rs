@@ -1,10 +1,10 @@
-//! Entities → tables: the scene read once, checked, and laid flat for the stages.
+//! Entities → tables: the scene is read once, checked, and stored in plain arrays for the stages.
 //!
 //! Reads: components of the scene world.
-//! Writes: tables (one file a kind), shared by all render worlds.
-//! Space: *render space*, which has the world's axes and the eye at its origin; the eye is subtracted here, once, in
-//! f64, so that a scene far from the world's origin loses nothing.
-//! After this no stage looks at a component of the scene again.
+//! Writes: tables, one file for each kind, shared by all render worlds.
+//! Space: *render space*, with the axes of world space and the eye at its origin; the eye is subtracted here, once, in
+//! f64, so that a scene far from the world's origin loses no precision.
+//! After this, no stage reads a component of the scene.
 
 mod adaptive;
 mod area_light;
@@ -81,7 +81,7 @@ pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
-pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
 pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use glass::{GlassTable, glass_evidence};
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
@@ -99,7 +99,9 @@ pub use lens::{LensTable, check_lens, lens_evidence};
 pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
 pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, material_kind_evidence, matte_evidence};
-pub use metal::{MetalTable, SMOOTHEST_METAL, metal_evidence, metals_of_several_mirrors, multiple_scattering_evidence};
+pub use metal::{
+    MetalTable, SMOOTHEST_METAL, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals,
+};
 pub use mirror::{MirrorTable, mirror_evidence};
 pub use motion::{
     ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
@@ -136,7 +138,7 @@ use bevy_ecs::prelude::*;
 
 /// Checks every enabled component of a scene, whether or not the plan will use it.
 ///
-/// Errors: the first [`SceneError`] in the order camera, shapes, matter, lights, textures, background, view.
+/// Errors: the first [`SceneError`] in the order camera, shapes, materials, lights, textures, background, view.
 pub fn validate(scene: &World) -> Result<(), SceneError> {
     ImageFrame::extract(scene)?;
     check_motion(scene)?;

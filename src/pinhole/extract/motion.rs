@@ -9,15 +9,15 @@ use crate::scene::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// The farthest time, so that times and their differences stay exact enough.
+/// The latest time, such that times and their differences stay sufficiently accurate.
 const FARTHEST_TIME: f64 = 1e9;
 
-/// When the camera gathers light, and how it moves meanwhile.
+/// How long the camera's shutter is open, and how the camera moves meanwhile.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShutterTable {
     /// How long the shutter is open, in units of time.
     pub length: f64,
-    /// The camera's velocity, scene units per unit of time.
+    /// The camera's velocity, in scene units per unit of time.
     pub velocity: DVec3,
 }
 
@@ -45,10 +45,10 @@ fn shutter_of(scene: &World) -> Shutter {
         .unwrap_or(Shutter { open: 0.0, close: 0.0 })
 }
 
-/// How an entity moves: by its own motion and its parents'.
+/// The velocity of an entity: its own and its parents' added.
 pub fn velocity_of(scene: &World, entity: Entity) -> DVec3 {
     let (mut velocity, mut next, mut steps) = (DVec3::ZERO, Some(entity), 0);
-    // A circle of parents is refused with every placement; here it only must come to an end.
+    // Cyclic parents are an error of every placement; here the loop must only end.
     while let Some(own) = next.filter(|_| steps < 1 << 16) {
         velocity += scene.get::<Motion>(own).map_or(DVec3::ZERO, |motion| motion.velocity);
         next = scene.get::<ChildOf>(own).map(ChildOf::parent);
@@ -57,21 +57,21 @@ pub fn velocity_of(scene: &World, entity: Entity) -> DVec3 {
     velocity
 }
 
-/// How far an entity has come when the shutter opens.
-pub fn way_before_opening(scene: &World, entity: Entity) -> Option<DVec3> {
+/// The displacement of an entity at the moment when the shutter opens.
+pub fn displacement_at_opening(scene: &World, entity: Entity) -> Option<DVec3> {
     let velocity = velocity_of(scene, entity);
     (velocity != DVec3::ZERO).then(|| velocity * shutter_of(scene).open)
 }
 
-/// Whether the shutter is open for some time.
-pub fn open_for_some_time(scene: &World) -> bool {
+/// Whether the shutter is open for a positive time.
+pub fn shutter_has_duration(scene: &World) -> bool {
     let Shutter { open, close } = shutter_of(scene);
     close > open
 }
 
-/// The shapes that move while the shutter is open, as a question that is asked of each.
+/// A predicate for the shapes that move while the shutter is open.
 pub fn moves_while_open(scene: &World) -> impl Fn(Entity) -> bool {
-    let open = open_for_some_time(scene) && !entities::<With<Motion>>(scene).is_empty();
+    let open = shutter_has_duration(scene) && !entities::<With<Motion>>(scene).is_empty();
     move |entity| open && velocity_of(scene, entity) != DVec3::ZERO
 }
 
@@ -96,17 +96,17 @@ pub fn motion_evidence(scene: &World) -> Evidence {
 fn said(scene: &World, noun: &str, moving: Vec<Entity>) -> Evidence {
     let evidence = Evidence::of_kind::<()>(scene, noun, |entity| moving.contains(&entity));
     let declared = entities::<With<Motion>>(scene);
-    if evidence.needed || declared.is_empty() || open_for_some_time(scene) {
+    if evidence.needed || declared.is_empty() || shutter_has_duration(scene) {
         return evidence;
     }
     let reason = format!("{}: the shutter is open for no time", evidence.reason);
     Evidence { reason, ..evidence }
 }
 
-/// Checks what a scene says of time.
+/// Checks the shutter and all motions of a scene.
 ///
-/// Errors: a shutter on what is no camera, one that closes before it opens, a velocity that is not finite, motion of what
-/// cannot move while the shutter is open.
+/// Errors: a shutter on something other than the camera, one that closes before it opens, a velocity that is not
+/// finite, a motion of something that may not move while the shutter is open.
 pub fn check_motion(scene: &World) -> Result<(), SceneError> {
     let camera = camera_entity(scene)?;
     for entity in entities::<With<Shutter>>(scene) {
@@ -134,7 +134,7 @@ pub fn check_motion(scene: &World) -> Result<(), SceneError> {
     check_movers(scene)
 }
 
-/// Whatever moves while the shutter is open must be able to.
+/// Checks that only what may move does move while the shutter is open.
 fn check_movers(scene: &World) -> Result<(), SceneError> {
     let moves = moves_while_open(scene);
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
@@ -149,13 +149,13 @@ fn check_movers(scene: &World) -> Result<(), SceneError> {
             "while the shutter is open only shapes and the camera may move, no light",
         );
     }
-    let (textured, aimed) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
+    let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
     for shape in shape_entities(scene).into_iter().filter(|&shape| moves(shape)) {
         let own = scene.entity(shape);
         let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);
         if !(round || own.contains::<Disk>() || own.contains::<Rectangle>()) {
             let accepted =
-                "while the shutter is open only evenly scaled spheres, disks, rectangles and the camera may move";
+                "while the shutter is open only uniformly scaled spheres, disks, rectangles and the camera may move";
             return refused(shape, "shape", "given to another kind", accepted);
         }
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
@@ -167,8 +167,8 @@ fn check_movers(scene: &World) -> Result<(), SceneError> {
             let accepted = "while the shutter is open nothing with a texture may move";
             return refused(shape, "shape", "given to one with a texture", accepted);
         }
-        if aimed && has(&|own| own.contains::<Emissive>()) {
-            let accepted = "where points on lights are aimed at, nothing that emits may move while the shutter is open";
+        if sampled && has(&|own| own.contains::<Emissive>()) {
+            let accepted = "where area lights are sampled, nothing that emits may move while the shutter is open";
             return refused(shape, "shape", "given to one that emits", accepted);
         }
     }

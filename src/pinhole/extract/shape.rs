@@ -33,10 +33,10 @@ pub enum ShapeKind {
 }
 
 impl ShapeKind {
-    /// How many kinds there are.
+    /// The number of kinds.
     const COUNT: usize = 8;
 
-    /// The table that it is laid in.
+    /// The table of this kind.
     pub fn table(self) -> TableKind {
         match self {
             Self::Sphere => TableKind::of::<SphereTable>(),
@@ -51,7 +51,7 @@ impl ShapeKind {
     }
 }
 
-/// All shapes in spawn order; a shape's number here is the one that hits carry.
+/// All shapes in spawn order; a shape's index here is the shape number in hits.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeTable {
     /// The table each shape is in.
@@ -60,19 +60,19 @@ pub struct ShapeTable {
     pub row: Vec<u32>,
     /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
-    /// Whether it has a material, one that spreads light, so that light may be aimed at it.
-    pub spreads: Vec<bool>,
+    /// Whether its material is not specular, so that lights are sampled for it.
+    pub non_specular: Vec<bool>,
     /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
     pub emissive: Vec<u32>,
-    /// How a person calls it.
+    /// Its name in messages.
     pub name: Vec<String>,
 }
 
-/// A kind of shape as an author writes it, and the table that it is laid in.
+/// A component that is a shape, and the table of its kind.
 struct Written {
     /// The component's name.
     component: &'static str,
-    /// What messages call it.
+    /// Its name in messages.
     word: &'static str,
     entities: fn(&World) -> Vec<Entity>,
     carries: fn(&World, Entity) -> bool,
@@ -90,7 +90,7 @@ impl Written {
     }
 }
 
-/// Every component that is a shape; a new one joins with a line.
+/// The components that are shapes; a new one is added with a line.
 const WRITTEN: &[Written] = &[
     Written::of::<Sphere>("Sphere", "sphere", |scene, entity| {
         if unevenly_scaled(scene, entity) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere }
@@ -127,7 +127,7 @@ impl Table for ShapeTable {
             let name = kind_and_name(scene, written.word, entity);
             let material = material_of(scene, &name, entity)?;
             let kind = material.and_then(|material| material_kind(scene, material));
-            table.spreads.push(kind.is_some_and(MaterialKind::spreads));
+            table.non_specular.push(kind.is_some_and(MaterialKind::is_non_specular));
             table.material.push(row_in(&materials, material));
             table.emissive.push(row_in(&emissive, emissive_of(scene, entity)));
             table.name.push(name);
@@ -146,13 +146,13 @@ pub(super) fn is_shape(scene: &World, entity: Entity) -> bool {
     WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
-/// The one shape that an entity is.
+/// The one shape component of an entity.
 fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, SceneError> {
-    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
-    match carried[..] {
+    let present: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match present[..] {
         [one] => Ok(one),
         _ => {
-            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let names: Vec<&str> = present.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
             Err(SceneError::new(
                 kind_and_name(scene, "shape", entity),
@@ -164,7 +164,7 @@ fn one_shape(scene: &World, entity: Entity) -> Result<&'static Written, SceneErr
     }
 }
 
-/// The entity that holds a shape's one material; none for a shape that emits light and reflects none.
+/// The entity that holds a shape's material; none for a shape that emits light and does not reflect any.
 fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>, SceneError> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     match (is_material(scene, shape), used) {
@@ -191,7 +191,7 @@ fn material_of(scene: &World, who: &str, shape: Entity) -> Result<Option<Entity>
     }
 }
 
-/// The entity that says what a shape emits: itself, or else the one whose material it uses.
+/// The entity that holds a shape's emission: itself, or else the one whose material it uses.
 pub(super) fn emissive_of(scene: &World, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();

@@ -3,65 +3,60 @@ use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::{Allow, QueryFilter};
 
-/// Whether the scene needs a stage, and what in the scene says so.
+/// Whether the scene needs a stage, and what in the scene requires it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
     /// Whether the stage is needed.
     pub needed: bool,
-    /// Why, in words: `3 spheres: "ball", "moon", "ground"`.
+    /// The reason, in words: `3 spheres: "ball", "moon", "ground"`.
     pub reason: String,
-    /// How many reachable entities cause it.
+    /// The number of entities in use that cause it.
     pub count: usize,
 }
 
 impl Evidence {
-    /// Needed whatever the scene holds.
+    /// Needed for every scene.
     pub fn always(reason: &str) -> Self {
         Self { needed: true, reason: reason.into(), count: 0 }
     }
 
-    /// Needed if any enabled entity has the component; `noun` names one of them.
+    /// Needed if any enabled entity has the component; `noun` names one such entity.
     pub fn of<C: Component>(scene: &World, noun: &str) -> Self {
         Self::among::<With<C>>(scene, noun, |_| true)
     }
 
-    /// Needed if any enabled entity passes the filter and `reachable`.
-    pub fn among<F: QueryFilter>(scene: &World, noun: &str, reachable: impl Fn(EntityRef<'_>) -> bool) -> Self {
+    /// Needed if any enabled entity passes the filter and is in use.
+    pub fn among<F: QueryFilter>(scene: &World, noun: &str, in_use: impl Fn(EntityRef<'_>) -> bool) -> Self {
         let enabled = entities::<F>(scene);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
-        Self::told(scene, noun, &found, &enabled, &declared::<F>(scene))
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
+        Self::from_entities(scene, noun, &found, &enabled, &declared::<F>(scene))
     }
 
-    /// Needed if any enabled entity carries one of these components and is `reachable`.
+    /// Needed if any enabled entity has one of these components and is in use.
     ///
-    /// Not `Or` in a filter: a query that only reads finds nothing where one of its components was never spawned.
-    pub fn among_any(
-        scene: &World,
-        noun: &str,
-        any: &[ComponentKind],
-        reachable: impl Fn(EntityRef<'_>) -> bool,
-    ) -> Self {
+    /// This is not `Or` in a filter, since a read-only query finds nothing if one of its components was never spawned.
+    pub fn among_any(scene: &World, noun: &str, any: &[ComponentKind], in_use: impl Fn(EntityRef<'_>) -> bool) -> Self {
         let all = |find: fn(&ComponentKind) -> fn(&World) -> Vec<Entity>| {
-            let mut found: Vec<Entity> = any.iter().flat_map(|carried| find(carried)(scene)).collect();
+            let mut found: Vec<Entity> = any.iter().flat_map(|component| find(component)(scene)).collect();
             found.sort_by_key(|entity| entity.index());
             found.dedup();
             found
         };
-        let enabled = all(|carried| carried.enabled);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
-        Self::told(scene, noun, &found, &enabled, &all(|carried| carried.declared))
+        let enabled = all(|component| component.enabled);
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
+        Self::from_entities(scene, noun, &found, &enabled, &all(|component| component.declared))
     }
 
-    /// Needed if any enabled entity that passes the filter is of a kind; those of another kind count for nothing.
+    /// Needed if any enabled entity that passes the filter is of a kind; other entities are not even mentioned.
     pub fn of_kind<F: QueryFilter>(scene: &World, noun: &str, is_of_kind: impl Fn(Entity) -> bool) -> Self {
         let mut declared = declared::<F>(scene);
         declared.retain(|&entity| is_of_kind(entity));
         let mut found = entities::<F>(scene);
         found.retain(|&entity| is_of_kind(entity));
-        Self::told(scene, noun, &found, &found, &declared)
+        Self::from_entities(scene, noun, &found, &found, &declared)
     }
 
-    fn told(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
+    fn from_entities(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
         let mut reason = counted(found.len(), noun);
         if !found.is_empty() {
             reason = format!("{reason}: {}", first_three(scene, found));
@@ -72,7 +67,7 @@ impl Evidence {
         Self { needed: !found.is_empty(), reason, count: found.len() }
     }
 
-    /// Needed if both are; the other is not looked at where this is not.
+    /// Needed if both are; the second is not evaluated where the first is not needed.
     pub fn and(self, other: impl FnOnce() -> Self) -> Self {
         if !self.needed {
             return self;
@@ -97,7 +92,7 @@ impl Evidence {
     }
 }
 
-/// A component, as evidence looks for those that carry it.
+/// A component whose entities evidence looks for.
 #[derive(Clone, Copy)]
 pub struct ComponentKind {
     enabled: fn(&World) -> Vec<Entity>,
@@ -116,7 +111,7 @@ pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
     sorted(scene.try_query_filtered::<Entity, F>().map(|mut query| query.iter(scene).collect()))
 }
 
-/// Entities that pass the filter, the disabled ones among them.
+/// Entities that pass the filter, including disabled ones.
 fn declared<F: QueryFilter>(scene: &World) -> Vec<Entity> {
     sorted(scene.try_query_filtered::<Entity, (F, Allow<Disabled>)>().map(|mut query| query.iter(scene).collect()))
 }

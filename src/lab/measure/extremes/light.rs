@@ -14,7 +14,7 @@ use pinhole::extract::{
 };
 use pinhole::intersect::{MaterialRows, Surface, Surfaces, offset_bound};
 use pinhole::scene::Degrees;
-use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_share, versine};
+use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_falloff, versine};
 use std::ops::Range;
 
 const HIGHLIGHT: [Method; 2] = [
@@ -95,7 +95,7 @@ fn check_spots(range: Range<u64>) -> Tally {
         // Where the two cones are nearly one, a direction's own rounding decides; what it can do is taken off.
         let doubt = 8.0 * f64::EPSILON * libm::sin(true_angle).max(f64::EPSILON) / (versine_outer - versine_inner);
         let off = |falloff: f64| ((falloff - exact).abs() - doubt).max(0.0);
-        tally.scores[0].measure(off(spot_share(versine(along, axis), versine_inner, versine_outer)));
+        tally.scores[0].measure(off(spot_falloff(versine(along, axis), versine_inner, versine_outer)));
         let cosines = [axis.dot(along), libm::cos(inner * std::f64::consts::PI / 360.0), libm::cos(edge_of(outer))];
         tally.scores[1].measure(off(spot_falloff_by_cosine(cosines[0], cosines[1], cosines[2])));
         let [c, i, o] = cosines.map(|cosine| cosine as f32);
@@ -138,7 +138,7 @@ fn check_suns(range: Range<u64>) -> Tally {
         bench.run();
         let rays = bench.column::<LightRays>();
         let (pinhole, t_max) =
-            rays.r.first().zip(rays.reach.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
+            rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
         tally.scores[0].check(t_max == f32::INFINITY);
         tally.scores[0].measure((f64::from(pinhole) - exact).abs() / U);
         let naive = sun_as_a_far_light(1.0, to_light.as_vec3(), position, normal);
