@@ -46,14 +46,15 @@ impl Rule {
 
 #[rustfmt::skip]
 pub const RULES: &[Rule] = &[
-    Rule::new("leg|legs", "bounce, path segment; depth, max_depth"),
+    Rule::new("leg|legs", "bounce, path segment; depth, max_depth")
+        .but("crate leg|new leg|the leg ends in the very plane"),
     Rule::new("way|ways", "path, direction, offset")
         .but("same way|wrong way|other way round|wrong way round|right way round|other way about|half way|\
               by the way|by way of|this way|that way|either way|no way|a way to|ways to|one way to|\
               another way to|only way|all the way|out of the way|on the way|under way|best way|better way|\
               usual way|any way|a way of|ways of|which way|quickest way|simplest way|obvious way|\
-              general way|in its own way|in the way|other way|in another way|way as another|one way as|\
-              in each way|in one way|in any other way|in every way|way to say|way round|way up|\
+              general way|in its own way|different ways|in the way|other way|in another way|way as another|\
+              one way as|in each way|in one way|in any other way|in every way|way to say|way round|way up|\
               in their own way|both ways|in two ways|in three ways|in many ways|in other ways|some way to|\
               every way to|way for")
         .not_but("way of light|ways of light|a way of the light|on its way|half way direction|\
@@ -62,7 +63,8 @@ pub const RULES: &[Rule] = &[
         .but("share a|share an|share one|share the|share this|share no|share it|share them|share its|\
               share their|share all|share both|share code|share nothing|share and share alike|shares a|\
               shares an|shares one|shares the|shares this|shares no|shares it|shares its|shares all|\
-              shares nothing|to share|not share|would share|may share|can share|must share|they share")
+              shares nothing|to share|not share|would share|columns share|renderer share|shapes share|\
+              share files|shares dimension|may share|can share|must share|they share")
         .not_but("a share|the share|its share|this share|what share|whose share|each share|every share|\
               share of|shares of|same share|largest share|light share|spot share"),
     Rule::new("density|densities", "pdf")
@@ -89,7 +91,8 @@ pub const RULES: &[Rule] = &[
     Rule::new("glint|glints", "BSDF sample, microfacet sample"),
     Rule::new("polished", "specular"),
     Rule::new("squarely", "at normal incidence"),
-    Rule::new("slant|slants|slanted|slanting|slantingly|aslant", "obliquely, at grazing incidence"),
+    Rule::new("slant|slants|slanted|slanting|slantingly|aslant", "obliquely, at grazing incidence")
+        .but("slanted edge"),
     Rule::new("flat angle|flat angles|flat incidence", "grazing incidence"),
     Rule::new("half ball|half balls|half sphere|half spheres", "hemisphere"),
     Rule::new("stranger|strangers", "independent"),
