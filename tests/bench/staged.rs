@@ -151,7 +151,7 @@ fn memory() {
         println!(
             "memory {size}: film {:.1} MiB ({} bytes a pixel), peak {:.1} MiB, beside the film {:.1} MiB",
             film / 1048576.0,
-            number("film_bytes_a_pixel"),
+            number("film_bytes_per_pixel"),
             peak / 1048576.0,
             (peak - film) / 1048576.0
         );
