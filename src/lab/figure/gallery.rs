@@ -15,7 +15,7 @@ use pinhole::Result;
 use pinhole::extract::{
     PerspectiveProjection, angle_across, camera_entity, eye, half_extent, tan_half, world_from_entity,
 };
-use pinhole::plan::{Stage, TileSystems};
+use pinhole::plan::{Census, Stage, TileSystems};
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement};
 
@@ -131,8 +131,9 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let nearest = middle.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)));
     let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray hits"))?;
     let scene = chapter.world(&Default::default());
-    let target = eye(&scene)? + *centre;
-    let up = world_from_entity(&scene, "the figure", camera_entity(&scene)?)?.matrix3.y_axis;
+    let census = &Census::of(&scene);
+    let target = eye(census)? + *centre;
+    let up = world_from_entity(census, "the figure", camera_entity(&scene)?)?.matrix3.y_axis;
     // Seen from d the outline is at the angle whose tangent is r / √(d² − r²).
     let outline = |distance: f64| radius / (distance * distance - radius * radius).sqrt();
     let size = pixels(226.0, 1.25);

@@ -13,7 +13,7 @@ use pinhole::extract::{
 };
 use pinhole::film::Film;
 use pinhole::intersect::{self, NO_SHAPE, l1_norm, nearness, offset_bound, plane_t, sphere_t};
-use pinhole::plan::{Sample, Shared, Table};
+use pinhole::plan::{Census, Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
 
@@ -66,25 +66,26 @@ impl EntityPerRay {
     ///
     /// Errors: what pinhole refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
-        pinhole::extract::validate(scene)?;
-        let kinds = ShapeTable::extract(scene)?.kind;
-        if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
+        let census = &Census::of(scene);
+        pinhole::extract::validate(census)?;
+        let shapes = census.table::<ShapeTable>()?;
+        if shapes.kind.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(SceneError::new("the scene", "shapes", "another kind of shape", accepted));
         }
-        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+        if shapes.material.contains(&NO_ROW) {
             let accepted = "one entity a ray knows shapes that reflect light only";
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        shared::<PerspectiveProjection>(&mut world, scene)?;
-        shared::<CameraAxes>(&mut world, scene)?;
-        shared::<SphereTable>(&mut world, scene)?;
-        shared::<PlaneTable>(&mut world, scene)?;
-        shared::<ShapeTable>(&mut world, scene)?;
-        shared::<MaterialTable>(&mut world, scene)?;
-        shared::<BackgroundTable>(&mut world, scene)?;
-        let image = shared::<ImageFrame>(&mut world, scene)?;
+        shared::<PerspectiveProjection>(&mut world, census)?;
+        shared::<CameraAxes>(&mut world, census)?;
+        shared::<SphereTable>(&mut world, census)?;
+        shared::<PlaneTable>(&mut world, census)?;
+        shared::<ShapeTable>(&mut world, census)?;
+        shared::<MaterialTable>(&mut world, census)?;
+        shared::<BackgroundTable>(&mut world, census)?;
+        let image = shared::<ImageFrame>(&mut world, census)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -119,8 +120,8 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn shared<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
-    let table = T::extract(scene)?;
+fn shared<T: Table + Clone>(world: &mut World, scene: &Census<'_>) -> Result<T, SceneError> {
+    let table = T::clone(&*scene.table::<T>()?);
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
 }

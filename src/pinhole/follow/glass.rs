@@ -6,7 +6,7 @@ use crate::extract::{
     GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, PixelSamples, SampleNumber, Tile, WorldRays};
 use crate::rays::{Draws, Paths, draws_of_one};
 use crate::sample::Purpose;
@@ -205,7 +205,7 @@ fn reading(stage: Stage) -> Stage {
 }
 
 /// Evidence that both rays are traced at glass.
-fn split_evidence(scene: &World) -> Evidence {
+fn split_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Whitted { .. }))
 }
 

@@ -2,7 +2,7 @@ use super::frame::{cosine_direction, frame_of};
 use super::{Scattered, ScatteredRay};
 use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Draws, Paths, PixelSamples, SampleNumber, Tile, WorldRays, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
@@ -85,6 +85,6 @@ fn reading(stage: Stage) -> Stage {
 }
 
 /// Evidence that light is scattered from matte surfaces to others.
-pub(super) fn scattered_evidence(scene: &World) -> Evidence {
+pub(super) fn scattered_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(|| material_evidence(scene))
 }

@@ -6,7 +6,7 @@ use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, l1_norm, offse
 use super::uv::cuboid_uv;
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Cuboid;
 use bevy_ecs::prelude::*;
@@ -245,6 +245,6 @@ pub fn cuboid_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a cuboid.
-pub fn cuboid_evidence(scene: &World) -> Evidence {
+pub fn cuboid_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Cuboid>(scene, "cuboid")
 }

@@ -2,7 +2,7 @@ use super::rows::PlaneRows;
 use super::surface::{Surface, SurfaceSides, SurfaceUvs, Surfaces, offset_bound};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Plane;
 use bevy_ecs::prelude::*;
@@ -101,6 +101,6 @@ pub fn plane_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a plane.
-pub fn plane_evidence(scene: &World) -> Evidence {
+pub fn plane_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Plane>(scene, "plane")
 }
