@@ -333,7 +333,7 @@ fn a_bad_place_is_refused_before_the_render() {
 
 /// A chapter that offers too few stages for its scene is told so, and no shape is missing from a picture without a word.
 #[test]
-fn shapes_that_no_stage_on_offer_meets() {
+fn shapes_that_no_stage_on_offer_intersects() {
     let mut scene = good(Eye::Perspective);
     let (matte, planar) = (Matte::default, Placement { scale: DVec3::new(1.0, 0.5, 1.0), ..Placement::default() });
     scene.spawn((Name::new("egg"), Sphere::default(), matte(), planar));
@@ -341,7 +341,7 @@ fn shapes_that_no_stage_on_offer_meets() {
     scene.spawn((Name::new("board"), Rectangle::default(), matte()));
     scene.spawn((Name::new("crate"), Cuboid::default(), matte()));
     let census = &Census::of(&scene);
-    prepare(census, &offer()).map(|_| ()).expect("all can be met");
+    prepare(census, &offer()).map(|_| ()).expect("all can be hit");
     let mut refused = 0;
     for column in ["hit", "surface", "shadow"] {
         for (table, name) in [

@@ -124,13 +124,13 @@ fn scene_error(name: &str, change: impl Fn(&mut EntityWorldMut<'_>)) -> String {
 #[test]
 fn refusals_are_worded_as_the_pages_say() {
     let resolution = Resolution { width: 0, height: 270 };
-    let keep_closest = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
+    let with_tiny_angle = |fov| PerspectiveCamera { fov: Degrees(fov), axis: FovAxis::Vertical };
     let eye = DVec3::new(0.0, 2.6, 6.0);
     let look = |target| LookAt { eye, target, ..LookAt::default() };
     let (stand, along) = (DVec3::new(3.0, 2.6, 4.5), DVec3::new(-30.0, -19.0, -45.0));
     for (page, sentence) in [
         ("01_image.md", scene_error("01_image", |camera| _ = camera.insert(resolution))),
-        ("02_ray.md", scene_error("02_ray", |camera| _ = camera.insert(keep_closest(0.06)))),
+        ("02_ray.md", scene_error("02_ray", |camera| _ = camera.insert(with_tiny_angle(0.06)))),
         (
             "04_orthographic.md",
             scene_error("04_orthographic", |camera| _ = camera.insert(OrthographicCamera { view_height: 0.0 })),
@@ -140,7 +140,7 @@ fn refusals_are_worded_as_the_pages_say() {
             "04_orthographic.md",
             scene_error("04_orthographic", |camera| _ = camera.insert(look(DVec3::new(0.0, -1.0, 6.0)))),
         ),
-        ("05_pinhole.md", scene_error("05_pinhole", |camera| _ = camera.insert(keep_closest(0.01)))),
+        ("05_pinhole.md", scene_error("05_pinhole", |camera| _ = camera.insert(with_tiny_angle(0.01)))),
         (
             "09_camera_to_world.md",
             scene_error("09_camera_to_world", |camera| camera.get_mut::<LookAt>().expect("looks").target = stand),

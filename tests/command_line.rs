@@ -1,4 +1,4 @@
-//! The program as a reader meets it: what they type first, what they see, what is on disk afterwards.
+//! The program as a reader comes to know it: what they type first, what they see, what is on disk afterwards.
 
 #[path = "command_line/meant.rs"]
 mod meant;
@@ -196,7 +196,7 @@ fn blocks(png: &[u8]) -> Vec<[f64; 3]> {
 /// A block has 225 pixels of 16 samples, and what a PNG cuts off at the lamp's image in a mirror differs with the noise:
 /// a quarter of a block's light is twice what the worst block shows.
 #[test]
-fn the_readme_opens_with_the_cover_that_the_kit_renders_now() {
+fn the_readme_opens_with_the_cover_that_pinhole_renders_now() {
     let cover = chapter("cover");
     let asked = Overrides {
         resolution: Some(Resolution { width: 240, height: 135 }),
@@ -213,7 +213,7 @@ fn the_readme_opens_with_the_cover_that_the_kit_renders_now() {
             worst = worst.max(off);
             assert!(
                 off < 0.25,
-                "the README shows another cover than the kit renders, in block {},{}: {now} is {kept}; look at both, then\n  \
+                "the README shows another cover than pinhole renders, in block {},{}: {now} is {kept}; look at both, then\n  \
                  cargo run --release -- render cover --quiet -o chapters/cover/cover.png",
                 at % 16,
                 at / 16

@@ -228,7 +228,7 @@ fn images_that_say_they_are_huge_are_refused_before_memory_is_asked_for() {
 
 #[cfg(unix)]
 #[test]
-fn pipes_are_refused_and_bombs_are_weighed() {
+fn pipes_are_refused_and_bombs_are_measured() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = |name: &str| folder.path().join(name);
     write_png(&path("a.png"), [2, 2], 9);

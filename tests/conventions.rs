@@ -1,7 +1,7 @@
 //! What `conventions` tells a reader to type makes the same rays there.
 //!
-//! Each program's own way from its words to a ray is written out here from its source or manual, without the kit: the
-//! numbers are read off the printed lines, and the ray through a pixel is compared with the kit's.
+//! How each program gets from its words to a ray is written out here from its source or manual, without pinhole: the
+//! numbers are read off the printed lines, and the ray through a pixel is compared with pinhole's.
 
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -18,7 +18,7 @@ fn scene(name: &str, width: u32, height: u32) -> World {
     chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() })
 }
 
-/// The kit's own ray through a pixel's centre, in f64.
+/// Pinhole's own ray through a pixel's centre, in f64.
 fn our_ray(camera: &PlacedCamera, pixel: [u32; 2]) -> DVec3 {
     let ndc = ndc_from_raster(raster_from_pixel(pixel[0], pixel[1]), camera.image.size());
     let screen = screen_from_ndc(ndc, camera.image.aspect());
@@ -312,11 +312,11 @@ fn cameras_come_back_within_the_rounding_of_their_words() {
         for [width, height] in [[480, 270], [270, 480], [1, 1], [65_536, 1], [1, 65_536]] {
             let image = pinhole::extract::ImageFrame { width, height };
             let tan_half_vertical = pinhole::extract::tan_half(Degrees(degrees));
-            let ours = PlacedCamera { tan_half_vertical, image, ..right };
+            let pinhole_camera = PlacedCamera { tan_half_vertical, image, ..right };
             for program in Program::ALL {
-                let back = pinhole_from_theirs(program, &theirs_from_pinhole(program, &ours), image);
-                assert_eq!(back.world_from_camera, ours.world_from_camera, "{program}");
-                assert_eq!(back.look.eye, ours.look.eye, "{program}");
+                let back = pinhole_from_theirs(program, &theirs_from_pinhole(program, &pinhole_camera), image);
+                assert_eq!(back.world_from_camera, pinhole_camera.world_from_camera, "{program}");
+                assert_eq!(back.look.eye, pinhole_camera.look.eye, "{program}");
                 let (axis, angle) = match program.opening() {
                     Opening::Degrees(axis) | Opening::Radians(axis) => (axis, true),
                     Opening::Pixels => (FovAxis::Vertical, false),
@@ -325,9 +325,9 @@ fn cameras_come_back_within_the_rounding_of_their_words() {
                 let t = tan_half_vertical * half_extent(axis, image.aspect());
                 let stretch = if angle && t > 1.0 { (1.0 + t * t) / (2.0 * t) } else { 1.0 };
                 let error = (back.tan_half_vertical / tan_half_vertical - 1.0).abs() / f64::EPSILON;
-                let share = error / (4.0 + 2.0 * std::f64::consts::PI * stretch);
-                assert!(share <= 1.0, "{program}, {degrees}°, {width}x{height}: {error} ε");
-                worst = worst.max(share);
+                let ratio = error / (4.0 + 2.0 * std::f64::consts::PI * stretch);
+                assert!(ratio <= 1.0, "{program}, {degrees}°, {width}x{height}: {error} ε");
+                worst = worst.max(ratio);
                 tried += 1;
             }
         }

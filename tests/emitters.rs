@@ -1,4 +1,4 @@
-//! Lights with an area: their points are chosen as their densities say, and light surfaces as closed forms say.
+//! Area lights: their points are distributed as their pdfs say, and light surfaces as closed forms say.
 
 #[path = "emitters/closed_forms.rs"]
 mod closed_forms;
@@ -19,7 +19,7 @@ use pinhole::shade::emitter::{LightPoint, pdf_towards, point_on};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
-/// direction at a time, and by how much at most the density told there differs from the one asked for afterwards.
+/// direction at a time, and by how much at most the pdf given there differs from the one computed afterwards.
 struct Received {
     mean: f64,
     deviation: f64,
@@ -33,7 +33,7 @@ impl Received {
         Self::by(&|u| point_on(emitter, from, u), &again, normal, tried, seed)
     }
 
-    /// The same by points chosen so, and the density of the way to one.
+    /// The same by points sampled so, and the pdf of the direction to one.
     fn by(
         choose: &dyn Fn([f64; 2]) -> LightPoint,
         pdf: &dyn Fn(DVec3) -> f64,
@@ -46,7 +46,7 @@ impl Received {
         let mut first = None;
         for number in 0..tried {
             let mut draws = Draws::new(seed, u64::from(number));
-            // 24 bits, as the kit's own numbers have.
+            // 24 bits, as pinhole's own numbers have.
             let u = [draws.unit(), draws.unit()].map(|u| (u * 16_777_216.0).floor() / 16_777_216.0);
             let point = choose(u);
             let cosine = normal.dot(point.to / point.to.length()).max(0.0);

@@ -1,4 +1,4 @@
-//! The renderer of one entity a ray makes the kit's image, and what was measured of it is of the present sources.
+//! The renderer of one entity a ray makes pinhole's image, and what was measured of it is of the present sources.
 
 use bevy_ecs::prelude::*;
 use pinhole::render::{Execution, render};
@@ -24,15 +24,15 @@ fn unlit(name: &str, width: u32, height: u32) -> (Chapter, World) {
 }
 
 #[test]
-fn its_image_is_the_kit_s_to_the_last_bit() {
+fn its_image_is_pinhole_s_to_the_last_bit() {
     let mut pixels = 0;
     for name in ["sunflower", "05_pinhole", "12_how_it_is_built"] {
         for [width, height] in [[192, 108], [33, 65], [1, 1], [70, 1]] {
             let (chapter, world) = unlit(name, width, height);
-            let kit = render(&world, &chapter.stages(), &Execution::default(), &()).expect("renders").film;
+            let pinhole = render(&world, &chapter.stages(), &Execution::default(), &()).expect("renders").film;
             let mut entities = EntityPerRay::spawn(&world).expect("spawns");
             entities.run();
-            assert!(entities.film().tiles == kit.tiles, "{name} {width}x{height}");
+            assert!(entities.film().tiles == pinhole.tiles, "{name} {width}x{height}");
             pixels += u64::from(width) * u64::from(height);
         }
     }

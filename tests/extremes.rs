@@ -13,12 +13,12 @@ use pinhole_lab::measure::ray_aim::{self, AimedRay};
 use pinhole_lab::measure::sweep::sweep;
 use std::fs;
 
-/// Tries a group, prints its table, and asks that the kit holds everywhere and each naive method breaks somewhere.
+/// Tries a group, prints its table, and asks that pinhole holds everywhere and each naive method breaks somewhere.
 fn holds(group: Group, rays: u64) {
     let cases = try_group(group, "", rays, &());
     for case in &cases {
         eprint!("{case}");
-        assert!(case.held(), "the kit does not hold in:\n{case}");
+        assert!(case.held(), "pinhole does not hold in:\n{case}");
         assert!(case.rays > 0, "nothing was tried in {}", case.name);
         let too_long = case.to_string().lines().find(|line| line.chars().count() > 100).map(String::from);
         assert_eq!(too_long, None, "a line is longer than a page is wide");
@@ -54,8 +54,8 @@ fn transforms_hold() {
 }
 
 #[test]
-fn matter_holds() {
-    holds(Group::Matter, 2048);
+fn materials_hold() {
+    holds(Group::Material, 2048);
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn lights_with_an_area_hold() {
 }
 
 #[test]
-fn ways_of_light_hold() {
+fn light_paths_hold() {
     holds(Group::Transport, 2048);
 }
 
@@ -123,7 +123,7 @@ fn results_do_not_depend_on_threads() {
 }
 
 #[test]
-fn a_kit_that_misses_would_be_seen() {
+fn a_method_that_misses_would_be_seen() {
     let mut cases = try_group(Group::Plane, "", 512, &());
     let first: &mut Outcome = &mut cases[0].outcomes[0];
     first.score.check(false);
@@ -235,7 +235,7 @@ fn the_page_needs_nothing_but_itself() {
     let file = folder.path().join("extremes").join("index.html");
     let words = ["extremes", "sphere", "--rays", "256", "--page", &file.display().to_string()].map(String::from);
     let mut said = Vec::new();
-    pinhole_cli::command::run(&chapters::all(), &words, &mut said).expect("the kit holds");
+    pinhole_cli::command::run(&chapters::all(), &words, &mut said).expect("pinhole holds");
     let page = fs::read_to_string(&file).expect("the page");
     for outside in ["http:", "https:", "src=\"/", "<script", "url("] {
         assert!(!page.contains(outside), "the page asks for {outside}");

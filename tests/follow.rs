@@ -42,7 +42,7 @@ fn closed_forms_hold() {
         (forms, tried) = (forms + 1, tried + measured.count);
         exact += u32::from(measured.is_exact(truth));
     }
-    eprintln!("closed forms: {forms} with {tried} samples, {exact} of them without chance and held to rounding");
+    eprintln!("closed forms: {forms} with {tried} samples, {exact} of them without noise and held to rounding");
 }
 
 /// Renders of a scene by an integrator, with seeds of their own.
@@ -82,19 +82,19 @@ fn assert_agree(what: &str, one: &[Numbers], other: &[Numbers], side: u32) {
     assert!(found.agrees(), "{what}");
 }
 
-/// All ways to find light, and those that do not wait for chance to meet a small lamp.
+/// All strategies to find light, and those that do not wait for BSDF sampling to hit a small light.
 const ALL: &[LightStrategy] = &[LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis];
 const NOT_BY_BSDF: &[LightStrategy] = &[LightStrategy::Light, LightStrategy::Mis];
 
 /// Whether these ways to find light bring the same to every block of pixels of a scene, pair by pair.
-fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightStrategy], samples: u32, side: u32) {
+fn strategies_agree(name: &str, make: &dyn Fn() -> World, strategies: &[LightStrategy], samples: u32, side: u32) {
     const SETS: u64 = 12;
     let rendered = |(number, &lights): (usize, &LightStrategy)| {
         let more = if lights == LightStrategy::Bsdf { 4 } else { 1 };
         let first = SETS * number as u64;
         (lights, renders(make, lights, more * samples, first..first + SETS))
     };
-    let sets: Vec<_> = ways.iter().enumerate().map(rendered).collect();
+    let sets: Vec<_> = strategies.iter().enumerate().map(rendered).collect();
     for (number, (lights, one)) in sets.iter().enumerate() {
         for (others, other) in &sets[number + 1..] {
             assert_agree(&format!("{name}, {lights:?} and {others:?}"), one, other, side);
@@ -103,7 +103,7 @@ fn ways_agree(name: &str, make: &dyn Fn() -> World, ways: &[LightStrategy], samp
 }
 
 #[test]
-fn ways_to_find_light_agree_on_the_public_scenes() {
+fn light_strategies_agree_on_the_public_scenes() {
     for (name, samples) in [
         ("cornell", 16),
         ("cornell-glass", 16),
@@ -119,18 +119,18 @@ fn ways_to_find_light_agree_on_the_public_scenes() {
             world.entity_mut(camera).insert(Resolution { width: width / 8, height: height / 8 });
             world
         };
-        ways_agree(name, &make, ALL, samples, 8);
+        strategies_agree(name, &make, ALL, samples, 8);
     }
 }
 
 #[test]
-fn ways_to_find_light_agree_on_the_chapters_scenes() {
+fn light_strategies_agree_on_the_chapters_scenes() {
     for (name, samples) in [("25_path_tracing", 16), ("26_choosing_samples", 24)] {
-        ways_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
+        strategies_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
     }
-    // The others by paths too, whatever integrator they name; caustics come from the lamps where the scene has them so.
+    // The others by paths too, whatever integrator they name; caustics come from the lights where the scene has them so.
     const PATH: Integrator = Integrator::Path { max_depth: 6, lights: LightStrategy::Mis, roulette: 3 };
-    for (name, ways) in [
+    for (name, strategies) in [
         ("cover", NOT_BY_BSDF),
         ("19_mirrors", ALL),
         ("20_glass", ALL),
@@ -146,7 +146,7 @@ fn ways_to_find_light_agree_on_the_chapters_scenes() {
             world.entity_mut(camera).insert(PATH);
             world
         };
-        ways_agree(name, &make, ways, 8, 4);
+        strategies_agree(name, &make, strategies, 8, 4);
     }
 }
 
@@ -155,7 +155,7 @@ fn chapter_at(name: &str, width: u32, height: u32) -> World {
     chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() })
 }
 
-/// Direct light by the integrators that seek nothing else is what paths of two legs bring, where no sky lights things.
+/// Direct light by the integrators that compute nothing else is what paths of two segments carry, where no sky lights things.
 #[test]
 fn integrators_of_direct_light_agree_with_short_paths() {
     const SETS: u64 = 12;

@@ -18,8 +18,8 @@ use scenes::caustics::{caustics, traced};
 use scenes::followed::{INTEGRATORS, followed};
 use scenes::material::{brushed, specular};
 use scenes::{
-    EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, pieces, shining,
-    stretched, textured, ties, turned,
+    EYES, Eye, FilmBits, Setup, blurred, film, film_by, full, moving, named, offer, one_world, shapes_of_all_kinds,
+    shining, stretched, textured, ties, turned,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -35,11 +35,11 @@ fn pictures() -> Vec<(&'static str, World)> {
         ("perspective", turned(Setup::default())),
         ("orthographic", turned(Setup { eye: Eye::Orthographic, ..Setup::default() })),
         ("stretched", stretched(Setup::default())),
-        ("pieces", pieces(Setup::default())),
+        ("shapes", shapes_of_all_kinds(Setup::default())),
         ("textured", textured(Setup::default())),
         ("shining", shining(Setup::default())),
         ("blurred", blurred(Setup::default())),
-        ("polished", specular(Setup::default())),
+        ("specular", specular(Setup::default())),
         ("brushed", brushed_once()),
         ("moving", moving(Setup::default())),
         ("fisheye", scenes::fisheye(Setup::default())),
@@ -201,8 +201,8 @@ fn every_order_that_the_schedule_allows() {
         let mut orders = BTreeSet::new();
         // Files are read again for every render, and every kind of stage has more orders than seeds.
         let textures = matches!(name, "textured" | "fisheye" | "all round");
-        // Light that is followed leaves the same orders open on each of its legs, and takes ten times as long.
-        let followed = matches!(name, "polished" | "brushed" | "paths" | "Whitted's rays");
+        // Light that is followed leaves the same orders open at each bounce, and takes ten times as long.
+        let followed = matches!(name, "specular" | "brushed" | "paths" | "Whitted's rays");
         let seeds = if textures { 8 } else { SEEDS >> (2 * u32::from(followed)) };
         for seed in 0..seeds {
             let film = film_by(&timed, &offer(), &shuffled(seed, one_world())).expect("renders");
@@ -234,7 +234,7 @@ fn every_order_that_the_schedule_allows() {
     }
 }
 
-/// Recorders and clocks follow each stage one after the other, never in an order that chance decides.
+/// Recorders and clocks follow each stage one after the other, never in a random order.
 #[test]
 fn hooks_are_ordered() {
     let scene = with_statistics(turned(Setup::default()));
@@ -297,7 +297,7 @@ fn scale_by_powers_of_two() {
     let every: Vec<i32> = (-LARGEST..=LARGEST).collect();
     let some = [-LARGEST, -11, -2, -1, 1, 5, LARGEST];
     let straight: [fn(Setup) -> World; 9] =
-        [full, turned, stretched, pieces, textured, shining, sampled, blurred, moving];
+        [full, turned, stretched, shapes_of_all_kinds, textured, shining, sampled, blurred, moving];
     let followed: [fn(Setup) -> World; 5] = [paths, whitted, sky, specular, brushed];
     let scenes = straight.map(|scene| (scene, &every[..])).into_iter().chain(followed.map(|scene| (scene, &some[..])));
     let scenes: Vec<_> = scenes.collect();
@@ -320,7 +320,7 @@ fn scale_by_powers_of_two() {
 
 /// Rays from lamps know no unit either, by a lens or without.
 #[test]
-fn light_from_lamps_scales_by_powers_of_two() {
+fn light_from_area_lights_scales_by_powers_of_two() {
     for (lamps, lens) in [(true, false), (false, false), (true, true)] {
         let scene = || {
             let mut world = traced(|| caustics(lamps))();
@@ -351,7 +351,7 @@ fn moved_by_two_to_the_twentieth() {
         for scene in [
             full,
             stretched,
-            pieces,
+            shapes_of_all_kinds,
             textured,
             shining,
             sampled,

@@ -1,4 +1,4 @@
-//! The thin lens, against closed forms: where its rays start, where they meet, how wide what is out of focus becomes.
+//! The thin lens, against closed forms: where its rays start, where they converge, how wide what is out of focus becomes.
 
 use crate::scenes;
 
@@ -30,7 +30,7 @@ fn point_on(lens: &LensTable, u: DVec2) -> DVec2 {
     if lens.corners.is_empty() { disk_point(u) } else { polygon_point(u, &lens.corners) }
 }
 
-/// How far a χ² of `cells` cells lies above what chance gives, in standard deviations.
+/// How far a χ² of `cells` cells lies above its mean, in standard deviations.
 fn deviations(counts: &[u64]) -> f64 {
     let expected = counts.iter().sum::<u64>() as f64 / counts.len() as f64;
     let squared: f64 = counts.iter().map(|&count| (count as f64 - expected).powi(2) / expected).sum();
@@ -51,9 +51,9 @@ fn points_are_spread_evenly_over_disk_and_polygon() {
         for number in 0..SAMPLES {
             let at = point_on(&lens, point_of_square(number + (u64::from(blades) << 32)));
             second = [second[0] + at.x * at.x, second[1] + at.y * at.y, second[2] + at.x * at.y];
-            let (share, sector) = cell(&lens, at, sectors);
-            assert!((-1e-12..=1.0 + 1e-12).contains(&share), "{blades} blades: {at} is outside");
-            counts[(share * RINGS as f64).clamp(0.0, RINGS as f64 - 1.0) as usize * sectors + sector] += 1;
+            let (fraction, sector) = cell(&lens, at, sectors);
+            assert!((-1e-12..=1.0 + 1e-12).contains(&fraction), "{blades} blades: {at} is outside");
+            counts[(fraction * RINGS as f64).clamp(0.0, RINGS as f64 - 1.0) as usize * sectors + sector] += 1;
         }
         let off = deviations(&counts);
         assert!(off < 4.0, "{blades} blades: χ² {off} standard deviations above its mean");
@@ -70,7 +70,7 @@ fn points_are_spread_evenly_over_disk_and_polygon() {
     eprintln!("openings: {SAMPLES} points each; {}", told.join("; "));
 }
 
-/// The share of the opening's area that is nearer the centre, and the sector.
+/// The fraction of the opening's area that is nearer the centre, and the sector.
 fn cell(lens: &LensTable, at: DVec2, sectors: usize) -> (f64, usize) {
     if lens.corners.is_empty() {
         let turn = (at.y.atan2(at.x) / (2.0 * PI)).rem_euclid(1.0);
@@ -94,7 +94,7 @@ fn cell(lens: &LensTable, at: DVec2, sectors: usize) -> (f64, usize) {
 
 /// All rays of a screen point meet in one point of the plane in focus, whose distance is along the axis; at extremes too.
 #[test]
-fn what_is_in_focus_is_met_by_all_rays() {
+fn what_is_in_focus_is_hit_by_all_rays() {
     let (mut worst, mut tried) = (0.0_f64, 0);
     for radius in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
         for focus in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
@@ -153,17 +153,17 @@ fn circles_of_confusion() {
         let circle = table.circle_of_confusion(depth);
         // The source two fifths of the circle, the image a little wider than both, 64 pixels to its height.
         let source = 0.2 * circle * depth / focus;
-        let reach = 0.5 * circle + source * focus / depth;
-        let fov = 2.0 * (1.1 * reach / focus).atan().to_degrees();
+        let radius = 0.5 * circle + source * focus / depth;
+        let fov = 2.0 * (1.1 * radius / focus).atan().to_degrees();
         let (mut sums, mut hits, mut farthest) = ([0.0; 5], 0_u32, 0.0_f64);
         for seed in 0..40 {
             let inspection = inspect(&confused(lens, depth, source, fov, seed), &offer(), 32).expect("inspects");
             for &tile in &inspection.tiles {
                 let tile = inspection.world.entity(tile);
-                let (raster, met) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<Hits>().expect("hits"));
-                for row in (0..met.rows()).filter(|&row| met.shape[row] != NO_SHAPE) {
+                let (raster, found) = (tile.get::<RasterPoints>().expect("raster"), tile.get::<Hits>().expect("hits"));
+                for row in (0..found.rows()).filter(|&row| found.shape[row] != NO_SHAPE) {
                     // From the image's centre, in units of the plane in focus.
-                    let scale = 1.1 * reach / 32.0;
+                    let scale = 1.1 * radius / 32.0;
                     let at = DVec2::new(raster.x[row] - 32.0, 32.0 - raster.y[row]) * scale;
                     let more = [at.x, at.y, at.length_squared(), at.length_squared().powi(2), 0.0];
                     (0..5).for_each(|part| sums[part] += more[part]);
@@ -184,11 +184,11 @@ fn circles_of_confusion() {
         let least = if blades == 0 { 0.95 } else { 0.9 };
         let of_mean = (squared / 2.0 / count).sqrt();
         assert!(x.abs() < 4.0 * of_mean && y.abs() < 4.0 * of_mean, "centre ({x}, {y})");
-        assert!(farthest <= reach * (1.0 + 1e-6) && farthest > least * reach, "edge {farthest}, truth {reach}");
+        assert!(farthest <= radius * (1.0 + 1e-6) && farthest > least * radius, "edge {farthest}, truth {radius}");
         told.push(format!(
             "R {radius:.1e} f {focus} z {depth} blades {blades}: {hits} hits, moment {off:+.2} SE of {:.2} %, edge {:.4}",
             100.0 * error / truth,
-            farthest / reach
+            farthest / radius
         ));
     }
     eprintln!("circles of confusion:\n  {}", told.join("\n  "));
@@ -202,7 +202,7 @@ fn with_lens(mut scene: World, lens: Lens) -> World {
 
 /// The f32 rays of a camera hit the point in focus to the tolerance that the pinhole's have: 0.03 pixels.
 #[test]
-fn world_rays_meet_in_focus_to_a_pixel_s_tolerance() {
+fn world_rays_converge_in_focus_to_a_pixel_s_tolerance() {
     let (mut worst, mut tried) = (0.0_f64, 0);
     for (radius, focus, fov) in [
         (0.05, 5.0, 45.0),
@@ -232,9 +232,9 @@ fn world_rays_meet_in_focus_to_a_pixel_s_tolerance() {
                 let there = o + d * ((-focus - o.z) / d.z);
                 let at = DVec2::new(there.x, there.y) / pixel;
                 let truth = DVec2::new(raster.x[row] - 24.0, 24.0 - raster.y[row]);
-                // What is oblique moves farther: by one over the cosine for the length, one more for the slant.
-                let slant = 1.0 / (d.z * d.z);
-                worst = worst.max((at - truth).length() / slant);
+                // What is oblique moves farther: by one over the cosine for the length, one more for the angle.
+                let scale = 1.0 / (d.z * d.z);
+                worst = worst.max((at - truth).length() / scale);
                 tried += 1;
             }
         }

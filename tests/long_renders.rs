@@ -254,7 +254,7 @@ fn a_forged_checkpoint_is_refused() {
         ("counts", |film| film.tiles[0].count[3] = u32::MAX),
         ("one count too many", |film| film.tiles[0].count[3] += 1),
         ("infinite light", |film| film.tiles[1].r[0] = f64::INFINITY),
-        ("light that is no number", |film| film.tiles[1].g[5] = f64::NAN),
+        ("light that is NaN", |film| film.tiles[1].g[5] = f64::NAN),
         ("negative light", |film| film.tiles[0].b[0] = -1.0),
         ("infinite moments", |film| film.moments[0].r[0] = f64::INFINITY),
         ("steps", |film| film.done[0] = u32::MAX),

@@ -75,9 +75,9 @@ fn coverage_of_what_passes_by() {
     for mover in [Mover::Ball, Mover::Coin, Mover::Mat] {
         for (open, close) in [(0.0, 1.0), (-3.0, 5.0), (100.0, 100.25)] {
             // From left of the image to right of it.
-            let (radius, way) = (0.6, 3.4);
-            let velocity = DVec3::X * (way / (close - open));
-            let start = -0.5 * way - velocity.x * open;
+            let (radius, length) = (0.6, 3.4);
+            let velocity = DVec3::X * (length / (close - open));
+            let start = -0.5 * length - velocity.x * open;
             for by_camera in [false, true] {
                 let sampling = sampled(SAMPLES, Sampler::Independent);
                 let still = before_parallel_rays(mover, [if by_camera { 0.0 } else { start }, 0.1], radius, sampling);
@@ -85,7 +85,7 @@ fn coverage_of_what_passes_by() {
                     // The camera goes the other way, from right to left, past what stands at the middle.
                     let mut world = moving(still, "camera", -velocity, open, close);
                     let camera = named(&mut world, "camera");
-                    let at = Placement::at(0.5 * way + velocity.x * open, 0.0, 10.0);
+                    let at = Placement::at(0.5 * length + velocity.x * open, 0.0, 10.0);
                     world.entity_mut(camera).insert(at);
                     world
                 } else {
@@ -95,7 +95,7 @@ fn coverage_of_what_passes_by() {
                 let (mut worst, mut squared, mut pixels) = (0.0_f64, 0.0, 0);
                 for line in 0..8 {
                     let top = 1.0 - 0.25 * f64::from(line) - 0.1;
-                    let truth = swept(mover, radius, top - 0.25, top) / (way * 0.25);
+                    let truth = swept(mover, radius, top - 0.25, top) / (length * 0.25);
                     for column in 0..8 {
                         let mean = f64::from(film.mean(column, line)[0]);
                         if truth == 0.0 {
@@ -110,7 +110,7 @@ fn coverage_of_what_passes_by() {
                 }
                 let of_whole: f64 =
                     (0..64).map(|pixel| f64::from(film.mean(pixel % 8, pixel / 8)[0])).sum::<f64>() / 64.0;
-                let truth = swept(mover, radius, -1.1, 0.9) / (way * 2.0);
+                let truth = swept(mover, radius, -1.1, 0.9) / (length * 2.0);
                 let error = (truth * (1.0 - truth) / f64::from(SAMPLES * 64)).sqrt();
                 assert!(error / truth < 0.01, "SE {} of the whole", error / truth);
                 let off = (of_whole - truth) / error;
@@ -130,9 +130,9 @@ fn coverage_of_what_passes_by() {
     eprintln!("coverage:\n  {}", told.join("\n  "));
 }
 
-/// Each ray meets a moving thing just where a ray meets it that stands where the thing is at the ray's time.
+/// Each ray hits a moving thing just where a ray hits it that stands where the thing is at the ray's time.
 #[test]
-fn each_ray_meets_it_where_it_is_at_its_time() {
+fn each_ray_hits_it_where_it_is_at_its_time() {
     let (mut tried, mut hits, mut worst) = (0, 0, 0.0_f64);
     for mover in [Mover::Ball, Mover::Coin, Mover::Mat] {
         let velocity = DVec3::new(1.3, -0.7, 2.1);
@@ -142,7 +142,7 @@ fn each_ray_meets_it_where_it_is_at_its_time() {
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);
             let times = tile.get::<RayTimes>().expect("times");
-            let (rays, met) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
+            let (rays, found) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
             for row in 0..rays.rows() {
                 assert!((0.0..0.75).contains(&times.time[row]));
                 let time = 0.25 + times.time[row];
@@ -160,9 +160,9 @@ fn each_ray_meets_it_where_it_is_at_its_time() {
                         if inside { t } else { f64::INFINITY }
                     }
                 };
-                assert_eq!(met.t[row].is_finite(), expected.is_finite(), "{mover:?} row {row}");
+                assert_eq!(found.t[row].is_finite(), expected.is_finite(), "{mover:?} row {row}");
                 if expected.is_finite() {
-                    worst = worst.max((met.t[row] - expected).abs() / expected);
+                    worst = worst.max((found.t[row] - expected).abs() / expected);
                     hits += 1;
                 }
                 tried += 1;

@@ -130,7 +130,7 @@ fn place(package: &str, folder: &str) -> Option<usize> {
     order.iter().position(|own| *own == folder)
 }
 
-/// A file without its unit tests, which may be judged by what comes later, such as the oracles of `measure`.
+/// A file without its unit tests, which may be checked by what comes later, such as the oracles of `measure`.
 fn before_tests(text: &str) -> &str {
     text.split("mod tests {").next().unwrap_or(text)
 }
@@ -176,8 +176,8 @@ fn no_folder_is_left_by_super() {
         let nested = source.path.components().count() - 1;
         let is_mod = source.path.ends_with("mod.rs");
         let code = before_tests(&source.text);
-        let reach = if is_mod { nested.saturating_sub(1) } else { nested };
-        let steps = "super::".repeat(reach + 1);
+        let levels = if is_mod { nested.saturating_sub(1) } else { nested };
+        let steps = "super::".repeat(levels + 1);
         assert!(!code.contains(&steps), "{} leaves its folder by {steps}", source.path.display());
     }
 }

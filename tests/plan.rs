@@ -27,8 +27,8 @@ use pinhole::plan::{
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
 use scenes::{
-    EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world, pieces,
-    shining, singles_and_pairs, soft, stretched, textured, toggled,
+    EYES, Eye, FilmBits, Setup, Toggle, VIEWED, combinations, film, film_by, full, named, offer, one_world,
+    shapes_of_all_kinds, shining, singles_and_pairs, soft, stretched, textured, toggled,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,7 +38,7 @@ fn pictureless(on: &[Toggle]) -> bool {
         Toggle::Sphere,
         Toggle::Ellipsoid,
         Toggle::Plane,
-        Toggle::Pieces,
+        Toggle::Shapes,
         Toggle::Phong,
         Toggle::BlinnPhong,
         Toggle::Emissive,
@@ -128,7 +128,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
         for column in &columns {
             assert_eq!((column.present)(&tile), of_plan.contains(column.name), "{on:?}: column {}", column.name);
         }
-        // The tile and its leg; where samples are taken, which one, and of which pixels.
+        // The tile and its depth; where samples are taken, which one, and of which pixels.
         let sampled = if on.contains(&Toggle::Samples) { 2 } else { 0 };
         assert_eq!(
             tile.archetype().components().len(),
@@ -251,7 +251,7 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
         Toggle::Plane,
         Toggle::Sphere,
         Toggle::Ellipsoid,
-        Toggle::Pieces,
+        Toggle::Shapes,
         Toggle::Shadow,
         Toggle::Background,
     ];

@@ -14,3 +14,4 @@ mod plan;
 mod sampling;
 mod scenes;
 mod textures;
+mod words;

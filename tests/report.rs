@@ -11,18 +11,18 @@ use pinhole_lab::report::curve::{Curve, Level};
 use pinhole_lab::report::ensemble::{Ensemble, Reference};
 use pinhole_lab::report::interval::LEVEL;
 use pinhole_lab::report::refused::{Refused, disjoint};
-use synthetic::{Noise, PIECES, Renderer};
+use synthetic::{BATCHES, Noise, Renderer};
 
 /// Repetitions of each case here; `cargo bench --bench coverage` makes 4,000.
 const REPETITIONS: usize = 60;
 
-/// The share of binomial draws of `of` at `share` that are below `held`.
-fn below(held: usize, of: usize, share: f64) -> f64 {
-    let mut term = (1.0 - share).powi(of as i32);
+/// The probability that binomial draws of `of` at `probability` are below `held`.
+fn below(held: usize, of: usize, probability: f64) -> f64 {
+    let mut term = (1.0 - probability).powi(of as i32);
     let mut sum = 0.0;
     for k in 0..held {
         sum += term;
-        term *= (of - k) as f64 / (k + 1) as f64 * share / (1.0 - share);
+        term *= (of - k) as f64 / (k + 1) as f64 * probability / (1.0 - probability);
     }
     sum
 }
@@ -46,7 +46,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
 }
 
 #[test]
-fn a_planted_bias_is_found_and_an_absent_one_is_not() {
+fn an_injected_bias_is_found_and_an_absent_one_is_not() {
     let (mut found, mut imagined, repetitions) = (0, 0, 40);
     for seed in 0..repetitions {
         for bias in [0.0, 0.1] {
@@ -64,7 +64,7 @@ fn a_planted_bias_is_found_and_an_absent_one_is_not() {
     assert_eq!(found, repetitions as usize);
     // 40 draws at 2.5 %: more than 6 come up once in 10⁵ tests.
     assert!(imagined <= 6, "{imagined} of {repetitions} found a bias that is not there");
-    eprintln!("report: a planted bias found {found} times of {repetitions}, an absent one {imagined} times");
+    eprintln!("report: an injected bias found {found} times of {repetitions}, an absent one {imagined} times");
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn error_is_variance_and_bias_together_exactly() {
     let reference = renderer.reference(16, 5);
     let ensemble = &renderer.curve(&[4], 16, (&reference, 16), 9).levels[0].ensemble;
     let [mse, variance, bias] = [ensemble.mse(), ensemble.variance(), ensemble.bias_squared()]
-        .map(|estimate| estimate.expect("16 seeds and 8 pieces").value);
+        .map(|estimate| estimate.expect("16 seeds and 8 batches").value);
     assert!((mse - variance - bias).abs() < 1e-15, "{mse} is not {variance} + {bias}");
 }
 
@@ -81,7 +81,7 @@ fn error_is_variance_and_bias_together_exactly() {
 #[test]
 fn images_of_known_error_are_measured_exactly() {
     let grey = |value: f64| Numbers { size: [1, 1], pixels: vec![[value; 3]], white: None };
-    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two pieces");
+    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two batches");
     let runs: Vec<Numbers> = [2.0, 4.0, 4.5, 5.5].map(grey).to_vec();
     let ensemble = Ensemble::of(&runs, &reference);
     assert_eq!(ensemble.reference_variance(), Some(1.0));
@@ -95,7 +95,7 @@ fn images_of_known_error_are_measured_exactly() {
 #[test]
 fn one_run_has_an_error_and_no_interval() {
     let grey = |value: f64| Numbers { size: [1, 1], pixels: vec![[value; 3]], white: None };
-    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two pieces");
+    let reference = Reference::of(&[grey(1.0), grey(3.0)]).expect("two batches");
     let ensemble = Ensemble::of(&[grey(5.0)], &reference);
     assert_eq!(ensemble.mse_of_runs(), [8.0]);
     assert!(ensemble.mse().is_none() && ensemble.variance().is_none() && ensemble.bias_squared().is_none());
@@ -108,7 +108,7 @@ fn one_run_has_an_error_and_no_interval() {
 #[test]
 fn pixels_that_are_no_numbers_join_no_product() {
     let two = |value: f64, odd: f64| Numbers { size: [2, 1], pixels: vec![[value; 3], [odd; 3]], white: None };
-    let reference = Reference::of(&[two(1.0, 1.0), two(3.0, 1.0)]).expect("two pieces");
+    let reference = Reference::of(&[two(1.0, 1.0), two(3.0, 1.0)]).expect("two batches");
     for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let runs = [two(2.0, 1.0), two(4.0, odd), two(4.5, 1.0), two(5.5, 1.0)];
         let ensemble = Ensemble::of(&runs, &reference);
@@ -119,14 +119,14 @@ fn pixels_that_are_no_numbers_join_no_product() {
 #[test]
 fn what_the_reference_cannot_carry_is_refused() {
     let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.0, seconds: 1e-3 };
-    // In one piece, and only sixteen times as long as the longest run.
-    let short = Reference::of(&[renderer.render(256, 1)]).expect("a piece");
+    // In one batch, and only sixteen times as long as the longest run.
+    let short = Reference::of(&[renderer.render(256, 1)]).expect("a batch");
     let curve = renderer.curve(&[1, 4, 16], 8, (&short, 256), 3);
-    let curve = Curve { pieces: 1, reference_samples: 256, ..curve };
+    let curve = Curve { batches: 1, reference_samples: 256, ..curve };
     let refused = curve.slope(LEVEL).expect_err("refused");
     assert_eq!(refused, Refused::ReferenceTooShort { longest: 16, reference: 256 });
-    let sentence = "no slope: the longest run has 16 samples a pixel and the reference 256 in one piece, whose variance \
-                    is unknown; it needs 1600 in one piece, or two pieces of disjoint seeds";
+    let sentence = "no slope: the longest run has 16 samples a pixel and the reference 256 in one batch, whose variance \
+                    is unknown; it needs 1600 in one batch, or two batches of disjoint seeds";
     assert_eq!(refused.to_string(), sentence);
     // A method so good that the reference's noise hides its error.
     let good = Renderer { deviation: 1e-4, ..renderer };
@@ -147,13 +147,13 @@ fn what_the_reference_cannot_carry_is_refused() {
 fn a_short_reference_does_not_flatten_the_slope() {
     let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.0, seconds: 1e-3 };
     let ladder = [1, 4, 16, 64];
-    let reference = renderer.reference(64 / PIECES as u64, 2);
-    let curve = renderer.curve(&ladder, 16, (&reference, 64 / PIECES as u64), 4);
+    let reference = renderer.reference(64 / BATCHES as u64, 2);
+    let curve = renderer.curve(&ladder, 16, (&reference, 64 / BATCHES as u64), 4);
     let slope = curve.slope(LEVEL).expect("carried").interval(LEVEL);
     assert!(slope.holds(-1.0) && slope.high - slope.low < 0.3, "{slope:?}");
     let naive: Vec<[f64; 2]> = (curve.levels.iter())
         .map(|level| {
-            let reference = level.ensemble.reference_variance().expect("pieces");
+            let reference = level.ensemble.reference_variance().expect("batches");
             [(level.samples as f64).ln(), (level.ensemble.mse().expect("seeds").value + reference).ln()]
         })
         .collect();

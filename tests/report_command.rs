@@ -19,7 +19,7 @@ fn chapter(name: &str) -> Chapter {
 }
 
 fn little_ladder() -> Ladder {
-    Ladder { samples: vec![1, 4, 16], seeds: 8, pieces: 8, piece_samples: 64 }
+    Ladder { samples: vec![1, 4, 16], seeds: 8, batches: 8, batch_samples: 64 }
 }
 
 fn variant<'a>(chapter: &'a Chapter, stages: Vec<Stage>, sampler: Sampler) -> Variant<'a> {
@@ -60,8 +60,8 @@ fn a_stopped_report_goes_on_and_gives_the_same_images() {
     let shelf = |name: &str| Shelf::new(folder.path().join(name), fingerprint(b"the same"));
     let whole = run_all(&variants, &ladder, 1, &shelf("whole"), &()).expect("runs");
     let mut stops = 0;
-    let pieced = loop {
-        match run_all(&variants, &ladder, 1, &shelf("pieces"), &StopAfter(AtomicU32::new(7 + 5 * stops))) {
+    let in_batches = loop {
+        match run_all(&variants, &ladder, 1, &shelf("batches"), &StopAfter(AtomicU32::new(7 + 5 * stops))) {
             Ok(runs) => break runs,
             Err(Error::Interrupted) => stops += 1,
             Err(other) => panic!("{other}"),
@@ -69,7 +69,7 @@ fn a_stopped_report_goes_on_and_gives_the_same_images() {
         assert!(stops < 20, "it never comes to its end");
     };
     assert!(stops >= 3, "it was stopped {stops} times only");
-    assert_eq!(images(&whole), images(&pieced));
+    assert_eq!(images(&whole), images(&in_batches));
     eprintln!("report: stopped {stops} times, {} images the same bit for bit", images(&whole).len());
 }
 
@@ -91,7 +91,7 @@ fn independent_samples_have_no_bias_and_slope_minus_one() {
 }
 
 #[test]
-fn a_seed_that_runs_and_reference_share_is_refused_by_name() {
+fn a_seed_of_both_runs_and_reference_is_refused_by_name() {
     let chapter = chapter("18_error_and_time");
     let variants = [variant(&chapter, chapter.stages(), Sampler::Independent)];
     // So many runs that their seeds reach those of the reference.
@@ -114,10 +114,7 @@ fn asked(line: &str) -> Result<String, String> {
 fn what_cannot_be_compared_is_refused_in_a_sentence() {
     let cases = [
         ("report 18 --against sampler=magic", "there is no sampler \"magic\"; there are "),
-        (
-            "report 18 --against lights=magic",
-            "there is no way to find lights \"magic\"; there are chance, aimed, weighed",
-        ),
+        ("report 18 --against lights=magic", "there is no light strategy \"magic\"; there are bsdf, light, mis"),
         (
             "report 18 --against lights=light",
             "--against lights=light: 18_error_and_time has no paths to find lights by",

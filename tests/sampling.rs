@@ -53,7 +53,7 @@ fn a_constant_comes_back_bit_for_bit_through_every_filter_at_every_count() {
     eprintln!("constants: {tried} pictures, every pixel equal, {without} pixels without a weight above 0 among them");
 }
 
-/// What cannot be weighed shows its plain mean and is counted; what rings below 0 shows 0 and is counted.
+/// What cannot be weighted shows its plain mean and is counted; what rings below 0 shows 0 and is counted.
 #[test]
 fn a_filter_that_is_negative_in_places_gives_no_nan_and_nothing_below_0() {
     let sampling = Sampling { filter: Filter::MITCHELL, ..Sampling::default() };
@@ -71,7 +71,7 @@ fn a_filter_that_is_negative_in_places_gives_no_nan_and_nothing_below_0() {
         assert!(film.tiles.iter().map(negative).sum::<u32>() > 0, "{samples} samples");
     }
     assert!(below > 0 && without > 0, "{below} pixels rang below 0, {without} had no weight: too few to tell");
-    eprintln!("negative weights: {without} pixels showed their plain mean, {below} rang below 0, none was no number");
+    eprintln!("negative weights: {without} pixels showed their plain mean, {below} rang below 0, none was NaN");
     let mut tile = FilmTile::new(Tile { x: 0, y: 0, width: 2, height: 1 });
     tile.add_negative(0, [0.5, 0.25, 1.0]);
     assert_eq!((tile.weight(0), tile.mean(0)), (-1, [0.5, 0.25, 1.0]), "one sample, and it counts negatively");
@@ -81,7 +81,7 @@ fn a_filter_that_is_negative_in_places_gives_no_nan_and_nothing_below_0() {
     assert_eq!((tile.rejected, tile.weight(1), tile.mean(1)), (1, 0, [0.0; 3]), "what is no light counts for nothing");
 }
 
-/// Filters without negative parts keep the film as it is without sampling: the same lanes, the same bytes, no signs.
+/// Filters without negative parts keep the film as it is without sampling: the same components, the same bytes, no signs.
 #[test]
 fn only_a_filter_with_negative_parts_has_signs() {
     for sampling in samplings() {
@@ -102,8 +102,8 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
     const WIDTH: u32 = 65_536;
     let (mut tried, mut worst) = (0, 0.0_f64);
     for sampling in samplings() {
-        let double_double = empty([WIDTH, 1], Sampling { samples: 4, seed: 9, ..sampling }, Rgb::grey(1.0));
-        let inspection = inspect(&double_double, &offer(), 1024).expect("inspects");
+        let row_of_pixels = empty([WIDTH, 1], Sampling { samples: 4, seed: 9, ..sampling }, Rgb::grey(1.0));
+        let inspection = inspect(&row_of_pixels, &offer(), 1024).expect("inspects");
         let cells = FilterCells::of(sampling.filter);
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);

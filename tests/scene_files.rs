@@ -53,7 +53,7 @@ fn no_damaged_file_brings_a_command_down() {
 
 /// Few cases of the very code that `cargo bench --bench fuzz` runs a million times.
 #[test]
-fn no_scene_file_brings_the_kit_down() {
+fn no_scene_file_brings_pinhole_down() {
     let counts = std::cell::RefCell::new(fuzz::Counts::default());
     let bases = fuzz::bases();
     let config = proptest::test_runner::Config { cases: 400, failure_persistence: None, ..Default::default() };

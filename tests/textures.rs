@@ -1,4 +1,4 @@
-//! What a pixel covers of a texture, judged by its neighbours and by many samples; files found where a scene says.
+//! What a pixel covers of a texture, checked by its neighbours and by many samples; files found where a scene says.
 
 use crate::scenes;
 
@@ -64,9 +64,9 @@ fn a_step_ends_where_the_neighbour_s_point_is() {
                     for x in 0..31 {
                         let row = y * 32 + x;
                         let here = points.get(row);
-                        for (way, beside) in [row + 1, row + 32].into_iter().enumerate() {
+                        for (axis, beside) in [row + 1, row + 32].into_iter().enumerate() {
                             let moved = points.get(beside).point - here.point;
-                            let step = here.steps[way];
+                            let step = here.steps[axis];
                             assert!(step.is_finite() && step.length() > 0.0, "{eye:?} {by:?} {number}");
                             worst = worst.max((moved - step).length() / step.length());
                             seen += 1;

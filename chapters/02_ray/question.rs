@@ -41,7 +41,7 @@ fn question() -> Question<Vector, Option<Vector>> {
     asked.extend(probes("so short that its squares are 0", sized(203, -300.0, -165.0)));
     asked.extend(probes("so short that its squares have few digits left", sized(204, -162.0, -155.0)));
     asked.extend(probes("subnormal", [[5e-324, 0.0, 0.0], [1.5e-323, 2e-323, 0.0], [5e-324, -5e-324, 5e-324]]));
-    asked.extend(probes("with a part that is no number", [[nan, 1.0, 0.0], [0.0, 0.0, nan], [nan, nan, nan]]));
+    asked.extend(probes("with a part that is NaN", [[nan, 1.0, 0.0], [0.0, 0.0, nan], [nan, nan, nan]]));
     asked.extend(probes(
         "with an infinite part",
         [[infinite, 1.0, 0.0], [0.0, -infinite, infinite], [nan, infinite, 0.0]],

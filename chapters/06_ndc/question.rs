@@ -39,7 +39,7 @@ fn question() -> Question<Input, Pixel> {
                 Some([inside(x, w), inside(y, h)])
             }),
             Mistake::new(
-                "nothing is outside: a cast to u32 turns what is below 0 or no number into 0",
+                "nothing is outside: a cast to u32 turns what is below 0 or NaN into 0",
                 |&([x, y], w, h)| Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32]),
             ),
             Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |&([x, y], w, h)| {
@@ -69,7 +69,7 @@ fn question() -> Question<Input, Pixel> {
         ],
         hints: &[
             "undo the division by the size, then ask in which unit square the raster point lies",
-            "the whole part of x · width is the pixel, but what is below 0, at 1, above it, or no number is outside; \
+            "the whole part of x · width is the pixel, but what is below 0, at 1, above it, or NaN is outside; \
              decide that before anything is cast to u32, for a cast turns −0.2 and NaN into 0",
             "inside means 0 ≤ x and x < 1, and so for y; the pixel is (x · width) as u32 and (y · height) as u32",
         ],
@@ -102,7 +102,7 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("the lower or right edge of the image", [([1.0, 0.5], 480, 270), ([0.5, 1.0], 480, 270)]));
     asked.extend(probes("outside", [([-0.2, 0.5], 480, 270), ([0.5, 1.3], 480, 270), ([7.0, -7.0], 480, 270)]));
     asked.extend(probes("outside, closely", [([-1e-300, 0.5], 480, 270), ([0.5, 1.0 + f64::EPSILON], 480, 270)]));
-    asked.extend(probes("no number", [([f64::NAN, 0.5], 480, 270), ([0.5, f64::NAN], 480, 270)]));
+    asked.extend(probes("NaN", [([f64::NAN, 0.5], 480, 270), ([0.5, f64::NAN], 480, 270)]));
     asked.extend(probes("infinite", [([f64::INFINITY, 0.5], 480, 270), ([0.5, f64::NEG_INFINITY], 480, 270)]));
     asked.extend(probes("an image of one pixel", [([0.0, 0.999], 1, 1), ([just_below_1, 0.5], 1, 1)]));
     let sizes = [3, 7, 480, 65_535, 65_536];

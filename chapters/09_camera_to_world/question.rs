@@ -75,7 +75,7 @@ fn question() -> Question<Input, Vector> {
 fn asked() -> Vec<Probe<Input>> {
     let side = |x, y, z| DVec3::new(x, y, z).normalize().to_array();
     let stretched = |x, y, z| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
-    let (slanted, tipped) = (side(1.0, 1.0, 0.0), side(1.0, -2.0, 2.0));
+    let (tilted, tipped) = (side(1.0, 1.0, 0.0), side(1.0, -2.0, 2.0));
     let some = |seed, map: fn(&mut Draws) -> DMat3| {
         (0..30).map(move |at| {
             let mut draws = Draws::new(seed, at);
@@ -83,21 +83,21 @@ fn asked() -> Vec<Probe<Input>> {
             (columns, draws.unit_vector().to_array())
         })
     };
-    let mut asked: Vec<_> = probes("nothing is changed", [(stretched(1.0, 1.0, 1.0), slanted)]).collect();
+    let mut asked: Vec<_> = probes("nothing is changed", [(stretched(1.0, 1.0, 1.0), tilted)]).collect();
     asked.extend(probes("turned", some(901, turned)));
-    asked.extend(probes("twice as large", [slanted, tipped].map(|n| (stretched(2.0, 2.0, 2.0), n))));
-    asked.extend(probes("stretched unevenly", [slanted, tipped].map(|n| (stretched(2.0, 1.0, 1.0), n))));
+    asked.extend(probes("twice as large", [tilted, tipped].map(|n| (stretched(2.0, 2.0, 2.0), n))));
+    asked.extend(probes("stretched unevenly", [tilted, tipped].map(|n| (stretched(2.0, 1.0, 1.0), n))));
     asked.extend(probes("stretched unevenly and turned", some(902, |draws| turned(draws) * scaled(draws, 1.0))));
     asked.extend(probes(
         "sheared",
-        [slanted, tipped].map(|n| ([[1.0, 0.0, 0.0], [0.75, 1.0, 0.0], [0.0, 0.0, 1.0]], n)),
+        [tilted, tipped].map(|n| ([[1.0, 0.0, 0.0], [0.75, 1.0, 0.0], [0.0, 0.0, 1.0]], n)),
     ));
     asked.extend(probes(
         "turned, stretched, turned again: sheared",
         some(903, |draws| turned(draws) * scaled(draws, 0.5) * turned(draws)),
     ));
-    asked.extend(probes("mirrored", [slanted, tipped].map(|n| (stretched(-1.0, 1.0, 1.0), n))));
-    asked.extend(probes("mirrored three times", [slanted, tipped].map(|n| (stretched(-1.0, -2.0, -3.0), n))));
+    asked.extend(probes("mirrored", [tilted, tipped].map(|n| (stretched(-1.0, 1.0, 1.0), n))));
+    asked.extend(probes("mirrored three times", [tilted, tipped].map(|n| (stretched(-1.0, -2.0, -3.0), n))));
     asked.extend(probes(
         "mirrored, stretched and turned",
         some(904, |draws| {
@@ -105,7 +105,7 @@ fn asked() -> Vec<Probe<Input>> {
         }),
     ));
     asked.extend(probes("a millionth of its size", [(stretched(1e-6, 2e-6, 1e-6), tipped)]));
-    asked.extend(probes("nearly planar", [(stretched(1.0, 1e-6, 1.0), tipped), (stretched(1e6, 1.0, 1e6), slanted)]));
+    asked.extend(probes("nearly planar", [(stretched(1.0, 1e-6, 1.0), tipped), (stretched(1e6, 1.0, 1e6), tilted)]));
     asked
 }
 

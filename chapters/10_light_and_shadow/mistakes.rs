@@ -16,7 +16,7 @@ pub fn all() -> Vec<(Exercise, &'static str)> {
         (exercise(|c, i, p, n, l| light(c, i, p, n, l, f64::abs, 2)), "from behind"),
         (exercise(|c, i, p, n, l| light(c, i, p, n, l, |x| x.max(0.0), 1)), "square"),
         (exercise(without_pi), "π is missing"),
-        (exercise(not_a_number), "no number"),
+        (exercise(not_a_number), "NaN"),
     ]
 }
 

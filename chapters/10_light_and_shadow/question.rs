@@ -50,7 +50,7 @@ fn question() -> Question<Input, f64> {
                 sent(input, cosine(input).abs(), distance(input) * distance(input))
             }),
             Mistake::new(
-                "where the light is at the very point, 0 / 0 is no number: no direction leads to it, so no light",
+                "where the light is at the very point, 0 / 0 is NaN: no direction leads to it, so no light",
                 |i| {
                     if distance(i) == 0.0 { f64::NAN } else { radiance(i, cosine(i)) }
                 },

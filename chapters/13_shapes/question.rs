@@ -39,14 +39,14 @@ fn question() -> Question<Input, Answer> {
         measured: "of t",
         mistakes: vec![
             Mistake::new("what lies behind the origin is hit too: only t above 0 counts", |input| {
-                passed(input, Along::Asked).map(|[enters, _]| enters)
+                passed(input, Along::Given).map(|[enters, _]| enters)
             }),
             Mistake::new(
                 "from inside, nothing is hit: the ray entered behind the origin, but it leaves ahead",
-                |input| passed(input, Along::Asked).map(|[enters, _]| enters).filter(|&t| t > 0.0),
+                |input| passed(input, Along::Given).map(|[enters, _]| enters).filter(|&t| t > 0.0),
             ),
             Mistake::new("the far side is taken where the near one is ahead", |input| {
-                passed(input, Along::Asked).map(|[_, leaves]| leaves).filter(|&t| t > 0.0)
+                passed(input, Along::Given).map(|[_, leaves]| leaves).filter(|&t| t > 0.0)
             }),
             Mistake::new("a ray in the plane of a face divides 0 by 0, and what is not a number loses it", |input| {
                 passed(input, Along::Divided)?.into_iter().find(|&t| t > 0.0)
@@ -59,7 +59,7 @@ fn question() -> Question<Input, Answer> {
                 "the ray is not yet inside where it enters the first slab, only where it enters the last slab",
                 |input| {
                     let &(o, d, least, most) = input;
-                    passed(input, Along::Asked)?;
+                    passed(input, Along::Given)?;
                     let near =
                         |axis: usize| f64::min((least[axis] - o[axis]) / d[axis], (most[axis] - o[axis]) / d[axis]);
                     (0..3).filter(|&axis| d[axis] != 0.0).map(near).filter(|&t| t > 0.0).reduce(f64::min)
@@ -81,7 +81,7 @@ fn question() -> Question<Input, Answer> {
 /// What is done with a direction that is 0 along an axis.
 #[derive(Clone, Copy, PartialEq)]
 enum Along {
-    Asked,
+    Given,
     Divided,
     Missed,
 }

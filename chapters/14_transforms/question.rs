@@ -119,7 +119,7 @@ fn asked() -> Vec<Probe<Input>> {
         "between corners",
         [(up, leaning, third, above, aside), (up, leaning, [0.5, 0.5, 0.0], above, aside)],
     ));
-    asked.extend(probes("corners' normals all alike", [(up, [up; 3], third, above, aside)]));
+    asked.extend(probes("three equal corner normals", [(up, [up; 3], third, above, aside)]));
     let down = DVec3::NEG_Y.to_array();
     asked.extend(probes("the triangle's own normal points down", [(down, leaning, third, above, aside)]));
     let below = |direction: Vector| direction.map(|part| -part);

@@ -36,7 +36,7 @@ fn question() -> Question<Input, Option<Vector>> {
         allowed: 1e-9,
         measured: "in a part",
         mistakes: vec![
-            Mistake::new("the root of a negative number is no number: ask before you take it, and answer None", |i| {
+            Mistake::new("the root of a negative number is NaN: ask before you take it, and answer None", |i| {
                 let (d, n) = (DVec3::from(i.0), DVec3::from(i.1));
                 let cosine = -d.dot(n);
                 let root = (i.2 * i.2 - 1.0 + cosine * cosine).sqrt();

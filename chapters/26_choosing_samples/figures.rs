@@ -9,7 +9,7 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             name: "26_strategies",
             chapter,
             about: "area lights found by BSDF sampling, by light sampling, and by both with multiple importance sampling",
-            draw: integrators::draw_ways,
+            draw: integrators::draw_strategies,
         },
         Figure {
             name: "26_broken",

@@ -42,8 +42,8 @@ pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Forma
     writeln!(out, "{}: {} x {} pixels, aspect {aspect:.6}", subject.name(), image.width, image.height)?;
     writeln!(out, "asked for: {}° across {}", fov.0, word(axis))?;
     writeln!(out, "{:<12}{:>14}{:>18}{:>13}", "across", "half heights", "tan(angle / 2)", "angle")?;
-    for (name, reach, degrees) in rows {
-        writeln!(out, "{name:<12}{reach:>14.6}{:>18.6}{degrees:>12.4}°", reach * lens.tan_half_vertical)?;
+    for (name, extent, degrees) in rows {
+        writeln!(out, "{name:<12}{extent:>14.6}{:>18.6}{degrees:>12.4}°", extent * lens.tan_half_vertical)?;
     }
     Ok(())
 }

@@ -53,7 +53,7 @@ pub enum Command {
     Render(RenderChapter),
     /// Print which stages a chapter's scene needs, which are left out, and why
     Plan(PlanChapter),
-    /// Print what would be said before rendering a chapter's scene or a scene file; without one, of scenes gone wrong
+    /// Print the warnings that a render would begin with; without a scene, those of scenes gone wrong
     Preflight(TryPreflight),
     /// Print what a scene's camera sees across each axis of the image, in degrees
     Angles(PlanChapter),
@@ -61,7 +61,7 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
-    /// Measure what theory knows, by whole renders, and how far noise may have moved each number
+    /// Compare whole renders with closed forms, and print each one's standard error
     ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
@@ -97,8 +97,8 @@ pub struct ReviewSnapshots {
     pub action: Option<ReviewAction>,
     /// Only this chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: Option<String>,
-    /// Show the page as it would look with a mutation (all: a table of all)
-    #[arg(long, value_name = "BUG")]
+    /// Show the page as it would look with a mutation of one stage (all: a table of all mutations)
+    #[arg(long, value_name = "MUTATION")]
     pub mutate: Option<String>,
     /// Write one picture instead of the page
     #[arg(long, requires = "mutate")]
@@ -165,7 +165,7 @@ pub struct TryClosedForms {
     /// Only those whose name holds this text
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub case: String,
-    /// How many times the samples that tell each number to 1 %; 100 times tell it to 0.1 %
+    /// Take this many times the samples that give each number to 1 %; 100 times as many give it to 0.1 %
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub times: u32,
     /// Another seed, other random numbers
@@ -175,7 +175,7 @@ pub struct TryClosedForms {
 
 #[derive(Args)]
 pub struct TryExtremes {
-    /// One of the groups, such as sphere, film or matter (default: all); another word lists them
+    /// One of the groups, such as sphere, film or material (default: all); another word lists them
     #[arg(value_parser = |word: &str| word.parse::<Group>())]
     pub group: Option<Group>,
     /// Only the cases whose name holds this text
@@ -217,11 +217,11 @@ pub struct CompareConventions {
     /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
     pub size: Option<Size>,
-    /// Render what one sees who takes a word of another program for pinhole's: mirrored, upside-down, backwards, too-narrow,
+    /// Render what is seen if a word of another program is read as pinhole's: mirrored, upside-down, backwards, too-narrow,
     /// too-wide or rolled
     #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
     pub mistake: Option<Mistake>,
-    /// Send so many cameras into each program's words and back, and print how far they have moved
+    /// Convert this many cameras to each program's terms and back, and print how far they have moved
     #[arg(long, value_name = "N", conflicts_with = "mistake", value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     pub round_trips: Option<u64>,
     /// Where to write the picture, ending in .png (default: in out/)

@@ -27,7 +27,7 @@ pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mu
         (Some(asked), Format::Json) => {
             let (name, exercise) = exercise_of(chapters, asked)?;
             let turn = turn(name, &exercise, file);
-            print_json(&Told::of(name, &turn), out)?;
+            print_json(&CheckRecord::of(name, &turn), out)?;
             turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::usage(sentence)))
         }
     }
@@ -56,7 +56,7 @@ fn told(file: &Path) -> Value {
 }
 
 #[derive(Serialize)]
-struct Told<'t> {
+struct CheckRecord<'t> {
     chapter: &'static str,
     function: &'static str,
     /// right, wrong, stub, panicked or late.
@@ -78,7 +78,7 @@ struct Told<'t> {
     notes: &'t [String],
 }
 
-impl<'t> Told<'t> {
+impl<'t> CheckRecord<'t> {
     fn of(chapter: &'static str, turn: &'t Turn) -> Self {
         let report = &turn.report;
         let ((file, name), (allowed_error, error_unit)) = (report.pinhole_has, report.allowed);

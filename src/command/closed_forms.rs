@@ -9,7 +9,7 @@ use std::io::Write;
 
 /// A line a closed form: what was measured, its standard error, the truth, how many standard errors lie between.
 ///
-/// Where nothing is left to chance, what rounding may do stands in for the standard error.
+/// Where nothing is random, what rounding may do stands in for the standard error.
 /// Errors: one that lies more than four standard errors from the truth.
 pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn Write) -> Result {
     if !format.is_json() {
@@ -28,7 +28,7 @@ pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn 
         if !format.is_json() {
             writeln!(out, "{}", line(form, &measured))?;
         }
-        told.push(Told::of(form, &measured));
+        told.push(FormRecord::of(form, &measured));
     }
     if told.is_empty() {
         return Err(Error::usage(format!("no closed form's name holds \"{}\"", asked.case)));
@@ -39,7 +39,7 @@ pub fn print_closed_forms(asked: &TryClosedForms, format: Format, out: &mut dyn 
     }
     match told.iter().find(|told| !told.held) {
         None => Ok(()),
-        Some(Told { name, .. }) => {
+        Some(FormRecord { name, .. }) => {
             Err(Error::usage(format!("\"{name}\" lies more than 4 standard errors from the truth")))
         }
     }
@@ -58,7 +58,7 @@ fn line(form: &ClosedForm, measured: &Measured) -> String {
 }
 
 #[derive(Serialize)]
-struct Told {
+struct FormRecord {
     name: &'static str,
     formula: &'static str,
     truth: f64,
@@ -66,12 +66,12 @@ struct Told {
     standard_error: f64,
     samples: u64,
     off_by: Value,
-    /// What `off_by` is counted in: standard errors, or what rounding may do, where nothing is left to chance.
+    /// What `off_by` is counted in: standard errors, or what rounding may do, where nothing is random.
     off_by_unit: &'static str,
     held: bool,
 }
 
-impl Told {
+impl FormRecord {
     fn of(form: &ClosedForm, measured: &Measured) -> Self {
         let truth = (form.truth)();
         let off = measured.deviation(truth);

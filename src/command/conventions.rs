@@ -43,8 +43,8 @@ fn print_lines(subject: &Subject<'_>, camera: &PlacedCamera, format: Format, out
         for line in lines(program, camera) {
             writeln!(out, "    {line}")?;
         }
-        let [double_double, place] = back(program);
-        writeln!(out, "  back: {double_double};\n        {place}")?;
+        let [whole, place] = back(program);
+        writeln!(out, "  back: {whole};\n        {place}")?;
     }
     Ok(())
 }

@@ -131,7 +131,7 @@ impl fmt::Display for Measured {
         let load = self.load.map_or_else(|| "unknown".into(), |load| format!("{load:.2}"));
         writeln!(f, "machine: {}, {} threads; {}; load {load}", self.processor, self.threads, self.compiler)?;
         if cfg!(debug_assertions) {
-            writeln!(f, "built without --release: these times say nothing about the kit")?;
+            writeln!(f, "built without --release: these times say nothing about pinhole")?;
         }
         writeln!(f, "made from {}", self.made_from)
     }

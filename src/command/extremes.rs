@@ -18,7 +18,7 @@ const SHOWN: &str = "05_pinhole";
 
 /// A table a group, then how many cases held; a page of the same where one is asked for.
 ///
-/// Errors: a case in which the kit does not keep what is asked; a page that cannot be written.
+/// Errors: a case in which pinhole does not keep what is asked; a page that cannot be written.
 pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format, out: &mut dyn Write) -> Result {
     asked.page.as_deref().map_or(Ok(()), check_place)?;
     let groups = asked.group.map_or(Group::ALL.to_vec(), |group| vec![group]);
@@ -45,11 +45,11 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
     }
     let held = cases.iter().filter(|case| case.held()).count();
     if format.is_json() {
-        let told = Told {
+        let told = TrialsRecord {
             tried: cases.len(),
             held,
             unbroken_methods: unbroken(&cases),
-            cases: cases.iter().map(ToldCase::of).collect(),
+            cases: cases.iter().map(CaseRecord::of).collect(),
             files: asked.page.iter().map(|file| shown(file)).collect(),
         };
         print_json(&told, out)?;
@@ -64,7 +64,7 @@ pub fn print_extremes(chapters: &[Chapter], asked: &TryExtremes, format: Format,
     }
     match cases.iter().find(|case| !case.held()) {
         None => Ok(()),
-        Some(case) => Err(Error::usage(format!("the kit does not hold in the case \"{}\"", case.name))),
+        Some(case) => Err(Error::usage(format!("pinhole does not hold in the case \"{}\"", case.name))),
     }
 }
 
@@ -76,31 +76,31 @@ fn write_page(chapters: &[Chapter], cases: &[Case], file: &Path) -> Result {
 }
 
 #[derive(Serialize)]
-struct Told<'c> {
+struct TrialsRecord<'c> {
     tried: usize,
     held: usize,
     unbroken_methods: Vec<&'static str>,
-    cases: Vec<ToldCase<'c>>,
+    cases: Vec<CaseRecord<'c>>,
     files: Vec<String>,
 }
 
 #[derive(Serialize)]
-struct ToldCase<'c> {
+struct CaseRecord<'c> {
     group: String,
     case: &'c str,
     inputs: u64,
     checked: u64,
     held: bool,
-    methods: Vec<ToldMethod>,
+    methods: Vec<MethodRecord>,
     naive_at_its_worst: Option<Value>,
 }
 
 /// A method and how it did; what has no unit is right or wrong and no more.
 #[derive(Serialize)]
-struct ToldMethod {
+struct MethodRecord {
     name: &'static str,
     is_naive: bool,
-    intersection: String,
+    result: String,
     wrong: u64,
     first_wrong_input: Option<u64>,
     unit: Option<&'static str>,
@@ -110,7 +110,7 @@ struct ToldMethod {
     allowed_error: Option<f64>,
 }
 
-impl<'c> ToldCase<'c> {
+impl<'c> CaseRecord<'c> {
     fn of(case: &'c Case) -> Self {
         Self {
             group: case.group.to_string(),
@@ -118,20 +118,20 @@ impl<'c> ToldCase<'c> {
             inputs: case.rays,
             checked: case.hits,
             held: case.held(),
-            methods: case.outcomes.iter().map(ToldMethod::of).collect(),
+            methods: case.outcomes.iter().map(MethodRecord::of).collect(),
             naive_at_its_worst: case.worst.as_ref().map(|worst| at_worst(case, worst)),
         }
     }
 }
 
-impl ToldMethod {
+impl MethodRecord {
     fn of(outcome: &Outcome) -> Self {
         let Outcome { method, score } = outcome;
         let unit = Some(method.unit).filter(|unit| !unit.is_empty());
         Self {
             name: method.name,
             is_naive: !method.of_pinhole,
-            intersection: outcome.words().intersection.to_lowercase().replace(' ', "_"),
+            result: outcome.words().result.to_lowercase().replace(' ', "_"),
             wrong: score.wrong,
             first_wrong_input: score.first_wrong,
             unit,

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_null_or_a_word() {
+    fn what_is_not_finite_is_null_or_a_word() {
         let told = [1.5, f64::INFINITY, f64::NEG_INFINITY, f64::NAN].map(number_or_word);
         assert_eq!(told, [json!(1.5), json!("infinite"), json!("minus infinite"), Value::Null]);
     }

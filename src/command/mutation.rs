@@ -13,7 +13,7 @@ use std::collections::btree_map::{BTreeMap, Entry};
 use std::fmt::Write as _;
 use std::io::Write;
 
-/// What a review shows with a bug planted: as a page, a picture, or, of all bugs, a table or a gallery.
+/// What a review shows with a mutation of one stage: as a page, a picture, or, of all mutations, a table or a gallery.
 pub fn mutate(
     chapters: &[Chapter],
     name: &str,
@@ -23,7 +23,7 @@ pub fn mutate(
 ) -> Result {
     let all = name == "all";
     if (asked.gallery && !all) || (asked.picture.is_some() && all) {
-        return Err(Error::usage("--gallery goes with --mutate all, and --picture with the name of one bug"));
+        return Err(Error::usage("--gallery goes with --mutate all, and --picture with the name of one mutation"));
     }
     if !all {
         let mutation = Mutation::named(name)?;
@@ -35,34 +35,35 @@ pub fn mutate(
             write_whole(&file, |file| file.write_all(&png))?;
             return print_written(&file, format, out);
         }
-        let heading = format!("A bug planted on purpose: {}", mutation.name);
-        let intro = "The bug lives in this run only: no source and no snapshot has changed.";
+        let heading = format!("A mutation, made on purpose: {}", mutation.name);
+        let intro = "The mutation lives in this run only: no source and no snapshot has changed.";
         if format.is_json() {
             let difference = told(&compared);
             let file = keep_page(asked, &page(&heading, intro, &[compared])?)?;
-            let (bug, mistake) = (mutation.name, mutation.mistake);
-            let mutation = json!({ "bug": bug, "slip": mistake, "difference": difference, "files": [shown(&file)] });
+            let (name, mistake) = (mutation.name, mutation.mistake);
+            let mutation =
+                json!({ "mutation": name, "mistake": mistake, "difference": difference, "files": [shown(&file)] });
             return print_json(&mutation, out);
         }
         writeln!(out, "{}: {}", compared.name, compared.headline())?;
         return write_page(asked, &page(&heading, intro, &[compared])?, out);
     }
-    let (mut bugs, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
+    let (mut mutations, mut right) = (Vec::new(), BTreeMap::<&str, Snapshots>::new());
     for mutation in MUTATIONS {
         let chapter = find::chapter(chapters, asked.chapter.as_deref().unwrap_or(mutation.chapter))?;
         let before = match right.entry(chapter.name) {
             Entry::Occupied(known) => known.get().clone(),
             Entry::Vacant(place) => place.insert(Snapshots::of(chapter)?).clone(),
         };
-        bugs.push((mutation, compared(mutation, chapter, before)?));
+        mutations.push((mutation, compared(mutation, chapter, before)?));
     }
     if asked.gallery {
-        let file = asked.output.clone().unwrap_or_else(|| "out/review/planted.svg".into());
-        let gallery = gallery(&bugs)?;
+        let file = asked.output.clone().unwrap_or_else(|| "out/review/mutations.svg".into());
+        let gallery = gallery(&mutations)?;
         write_whole(&file, |file| file.write_all(gallery.as_bytes()))?;
         return print_written(&file, format, out);
     }
-    table(&bugs, format, out)
+    table(&mutations, format, out)
 }
 
 fn compared(mutation: &Mutation, chapter: &Chapter, before: Snapshots) -> Result<Compared> {
@@ -75,7 +76,7 @@ fn compared(mutation: &Mutation, chapter: &Chapter, before: Snapshots) -> Result
     })
 }
 
-/// A line a bug: its name, the slip, the stage that the review names, how many pixels show it.
+/// A line for each mutation: its name, the mistake, the stage that the review names, how many pixels show it.
 fn table(all: &[(&Mutation, Compared)], format: Format, out: &mut dyn Write) -> Result {
     let found = |(mutation, compared): &(&Mutation, Compared)| {
         let named = compared.before.first_difference(&compared.now).map(|difference| difference.stage);
@@ -86,26 +87,26 @@ fn table(all: &[(&Mutation, Compared)], format: Format, out: &mut dyn Write) -> 
     let found: Vec<_> = all.iter().map(found).collect();
     let right = found.iter().filter(|(.., right)| *right).count();
     if format.is_json() {
-        let told = |(bug, mistake, named, pixels, right): &_| json!({ "bug": bug, "slip": mistake, "stage_named": named, "pixels_differing": pixels, "is_right": right });
-        let bugs: Vec<Value> = found.iter().map(told).collect();
-        return print_json(&json!({ "planted": all.len(), "named_right": right, "bugs": bugs }), out);
+        let told = |(name, mistake, named, pixels, right): &_| json!({ "mutation": name, "mistake": mistake, "stage_named": named, "pixels_differing": pixels, "is_right": right });
+        let mutations: Vec<Value> = found.iter().map(told).collect();
+        return print_json(&json!({ "tried": all.len(), "named_right": right, "mutations": mutations }), out);
     }
-    writeln!(out, "{:<22} {:<27} {:<32} pixels that differ", "bug", "slip", "stage named")?;
-    for (bug, mistake, named, pixels, _) in found {
+    writeln!(out, "{:<22} {:<27} {:<32} pixels that differ", "mutation", "mistake", "stage named")?;
+    for (name, mistake, named, pixels, _) in found {
         let named = named.unwrap_or_else(|| "none".into());
-        writeln!(out, "{bug:<22} {mistake:<27} {named:<32} {pixels:>4}")?;
+        writeln!(out, "{name:<22} {mistake:<27} {named:<32} {pixels:>4}")?;
     }
-    writeln!(out, "{right} of {} bugs named at the stage where they were planted", all.len())?;
+    writeln!(out, "{right} of {} mutations named at their stage", all.len())?;
     Ok(())
 }
 
 /// Width of the gallery, and of a picture in it.
 const WIDTH: usize = 720;
 const PICTURE: [usize; 2] = [168, 95];
-/// A bug's room: two pictures and three lines of words.
+/// A mutation's room: two pictures and three lines of words.
 const ROOM: [usize; 2] = [366, 158];
 
-/// A drawing of all bugs: what each makes of the picture, the difference, the slip and the stage that the review names.
+/// A drawing of all mutations: what each makes of the picture, the difference, the mistake and the stage that the review names.
 fn gallery(all: &[(&Mutation, Compared)]) -> Result<String> {
     let height = all.len().div_ceil(2) * ROOM[1];
     let mut svg = format!(

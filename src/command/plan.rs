@@ -61,6 +61,6 @@ struct PlannedColumn {
 impl PlannedColumn {
     fn of(column: &ColumnKind) -> Self {
         let ColumnKind { name, space, unit, lifetime, .. } = *column;
-        Self { name, space, unit, lifetime, bytes_per_row: column.bytes_a_row() }
+        Self { name, space, unit, lifetime, bytes_per_row: column.bytes_per_row() }
     }
 }

@@ -194,7 +194,7 @@ fn rivals<'c>(chapters: &'c [Chapter], against: &[String]) -> Result<Vec<Rival<'
             let found = LightStrategy::ALL.into_iter().find(|(word, _)| *word == name);
             found
                 .map(|(word, lights)| Rival::Lights(word, lights))
-                .ok_or_else(|| no_such("way to find lights", name, &LightStrategy::ALL))
+                .ok_or_else(|| no_such("light strategy", name, &LightStrategy::ALL))
         }
         Some((other, _)) => Err(Error::usage(format!(
             "--against takes a chapter, a scene file, sampler=NAME, filter=NAME or lights=NAME, and {other} is none of \

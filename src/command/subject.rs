@@ -19,7 +19,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub enum Subject<'c> {
     /// A chapter, with the stages that it offers.
     Chapter(&'c Chapter),
-    /// A scene file, for which every stage of the kit is on offer.
+    /// A scene file, for which every stage of pinhole is on offer.
     File {
         /// The scene.
         file: SceneFile,

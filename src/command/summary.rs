@@ -165,13 +165,13 @@ fn count(number: u64) -> String {
 
 /// A line that is not too wide; of a wider one the end is left, where a path has its file's name.
 fn cut(line: &str) -> String {
-    let double_double = line.chars().count();
-    if double_double <= WIDEST {
+    let length = line.chars().count();
+    if length <= WIDEST {
         return line.into();
     }
     let half = (WIDEST - 1) / 2;
     let letters = || line.chars();
-    letters().take(half).chain(['…']).chain(letters().skip(double_double - half)).collect()
+    letters().take(half).chain(['…']).chain(letters().skip(length - half)).collect()
 }
 
 #[cfg(test)]
@@ -182,23 +182,23 @@ mod tests {
 
     fn stats(stages: usize) -> RenderStats {
         let stage = |number: usize| StageStats {
-            stage: ["Aim at lights", "Intersect spheres", "Transform rays to world space", "Classify"][number % 4],
+            stage: ["Sample lights", "Intersect spheres", "Transform rays to world space", "Classify"][number % 4],
             rows: 1,
             milliseconds: number as f64,
-            nanoseconds_a_row: None,
+            nanoseconds_per_row: None,
         };
         RenderStats {
-            chapter: "05_pinhole".into(),
+            scene: "05_pinhole".into(),
             width: 480,
             height: 270,
             threads: 2,
             milliseconds: 41.3,
-            megarays_a_second: 1.0,
+            megarays_per_second: 1.0,
             rays: 243_512,
             film_bytes: 0,
-            film_bytes_a_pixel: 0.0,
+            film_bytes_per_pixel: 0.0,
             table_bytes: 0,
-            column_bytes_a_tile: 0,
+            column_bytes_per_tile: 0,
             peak_memory_bytes: None,
             rejected_samples: 0,
             stages: (0..stages).map(stage).collect(),
@@ -224,7 +224,7 @@ mod tests {
             summary(&stats(5), None).lines(),
             [
                 "out/05_pinhole.png and .exr: 480 × 270 pixels, 1 sample each, 244 thousand rays in 41 ms",
-                "slowest stages: Aim at lights 40 %, Classify 30 %, Transform rays to world space 20 %",
+                "slowest stages: Sample lights 40 %, Classify 30 %, Transform rays to world space 20 %",
                 "5 stages ran, 1 left out: pinhole plan 5 says why",
                 "try next: pinhole trace 5 --pixel 1,1",
             ]

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Write;
 
-/// The way of one of a pixel's samples to light.
+/// The path of one of a pixel's samples, stage by stage.
 pub fn print_trace(
     subject: &Subject<'_>,
     pixel: TracePixel,
@@ -50,7 +50,7 @@ struct Wrote {
     rows: Vec<BTreeMap<&'static str, Number>>,
 }
 
-/// What a lane holds: a number with all its digits, or a word: a shape's name, or that the number is infinite.
+/// What a component holds: a number with all its digits, or a word: a shape's name, or that the number is infinite.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Number {

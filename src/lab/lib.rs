@@ -1,4 +1,4 @@
-//! The laboratory: what pinhole is judged by, and what the book shows of it.
+//! The laboratory: what pinhole is checked by, and what the book shows of it.
 //!
 //! Nothing here runs in a render. The modules stand in the order of their imports, each naming only those above it:
 //!

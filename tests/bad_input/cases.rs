@@ -1,4 +1,4 @@
-//! The scenes that are refused, and the fields that no number is accepted in.
+//! The scenes that are refused, and the fields that refuse NaN.
 
 use crate::scenes::{Eye, named};
 use bevy_ecs::prelude::*;
@@ -83,7 +83,7 @@ pub const CAMERAS: &[Case] = &[
     ("an error of 0", &["\"main\"", "error", "above 0"], |w| {
         put(w, "main", (Sampling::default(), Adaptive { error: 0.0, ..Adaptive::default() }))
     }),
-    ("an error that is no number", &["\"main\"", "error", "NaN"], |w| {
+    ("an error that is NaN", &["\"main\"", "error", "NaN"], |w| {
         put(w, "main", (Sampling::default(), Adaptive { error: f64::NAN, ..Adaptive::default() }))
     }),
     ("a pilot of 3", &["\"main\"", "pilot", "3", "from 4"], |w| {
@@ -348,29 +348,29 @@ pub const MATERIAL: &[Case] = &[
     ("exponent 1e10", &["\"satin\"", "exponent", "is 1e10,", "from 0 to 1e9"], |w| {
         edit::<BlinnPhong>(w, "satin", |p| p.exponent = 1e10);
     }),
-    ("a mirror brighter than its light", &["mirror \"matter\"", "colour", "(1.1, 1.1, 1.1)", "from 0 to 1"], |w| {
+    ("a mirror brighter than its light", &["mirror \"coating\"", "colour", "(1.1, 1.1, 1.1)", "from 0 to 1"], |w| {
         material(w, Mirror { colour: Rgb::grey(1.1) });
     }),
-    ("an index of refraction of 0", &["glass \"matter\"", "ior", "is 0,", "from 0.001 to 1000"], |w| {
+    ("an index of refraction of 0", &["glass \"coating\"", "ior", "is 0,", "from 0.001 to 1000"], |w| {
         material(w, Glass { ior: 0.0, ..Glass::default() });
     }),
-    ("an index of refraction of −1.5", &["glass \"matter\"", "ior", "is -1.5,"], |w| {
+    ("an index of refraction of −1.5", &["glass \"coating\"", "ior", "is -1.5,"], |w| {
         material(w, Glass { ior: -1.5, ..Glass::default() });
     }),
-    ("glass that gives light", &["glass \"matter\"", "absorption", "(0, -1, 0)", "from 0"], |w| {
+    ("glass that gives light", &["glass \"coating\"", "absorption", "(0, -1, 0)", "from 0"], |w| {
         material(w, Glass { absorption: Rgb::new(0.0, -1.0, 0.0), ..Glass::default() });
     }),
-    ("metal brighter than its light", &["metal \"matter\"", "colour", "(0, 2, 0)", "from 0 to 1"], |w| {
+    ("metal brighter than its light", &["metal \"coating\"", "colour", "(0, 2, 0)", "from 0 to 1"], |w| {
         material(w, Metal { colour: Rgb::new(0.0, 2.0, 0.0), ..Metal::default() });
     }),
-    ("roughness 1.01", &["metal \"matter\"", "roughness", "is 1.01,", "from 0 to 1"], |w| {
+    ("roughness 1.01", &["metal \"coating\"", "roughness", "is 1.01,", "from 0 to 1"], |w| {
         material(w, Metal { roughness: 1.01, ..Metal::default() });
     }),
-    ("roughness −0.1", &["metal \"matter\"", "roughness", "is -0.1,"], |w| {
+    ("roughness −0.1", &["metal \"coating\"", "roughness", "is -0.1,"], |w| {
         material(w, Metal { roughness: -0.1, ..Metal::default() });
     }),
-    ("a mirror and glass at once", &["\"matter\"", "Mirror and Glass at once", "one material only"], |w| {
-        w.spawn((Name::new("matter"), Mirror::default(), Glass::default()));
+    ("a mirror and glass at once", &["\"coating\"", "Mirror and Glass at once", "one material only"], |w| {
+        w.spawn((Name::new("coating"), Mirror::default(), Glass::default()));
     }),
     ("a disk of glass", &["disk \"lens\"", "material", "the glass \"lens\"", "an interior", "a sphere"], |w| {
         w.spawn((Name::new("lens"), Disk::default(), Glass::default()));
@@ -432,9 +432,9 @@ fn filter(world: &mut World, filter: Filter) {
     put(world, "main", Sampling { filter, ..Sampling::default() });
 }
 
-/// Matter that no shape is made of; it is checked all the same.
+/// A material that no shape is made of; it is checked all the same.
 fn material(world: &mut World, component: impl Component) {
-    world.spawn((Name::new("matter"), component));
+    world.spawn((Name::new("coating"), component));
 }
 
 /// A field of a component, the entity, how to set it.
@@ -500,11 +500,11 @@ pub const FIELDS: &[Field] = &[
     ("colour", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.colour.b = v)),
     ("specular", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.specular.r = v)),
     ("exponent", "satin", |w, v| edit::<BlinnPhong>(w, "satin", |p| p.exponent = v)),
-    ("colour", "matter", |w, v| material(w, Mirror { colour: Rgb::new(0.5, v, 0.5) })),
-    ("ior", "matter", |w, v| material(w, Glass { ior: v, ..Glass::default() })),
-    ("absorption", "matter", |w, v| material(w, Glass { absorption: Rgb::new(v, 0.0, 0.0), ..Glass::default() })),
-    ("colour", "matter", |w, v| material(w, Metal { colour: Rgb::new(0.5, 0.5, v), ..Metal::default() })),
-    ("roughness", "matter", |w, v| material(w, Metal { roughness: v, ..Metal::default() })),
+    ("colour", "coating", |w, v| material(w, Mirror { colour: Rgb::new(0.5, v, 0.5) })),
+    ("ior", "coating", |w, v| material(w, Glass { ior: v, ..Glass::default() })),
+    ("absorption", "coating", |w, v| material(w, Glass { absorption: Rgb::new(v, 0.0, 0.0), ..Glass::default() })),
+    ("colour", "coating", |w, v| material(w, Metal { colour: Rgb::new(0.5, 0.5, v), ..Metal::default() })),
+    ("roughness", "coating", |w, v| material(w, Metal { roughness: v, ..Metal::default() })),
     ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.r = v)),
     ("radiance", "glow", |w, v| edit::<Emissive>(w, "glow", |e| e.radiance.b = v)),
     ("irradiance", "sun", |w, v| edit::<DirectionalLight>(w, "sun", |l| l.irradiance.g = v)),

@@ -116,7 +116,7 @@ pub const TEXTURES: &[Case] = &[
     ("an environment too bright for f32", &["environment \"sky\"", "scale", "1e300"], |w| {
         behind(w, Environment { scale: 1e300, ..environment(EVENING) });
     }),
-    ("an environment turned by no number", &["environment \"sky\"", "turn", "NaN°"], |w| {
+    ("an environment turned by NaN", &["environment \"sky\"", "turn", "NaN°"], |w| {
         behind(w, Environment { turn: Degrees(f64::NAN), ..environment(EVENING) });
     }),
 ];

@@ -1,4 +1,4 @@
-//! Every number that theory knows, by whole renders with so many samples that chance leaves a thousandth.
+//! Every number that theory knows, by whole renders with so many samples that a thousandth of noise is left.
 //!
 //! `cargo bench --bench closed_forms` prints them; `-- --seed 7` takes other random numbers.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
@@ -7,7 +7,7 @@ use pinhole_lab::measure::closed_form::closed_forms;
 
 /// 1 % after `few` samples, and a tenth of that after 100 times as many; a little more, for the error is itself measured.
 const TIMES: u32 = 110;
-/// The largest standard error, as a share of the truth.
+/// The largest standard error, as a fraction of the truth.
 const ERROR: f64 = 1e-3;
 
 fn main() {
@@ -26,6 +26,6 @@ fn main() {
         }
         (forms, exact, tried) = (forms + 1, exact + u32::from(measured.is_exact(truth)), tried + measured.count);
     }
-    println!("{forms} closed forms, {exact} of them without chance, {tried} samples, seed {seed}");
+    println!("{forms} closed forms, {exact} of them without noise, {tried} samples, seed {seed}");
     assert!(missed.is_empty(), "more than 4 standard errors off, or an error above {ERROR}: {missed:?}");
 }

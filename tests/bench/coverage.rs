@@ -31,9 +31,9 @@ fn main() {
         for bias in [0.0, 0.1] {
             println!("{noise:?}, bias field up to {bias}");
             for row in coverage::coverage(noise, bias, repetitions) {
-                let share = 100.0 * row.held as f64 / row.of.max(1) as f64;
-                let mark = if (93.0..=97.0).contains(&share) { ' ' } else { '*' };
-                println!("  {:<40} {share:5.1} %{mark}  of {}, {} refused", row.what, row.of, row.refused);
+                let percent = 100.0 * row.held as f64 / row.of.max(1) as f64;
+                let mark = if (93.0..=97.0).contains(&percent) { ' ' } else { '*' };
+                println!("  {:<40} {percent:5.1} %{mark}  of {}, {} refused", row.what, row.of, row.refused);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! One entity a ray against the kit's tiles: the same scene, the same image, interleaved runs on one thread.
+//! One entity a ray against pinhole's tiles: the same scene, the same image, interleaved runs on one thread.
 //!
 //! `cargo bench --bench entity_per_ray` prints time as a ratio with its 95 % interval, then memory, each measured in a
 //! process of its own; `-- --write` keeps the answer beside chapter 12.
@@ -60,41 +60,42 @@ fn scene(resolution: Resolution) -> (World, Vec<Stage>) {
     (chapter.world(&Overrides { resolution: Some(resolution), ..Overrides::default() }), chapter.stages())
 }
 
-/// Naive over kit, interleaved ABBA, after a check that the images are the same.
+/// Naive over pinhole, interleaved ABBA, after a check that the images are the same.
 fn time(resolution: Resolution, pairs: usize, report: &mut String) {
     let (world, offer) = scene(resolution);
     let execution = Execution { threads: Some(1), ..Execution::default() };
-    let kit = || render(&world, &offer, &execution, &()).expect("renders").film;
+    let pinhole = || render(&world, &offer, &execution, &()).expect("renders").film;
     let spawn = || EntityPerRay::spawn(&world).expect("spawns");
     let mut entities = spawn();
     entities.run();
-    assert!(entities.film().tiles == kit().tiles, "the two images differ");
+    assert!(entities.film().tiles == pinhole().tiles, "the two images differ");
     drop(entities);
 
     let (mut all, mut runs) = (Vec::new(), Vec::new());
     let (mut pinhole_ms, mut spawn_ms, mut run_ms) = (Vec::new(), Vec::new(), Vec::new());
     for pair in 0..pairs {
-        let mut a = (pair % 2 == 0).then(|| cpu(&kit).as_secs_f64() * 1e3);
+        let mut a = (pair % 2 == 0).then(|| cpu(&pinhole).as_secs_f64() * 1e3);
         let spawned = cpu(&spawn).as_secs_f64() * 1e3;
         let held = std::cell::RefCell::new(spawn());
         let ran = cpu(&|| held.borrow_mut().run()).as_secs_f64() * 1e3;
         drop(held);
-        let kit = *a.get_or_insert_with(|| cpu(&kit).as_secs_f64() * 1e3);
-        all.push(((spawned + ran) / kit).ln());
-        runs.push((ran / kit).ln());
-        pinhole_ms.push(kit);
+        let pinhole = *a.get_or_insert_with(|| cpu(&pinhole).as_secs_f64() * 1e3);
+        all.push(((spawned + ran) / pinhole).ln());
+        runs.push((ran / pinhole).ln());
+        pinhole_ms.push(pinhole);
         spawn_ms.push(spawned);
         run_ms.push(ran);
     }
-    let [kit, spawn, run] = [pinhole_ms, spawn_ms, run_ms].map(|mut values| median(&mut values));
+    let [pinhole, spawn, run] = [pinhole_ms, spawn_ms, run_ms].map(|mut values| median(&mut values));
     let _ = writeln!(report, "the two images are the same to the last bit");
     let _ = writeln!(
         report,
-        "CPU time, medians of {pairs}: kit {kit:.0} ms; entities {spawn:.0} ms to spawn, {run:.0} ms to run"
+        "CPU time, medians of {pairs}: pinhole {pinhole:.0} ms; entities {spawn:.0} ms to spawn, {run:.0} ms to run"
     );
     for (what, logs) in [("spawn and run", all), ("run alone", runs)] {
         let (low, middle, high) = interval(&logs);
-        let _ = writeln!(report, "entities over kit, {what}: {middle:.2} [{low:.2}, {high:.2}] with 95 % confidence");
+        let _ =
+            writeln!(report, "entities over pinhole, {what}: {middle:.2} [{low:.2}, {high:.2}] with 95 % confidence");
     }
 }
 

@@ -1,8 +1,8 @@
 //! The hand-written loop that the stages are measured against: one pixel after another, nothing kept in between.
 //!
-//! It calls the kit's own functions of one row and reads the kit's own tables, so that its image is the same to the
+//! It calls pinhole's own functions of one row and reads pinhole's own tables, so that its image is the same to the
 //! last bit and only the arrangement of the work differs.
-//! Its spheres are tested sixteen at a time for one ray, as the kit's stage tests sixteen rays for one sphere.
+//! Its spheres are tested sixteen at a time for one ray, as pinhole's stage tests sixteen rays for one sphere.
 
 use bevy_ecs::prelude::World;
 use glam::{DVec2, DVec3, Vec3};
@@ -43,7 +43,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads the same tables as the kit.
+    /// Reads the same tables as pinhole.
     ///
     /// # Panics
     /// When the scene holds a shape that this loop does not know.
@@ -86,7 +86,7 @@ pub fn render(world: &World, threads: usize) -> Film {
     film
 }
 
-/// What samplers work out once for all pixels is worked out once a tile, as in the kit.
+/// What samplers work out once for all pixels is worked out once a tile, as in pinhole.
 fn render_tile(scene: &Scene, film: &mut FilmTile) {
     let Some(SamplingTable { samples, sampler, .. }) = scene.sampling else { return add_centres(scene, film) };
     let (numbers, purpose) = (0..samples, Purpose::Pixel);
@@ -179,7 +179,7 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
             let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
-            // The kit keeps irradiance in a column of f32.
+            // Pinhole keeps irradiance in a column of f32.
             let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {
                 *sum += brings as f32;
@@ -191,14 +191,14 @@ fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
 
 #[inline(always)]
 fn blocked(scene: &Scene, light: usize, origin: Vec3, direction: DVec3, distance: f64) -> bool {
-    let reach = f64::from(shadow_t_max(distance));
-    scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, reach, true).1 != NO_SHAPE
+    let t_max = f64::from(shadow_t_max(distance));
+    scene.lights.casts_shadows[light] && nearest(scene, origin.as_dvec3(), direction, t_max, true).1 != NO_SHAPE
 }
 
-/// What the ray meets before `reach`: the nearest, or for `any` the first found.
+/// What the ray hits before `t_max`: the nearest, or for `any` the first found.
 #[inline(always)]
-fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool) -> (f64, u32) {
-    let (mut t, mut shape) = (reach, NO_SHAPE);
+fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, t_max: f64, any: bool) -> (f64, u32) {
+    let (mut t, mut shape) = (t_max, NO_SHAPE);
     for (plane, &normal) in scene.planes.normal.iter().enumerate() {
         let found = plane_t(origin, direction, normal, scene.planes.offset[plane]);
         keep_closest(found, scene.planes.shape[plane], &mut t, &mut shape);
@@ -213,18 +213,13 @@ fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, reach: f64, any: bool
         let (x, y, z) =
             (&spheres.x[start..start + here], &spheres.y[start..start + here], &spheres.z[start..start + here]);
         let radius = &spheres.radius[start..start + here];
-        for component in 0..here {
-            near[component] = nearness(
-                DVec3::new(x[component], y[component], z[component]) - origin,
-                direction,
-                inverse,
-                radius[component],
-            );
+        for lane in 0..here {
+            near[lane] = nearness(DVec3::new(x[lane], y[lane], z[lane]) - origin, direction, inverse, radius[lane]);
         }
-        for component in 0..here {
-            if near[component] >= 0.0 {
-                let found = sphere_t(origin, direction, spheres.centre(start + component), radius[component]);
-                keep_closest(found, spheres.shape[start + component], &mut t, &mut shape);
+        for lane in 0..here {
+            if near[lane] >= 0.0 {
+                let found = sphere_t(origin, direction, spheres.centre(start + lane), radius[lane]);
+                keep_closest(found, spheres.shape[start + lane], &mut t, &mut shape);
             }
         }
         start += LANES;

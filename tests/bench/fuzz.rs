@@ -24,5 +24,5 @@ fn main() {
         }
     }
     eprintln!("{count} scene files made at random in {:?}: {counts}", started.elapsed());
-    assert!(counts.panics.is_empty() && counts.slow.is_empty(), "some scene files bring the kit down");
+    assert!(counts.panics.is_empty() && counts.slow.is_empty(), "some scene files bring pinhole down");
 }

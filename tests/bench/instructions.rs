@@ -1,7 +1,7 @@
 //! What a feature costs a scene that does not use it, in instructions a ray and in bytes, counted by valgrind.
 //!
-//! `cargo bench --bench instructions` renders each scene with the full kit (the program `pinhole`, every stage on offer)
-//! and with a program that offers only what the scene needs (this one: nothing else of the kit's stages is linked into
+//! `cargo bench --bench instructions` renders each scene with the full pinhole (the program `pinhole`, every stage on offer)
+//! and with a program that offers only what the scene needs (this one: nothing else of pinhole's stages is linked into
 //! it), at two sizes each; the slopes between the sizes leave out all that a program does once.
 //! Instructions are counted by callgrind, bytes allocated by dhat, on one thread; images are compared byte by byte.
 //! valgrind shows its guests no AVX-512, so both programs run the kernels for AVX2.
@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The most that the full kit may take, as a multiple of the program with only what is needed.
+/// The most that the full pinhole may take, as a multiple of the program with only what is needed.
 const MOST: f64 = 1.005;
 
 /// A scene, and the stages that it needs.
@@ -79,10 +79,10 @@ const VARIED: &str = r#"[
     (gradient: (top: (0.1, 0.2, 0.5))),
 ]"#;
 
-/// Ways of light beyond the first surface, by the kinds of matter and light that are there and no others.
+/// Light paths beyond the first surface, by the kinds of material and light that are there and no others.
 const FOLLOWED: &str = r#"[
     (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
-        sampling: (samples: 4), integrator: Path(legs: 5, lights: Mis, roulette: 3)),
+        sampling: (samples: 4), integrator: Path(max_depth: 5, lights: Mis, roulette: 3)),
     (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
     (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), mirror: ()),
     (plane: (), matte: (colour: (0.5, 0.5, 0.5))),

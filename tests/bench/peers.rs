@@ -18,7 +18,7 @@ use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling};
 use pinhole_lab::measure::image_error::{Numbers, image_error};
 use pinhole_lab::measure::image_file::read_numbers;
-use pinhole_lab::report::distribution::student_share;
+use pinhole_lab::report::distribution::student_cdf;
 use pinhole_lab::report::run::numbers;
 use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
@@ -70,7 +70,7 @@ impl Options {
 }
 
 /// One render: seconds, and the image.
-fn ours(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
+fn render_pinhole(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sampler) -> (f64, Numbers) {
     let mut world = public(scene, LightStrategy::Mis);
     let camera = named(&mut world, "camera");
     // The references have each sample in its own pixel only.
@@ -118,12 +118,13 @@ fn main() {
     }
 }
 
-/// Blocks of the mean of many renders against the reference, each by how far chance may have moved both.
+/// Blocks of the mean of many renders against the reference, each by how far noise may have moved both.
 fn converged(scene: &str, reference: &Numbers, options: &Options) {
     const RUNS: u64 = 8;
     const SIDE: u32 = 16;
-    let images: Vec<Numbers> =
-        (0..RUNS).map(|seed| ours(scene, options, options.converge, 900 + seed, Sampler::Independent).1).collect();
+    let images: Vec<Numbers> = (0..RUNS)
+        .map(|seed| render_pinhole(scene, options, options.converge, 900 + seed, Sampler::Independent).1)
+        .collect();
     let [width, height] = reference.size;
     let (mut tests, mut apart, mut worst) = (0, 0, 0.0_f64);
     let limit = {
@@ -150,8 +151,8 @@ fn converged(scene: &str, reference: &Numbers, options: &Options) {
             squares += z * z;
             tests += 1;
             worst = worst.max(z.abs());
-            // The renders' own spread is known from as many as there are, so far from 0 chance is no normal variable.
-            apart += usize::from(2.0 * student_share(-z.abs(), (RUNS - 1) as f64) < limit);
+            // The renders' own spread is known from as many as there are, so far from 0 the noise is not a normal variable.
+            apart += usize::from(2.0 * student_cdf(-z.abs(), (RUNS - 1) as f64) < limit);
         }
     }
     println!(
@@ -161,12 +162,12 @@ fn converged(scene: &str, reference: &Numbers, options: &Options) {
     );
 }
 
-/// Efficiency, 1 / (relMSE · seconds), ours over theirs.
+/// Efficiency, 1 / (relMSE · seconds), pinhole's over theirs.
 fn compare(scene: &str, reference: &Numbers, options: &Options) {
     let own_error = |image: &Numbers| image_error(reference, image).expect("one size").means.expect("means").rel_mse;
     let less = of_reference(scene);
     let run = |samples, seed| {
-        let (seconds, image) = ours(scene, options, samples, seed, options.sampler);
+        let (seconds, image) = render_pinhole(scene, options, samples, seed, options.sampler);
         (seconds, own_error(&image) - less)
     };
     let Some(python) = &options.python else {

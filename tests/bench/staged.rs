@@ -144,14 +144,14 @@ fn memory() {
             .args(["render", "10_light_and_shadow", "--size", size, "--stats", "-o"])
             .arg(&file)
             .output()
-            .expect("the kit runs");
+            .expect("pinhole runs");
         let stats: serde_json::Value = serde_json::from_slice(&output.stdout).expect("statistics as JSON");
         let number = |key: &str| stats[key].as_f64().unwrap_or(f64::NAN);
         let (film, peak) = (number("film_bytes"), number("peak_memory_bytes"));
         println!(
             "memory {size}: film {:.1} MiB ({} bytes a pixel), peak {:.1} MiB, beside the film {:.1} MiB",
             film / 1048576.0,
-            number("film_bytes_a_pixel"),
+            number("film_bytes_per_pixel"),
             peak / 1048576.0,
             (peak - film) / 1048576.0
         );

@@ -13,7 +13,7 @@ use pinhole::{Overrides, extract};
 use pinhole_lab::naive::{field_of_view, ndc};
 
 #[test]
-fn the_naive_ways_to_ndc_are_as_far_off_as_page_06_says() {
+fn the_naive_formulas_to_ndc_are_as_far_off_as_page_06_says() {
     let drift = |width: u32| {
         let last = ndc::by_steps(width).last().expect("a pixel");
         f64::from(last) * f64::from(width) - f64::from(width - 1)
@@ -87,9 +87,9 @@ fn angles_are_taken_and_refused_as_page_08_says() {
 #[test]
 fn the_naive_tangent_is_as_far_off_as_page_08_says() {
     let page = "08_field_of_view.md";
-    let (naive, kit) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
-    let steps = ((naive - kit) / kit).abs() * f64::from(1_u32 << 24);
-    // That the kit's own is good to less than a millionth of a step is judged in `src/lab/naive/field_of_view.rs`.
+    let (naive, pinhole) = (f64::from(field_of_view::tan_half_f32(179.99)), tan_half(Degrees(179.99)));
+    let steps = ((naive - pinhole) / pinhole).abs() * f64::from(1_u32 << 24);
+    // That pinhole's own is good to less than a millionth of a step is checked in `src/lab/naive/field_of_view.rs`.
     let steps = thousands(steps.round() as usize);
     page_says(page, &format!("the tangent is off by {steps} u"));
     let flipped = field_of_view::tan_half_f32(180.0) / 1e7;

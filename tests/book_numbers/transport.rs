@@ -1,4 +1,4 @@
-//! What pages 22 and 25 say of rays to the sky and of ways of light, from closed forms and sums.
+//! What pages 22 and 25 say of rays to the sky and of light paths, from closed forms and sums.
 
 use super::page_says;
 use pinhole::film::{Curve, byte_from_linear};
@@ -6,11 +6,11 @@ use pinhole_lab::naive::path::{
     light_of_capped_path, uniform_direction, uniform_weight, weight_without_cosine, weight_without_pi,
 };
 
-/// Slices of the half ball, or rings of the disk.
+/// Slices of the hemisphere, or rings of the disk.
 const SLICES: u32 = 1_000_000;
 
 /// Mean and variance of what a ray counts whose direction's height is drawn so, where it sees the sky by its height and
-/// the share of turns at which nothing else is in the way.
+/// the fraction of turns at which nothing else is in the way.
 fn mean_and_variance(counts: impl Fn(f64) -> f64, turns: f64) -> [f64; 2] {
     let (mut mean, mut square) = (0.0, 0.0);
     for slice in 0..SLICES {
@@ -25,24 +25,24 @@ fn mean_and_variance(counts: impl Fn(f64) -> f64, turns: f64) -> [f64; 2] {
 fn directions_vary_as_page_22_says() {
     let page = "22_ambient_occlusion.md";
     let mut ratio = 0.0;
-    for (name, share, lowest, turns) in [
+    for (name, open, lowest, turns) in [
         ("nothing", "1", 1.0, 1.0),
         ("an endless wall, straight up", "0.5", 1.0, 0.5),
         ("a ball overhead, $r/h = 0.8$", "0.36", 0.6, 1.0),
     ] {
         let seen = |height: f64| f64::from(u8::from(height < lowest));
-        let alike = |u: f64| {
+        let uniform = |u: f64| {
             let height = uniform_direction([u, 0.0])[2];
             seen(height) * uniform_weight(1.0, height)
         };
-        let [of_alike, of_dense] =
-            [mean_and_variance(alike, turns), mean_and_variance(|u| seen((1.0 - u).sqrt()), turns)];
-        let expected: f64 = share.parse().expect("a number");
-        assert!((of_alike[0] - expected).abs() < 1e-5 && (of_dense[0] - expected).abs() < 1e-5, "{name}");
-        let [alike, dense] = [of_alike[1], of_dense[1]].map(f64::abs);
-        page_says(page, &format!("| {name} | {share} | {alike:.3} | {dense:.3} |"));
+        let [of_uniform, of_cosine] =
+            [mean_and_variance(uniform, turns), mean_and_variance(|u| seen((1.0 - u).sqrt()), turns)];
+        let expected: f64 = open.parse().expect("a number");
+        assert!((of_uniform[0] - expected).abs() < 1e-5 && (of_cosine[0] - expected).abs() < 1e-5, "{name}");
+        let [uniform, cosine_weighted] = [of_uniform[1], of_cosine[1]].map(f64::abs);
+        page_says(page, &format!("| {name} | {open} | {uniform:.3} | {cosine_weighted:.3} |"));
         if turns < 1.0 {
-            ratio = alike / dense;
+            ratio = uniform / cosine_weighted;
         }
     }
     page_says(page, &format!("needs {ratio:.1} times the rays"));

@@ -1,4 +1,4 @@
-//! Every bug planted on purpose is found, and the message names the very stage it was planted at.
+//! Every mutation is found, and the message names the very stage that was mutated.
 
 use crate::message::{mismatch, what_to_do};
 use pinhole::follow::{mis_emission_stage, mis_environment_stage};
@@ -13,7 +13,7 @@ fn chapter(name: &str) -> Chapter {
 }
 
 #[test]
-fn the_message_names_the_stage_of_each_planted_bug() {
+fn the_message_names_the_stage_of_each_mutation() {
     let mut before: BTreeMap<&str, Snapshots> = BTreeMap::new();
     for mutation in MUTATIONS {
         let chapter = chapter(mutation.chapter);
@@ -25,12 +25,12 @@ fn the_message_names_the_stage_of_each_planted_bug() {
             format!("{}: the first stage whose numbers differ is \"{}\" (column ", chapter.name, mutation.stage());
         assert!(first.starts_with(&expected), "{}: {first}", mutation.name);
     }
-    eprintln!("planted: {} bugs, each named at its stage", MUTATIONS.len());
+    eprintln!("mutations: {}, each named at its stage", MUTATIONS.len());
 }
 
 #[test]
-fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
-    // Of paths that go on, snapshots hold no more than what they bring.
+fn every_stage_of_pinhole_that_a_chapter_runs_has_a_mutation() {
+    // Of paths that go on, snapshots hold no more than the light that they carry.
     let on_paths = [
         stages::bounces(),
         stages::path_continuation(),
@@ -43,31 +43,28 @@ fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
         vec![mis_emission_stage(), mis_environment_stage()],
     ]
     .concat();
-    let mut kit = Chapter::new("kit", "all that the renderer offers", |_| ()).offer(stages::all()).stages();
-    kit.retain(|stage| !on_paths.contains(stage));
+    let mut pinhole = Chapter::new("pinhole", "all that the renderer offers", |_| ()).offer(stages::all()).stages();
+    pinhole.retain(|stage| !on_paths.contains(stage));
     let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
     for chapter in chapters::all() {
         let plan =
             pinhole::plan::plan(&Census::of(&chapter.world(&Overrides::default())), &chapter.stages()).expect("a plan");
-        stages.extend(plan.stages.iter().filter(|stage| kit.contains(stage)).map(|stage| stage.name.to_string()));
+        stages.extend(plan.stages.iter().filter(|stage| pinhole.contains(stage)).map(|stage| stage.name.to_string()));
     }
     let mutation: BTreeSet<String> = MUTATIONS.iter().map(|mutation| mutation.stage().to_string()).collect();
-    assert_eq!(
-        mutation, stages,
-        "the stages with a planted bug (src/lab/review/planted/table.rs), and those there are"
-    );
+    assert_eq!(mutation, stages, "the stages with a mutation (src/lab/review/mutation/table.rs), and those there are");
     let names: BTreeSet<&str> = MUTATIONS.iter().map(|mutation| mutation.name).collect();
     assert_eq!(names.len(), MUTATIONS.len(), "two bugs have one name");
-    eprintln!("planted: {} stages", stages.len());
+    eprintln!("mutations: {} stages", stages.len());
 }
 
 #[test]
-fn a_bug_that_cannot_be_planted_is_refused_in_a_sentence() {
+fn a_mutation_that_cannot_be_made_is_refused_in_a_sentence() {
     let told = Mutation::named("half-pixle").expect_err("no such bug").to_string();
-    assert!(told.starts_with("there is no bug \"half-pixle\" to be planted; the nearest is half-pixel"), "{told}");
+    assert!(told.starts_with("there is no mutation \"half-pixle\"; the nearest is half-pixel"), "{told}");
     let mutation = Mutation::named("no-cosine").expect("a bug");
     let told = mutation.snapshots(&chapter("01_image")).expect_err("no lights").to_string();
-    assert_eq!(told, "01_image does not run \"Sample point lights\", where no-cosine is planted; 05_pinhole does");
+    assert_eq!(told, "01_image does not run \"Sample point lights\", where no-cosine belongs; 05_pinhole does");
 }
 
 /// The page shows a message with lines left out; what it shows must be what is said.

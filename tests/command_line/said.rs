@@ -11,12 +11,9 @@ fn no_render_ends_in_more_than_six_lines_or_wider_ones_than_120_columns() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (mut most, mut widest, mut tried) = (0, 0, 0);
     let mut look = |what: &str, said: &str| {
-        let double_double = said.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-        (most, widest, tried) = (most.max(said.lines().count()), widest.max(double_double), tried + 1);
-        assert!(
-            (1..=6).contains(&said.lines().count()) && double_double <= 120,
-            "{what}: {double_double} columns\n{said}"
-        );
+        let columns = said.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        (most, widest, tried) = (most.max(said.lines().count()), widest.max(columns), tried + 1);
+        assert!((1..=6).contains(&said.lines().count()) && columns <= 120, "{what}: {columns} columns\n{said}");
     };
     let all = chapters::all();
     let render = |words: &[&str]| {
@@ -121,12 +118,12 @@ fn help_is_as_wide_as_the_terminal_and_coloured_where_it_can_be() {
         commands.into_iter().filter(|name| !name.is_empty() && !name.starts_with([' ', '-'])).collect();
     assert!(commands.len() >= 19, "{commands:?}");
     for command in commands.iter().filter(|command| **command != "help") {
-        let keep_closest = help(&[("COLUMNS", "60")], &[command, "--help"]);
+        let squeezed = help(&[("COLUMNS", "60")], &[command, "--help"]);
         // What is to be typed stands on one line.
-        let lines = keep_closest.lines().filter(|line| !line.starts_with("Usage: "));
-        let double_double = lines.map(|line| line.chars().count()).max().unwrap_or(0);
-        assert!(double_double <= 60, "{command}: {double_double} columns\n{keep_closest}");
-        assert!(!keep_closest.contains('\u{1b}'), "{command}: colours in a pipe");
+        let lines = squeezed.lines().filter(|line| !line.starts_with("Usage: "));
+        let columns = lines.map(|line| line.chars().count()).max().unwrap_or(0);
+        assert!(columns <= 60, "{command}: {columns} columns\n{squeezed}");
+        assert!(!squeezed.contains('\u{1b}'), "{command}: colours in a pipe");
     }
     let forced = [("CLICOLOR_FORCE", "1")];
     assert!(help(&forced, &["--help"]).contains("\u{1b}["), "no colours");

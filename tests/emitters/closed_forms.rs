@@ -14,7 +14,7 @@ fn check(name: &str, received: &Received, truth: f64) {
     let off = received.off(truth);
     assert!(off.abs() <= 4.0, "{name}: {} for {truth}, {off:.2} standard errors off", received.mean);
     assert!(received.error() <= 0.01 * truth, "{name}: the error is {} of {truth}", received.error());
-    assert!(received.mismatch < 1e-9, "{name}: a density differs from itself by {}", received.mismatch);
+    assert!(received.mismatch < 1e-9, "{name}: a pdf differs from itself by {}", received.mismatch);
 }
 
 #[test]
@@ -22,24 +22,24 @@ fn spheres_of_any_size_shine_as_they_should() {
     let (mut cases, mut worst) = (0, 0.0_f64);
     for power in 0..=24 {
         let ratio = libm::exp10(-f64::from(power) / 4.0) * (1.0 - 1e-9);
-        for slant in [0.0, 0.4, 1.0, 1.4] {
+        for angle in [0.0, 0.4, 1.0, 1.4] {
             // Wholly above the horizon, where the law is exact.
-            if libm::asin(ratio) + slant > FRAC_PI_2 {
+            if libm::asin(ratio) + angle > FRAC_PI_2 {
                 continue;
             }
             let mut draws = Draws::new(11, cases);
             let normal = draws.unit_vector();
             let across = draws.unit_vector_across(normal);
-            let centre = (normal * libm::cos(slant) + across * libm::sin(slant)) * 3.0;
+            let centre = (normal * libm::cos(angle) + across * libm::sin(angle)) * 3.0;
             let emitter = Emitter::Sphere { centre, radius: 3.0 * ratio };
             let received = Received::of(&emitter, DVec3::ZERO, normal, RAYS, cases);
-            let truth = PI * ratio * ratio * libm::cos(slant);
-            check(&format!("sphere {ratio:e} at {slant}"), &received, truth);
+            let truth = PI * ratio * ratio * libm::cos(angle);
+            check(&format!("sphere {ratio:e} at {angle}"), &received, truth);
             worst = worst.max(received.off(truth).abs());
             cases += 1;
         }
     }
-    eprintln!("spheres: {cases} sizes and slants from 1 to 1e-6 × {RAYS} rays, worst {worst:.2} standard errors");
+    eprintln!("spheres: {cases} sizes and angles from 1 to 1e-6 × {RAYS} rays, worst {worst:.2} standard errors");
 }
 
 /// A sphere that touches the surface fills all of its sky: E = πL, and the same from inside a sphere.

@@ -25,7 +25,7 @@ fn lamp(width: usize, height: usize, at: [usize; 2]) -> EnvironmentTable {
     EnvironmentTable { image: Texels { width, height, rgb }.into(), turn: [0.6, 0.8] }
 }
 
-/// The sum of a function over all directions, texel by texel in `fine`² pieces.
+/// The sum of a function over all directions, texel by texel in `fine`² parts.
 pub fn summed(environment: &EnvironmentTable, fine: usize, of: impl Fn(DVec3) -> f64) -> f64 {
     let (width, height) = (environment.image.width * fine, environment.image.height * fine);
     let mut sum = 0.0;
@@ -59,9 +59,9 @@ fn directions_fall_as_their_pdfs_say() {
     for (index, (name, environment)) in images.iter().enumerate() {
         let light = EnvironmentLightTable::new(&environment.image);
         let fine = if name.starts_with("evening") { 4 } else { 40 };
-        // Cells end in the middles of texels, so an even number of pieces a texel does not cross them.
+        // Cells end in the middles of texels, so an even number of parts a texel does not cross them.
         let whole = summed(environment, fine, |direction| environment_pdf(&light, environment.turn, direction));
-        assert!((whole - 1.0).abs() < 1e-9, "{name}: densities sum to {whole}");
+        assert!((whole - 1.0).abs() < 1e-9, "{name}: pdfs sum to {whole}");
         let mut worst = 0.0_f64;
         let normals = [DVec3::Y, DVec3::X, DVec3::new(-0.3, -0.8, 0.5).normalize()];
         let mut received = [[0.0; 2]; 3];
@@ -80,7 +80,7 @@ fn directions_fall_as_their_pdfs_say() {
             }
             tried += 1;
         }
-        assert!(worst < 1e-12, "{name}: a density differs from itself by {worst}");
+        assert!(worst < 1e-12, "{name}: a pdf differs from itself by {worst}");
         for (normal, [sum, squares]) in normals.iter().zip(received) {
             let mean = sum / f64::from(RAYS);
             let error = ((squares / f64::from(RAYS) - mean * mean) / f64::from(RAYS)).sqrt();
@@ -119,5 +119,5 @@ fn only_black_cells_have_no_pdf() {
     }
     let black = EnvironmentLightTable::new(&Texels::single([0.0; 3]));
     assert_eq!(environment_direction(&black, [0.0, 1.0], [0.999, 0.999]).1, 0.0, "no light, no direction");
-    eprintln!("environments: {compared} directions, light nowhere without a density");
+    eprintln!("environments: {compared} directions, light nowhere without a pdf");
 }

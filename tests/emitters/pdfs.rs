@@ -1,13 +1,13 @@
-//! Where points of lights fall, against what their densities say; and numbers at their ends.
+//! Where points of lights fall, against what their pdfs say; and numbers at their ends.
 
 use super::*;
 use pinhole::shade::emitter::triangle_solid_angle;
 use std::f64::consts::TAU;
 
 const RAYS: u32 = 100_000;
-/// Bins a side, and pieces of a bin a side.
+/// Bins a side, and parts of a bin a side.
 const BINS: usize = 12;
-const PIECES: usize = 24;
+const PARTS: usize = 24;
 
 /// A patch of an emitter, as two coordinates from 0 to 1 name it, and the coordinates of a point.
 struct Chart {
@@ -60,7 +60,7 @@ fn in_axes(v: DVec3, x: DVec3, z: DVec3) -> [f64; 2] {
     [z.cross(n).dot(v) / z.cross(n).dot(x), n.cross(x).dot(v) / n.cross(x).dot(z)]
 }
 
-/// A histogram of points, bin by bin, against the density summed over each bin: χ², and all bins together hold 1.
+/// A histogram of points, bin by bin, against the pdf summed over each bin: χ², and all bins together hold 1.
 #[test]
 fn points_fall_as_their_pdfs_say() {
     let mut cases = 0;
@@ -83,13 +83,13 @@ fn points_fall_as_their_pdfs_say() {
                 counts[s * BINS + t] += 1.0;
             }
             let expected: Vec<f64> =
-                (0..BINS * BINS).map(|bin| share_of(&emitter, &chart, from, [bin / BINS, bin % BINS])).collect();
+                (0..BINS * BINS).map(|bin| probability_of(&emitter, &chart, from, [bin / BINS, bin % BINS])).collect();
             let whole: f64 = expected.iter().sum();
-            // Arcs are summed as straight edges, and a density with a steep end in steps.
-            assert!((whole - 1.0).abs() < 6e-3, "{name} from {from}: densities sum to {whole}");
+            // Arcs are summed as straight edges, and a pdf with a steep end in steps.
+            assert!((whole - 1.0).abs() < 6e-3, "{name} from {from}: pdfs sum to {whole}");
             let (mut chi, mut bins) = (0.0, 0);
-            for (count, share) in counts.iter().zip(&expected) {
-                let expected = share / whole * f64::from(RAYS);
+            for (count, probability) in counts.iter().zip(&expected) {
+                let expected = probability / whole * f64::from(RAYS);
                 if expected >= 5.0 {
                     chi += (count - expected) * (count - expected) / expected;
                     bins += 1;
@@ -102,15 +102,15 @@ fn points_fall_as_their_pdfs_say() {
             cases += 1;
         }
     }
-    eprintln!("densities: {cases} cases × {RAYS} points in {} bins", BINS * BINS);
+    eprintln!("pdfs: {cases} cases × {RAYS} points in {} bins", BINS * BINS);
 }
 
-/// The density summed over a bin: piece by piece, each the solid angle of its four corners.
-fn share_of(emitter: &Emitter, chart: &Chart, from: DVec3, bin: [usize; 2]) -> f64 {
-    let size = 1.0 / (BINS * PIECES) as f64;
+/// The pdf summed over a bin: part by part, each the solid angle of its four corners.
+fn probability_of(emitter: &Emitter, chart: &Chart, from: DVec3, bin: [usize; 2]) -> f64 {
+    let size = 1.0 / (BINS * PARTS) as f64;
     let mut sum = 0.0;
-    for piece in 0..PIECES * PIECES {
-        let [s, t] = [bin[0] * PIECES + piece / PIECES, bin[1] * PIECES + piece % PIECES].map(|at| at as f64 * size);
+    for part in 0..PARTS * PARTS {
+        let [s, t] = [bin[0] * PARTS + part / PARTS, bin[1] * PARTS + part % PARTS].map(|at| at as f64 * size);
         let corner = |i: f64, j: f64| (chart.place)([s + i * size, t + j * size]) - from;
         let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
         let angle = triangle_solid_angle(&[corners[0], corners[1], corners[2]])
@@ -120,7 +120,7 @@ fn share_of(emitter: &Emitter, chart: &Chart, from: DVec3, bin: [usize; 2]) -> f
     sum
 }
 
-/// Numbers at the ends of their range give points and densities that are numbers, on every light from everywhere.
+/// Numbers at the ends of their range give points and pdfs that are numbers, on every light from everywhere.
 #[test]
 fn ends_of_the_unit_square_are_no_trouble() {
     let ends = [0.0, 1.0 / 16_777_216.0, 0.5, 1.0 - 1.0 / 16_777_216.0];
@@ -152,5 +152,5 @@ fn ends_of_the_unit_square_are_no_trouble() {
             }
         }
     }
-    eprintln!("ends: {tried} points, none without a density");
+    eprintln!("ends: {tried} points, none without a pdf");
 }

@@ -93,12 +93,12 @@ fn a_floor_is_as_bright_as_closed_forms_say() {
         let mut world = floor(Sampler::Sobol);
         spawn(&mut world, Emissive { radiance: Rgb::grey(2.0), ..Emissive::default() });
         check(name, &world, 2.0 * irradiance);
-        for (sides, share) in [(DQuat::IDENTITY, 1.0), (DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0), 0.0)] {
+        for (sides, seen) in [(DQuat::IDENTITY, 1.0), (DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0), 0.0)] {
             let mut world = floor(Sampler::Independent);
             spawn(&mut world, Emissive { radiance: Rgb::grey(2.0), sides: Sides::Front });
             let planar = matches!(name, "disk" | "square" | "square of two triangles");
             let lamps: Vec<Entity> = world.query_filtered::<Entity, With<Emissive>>().iter(&world).collect();
-            if planar && share == 0.0 {
+            if planar && seen == 0.0 {
                 // Turned over about an axis through its middle at its own height, and so in place.
                 for lamp in lamps {
                     let mut placement = world.get_mut::<Placement>(lamp).expect("placed");
@@ -107,7 +107,7 @@ fn a_floor_is_as_bright_as_closed_forms_say() {
                     placement.position.y += height;
                 }
                 assert_eq!(told(&world), [0.0, 0.0], "{name}, from behind");
-            } else if share == 1.0 {
+            } else if seen == 1.0 {
                 check(&format!("{name}, one side"), &world, 2.0 * irradiance);
             }
         }
@@ -151,7 +151,7 @@ fn a_floor_under_an_image_of_the_sky() {
 
 /// What shines and cannot be aimed at is said; what is dark is no light.
 #[test]
-fn the_plan_tells_what_is_aimed_at() {
+fn the_plan_tells_which_lights_are_sampled() {
     let mut world = floor(Sampler::Sobol);
     let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..Placement::at(0.0, 5.0, 0.0) };
     world.spawn((Name::new("egg"), Sphere::default(), egg, Emissive::default()));

@@ -21,21 +21,21 @@ use pinhole_lab::measure::ray_aim::Draws;
 /// Surfaces at once.
 const ROWS: u32 = 1024;
 
-fn share<T: Table>(world: &mut World, scene: &World) {
+fn insert<T: Table>(world: &mut World, scene: &World) {
     world.insert_resource(Shared::new(T::extract(&Census::of(scene)).expect("a table")));
 }
 
 /// A world with the stages' tables and one tile.
 fn tile_world(scene: &World) -> (World, Entity) {
     let mut world = World::new();
-    share::<AreaLightTable>(&mut world, scene);
-    share::<SamplingTable>(&mut world, scene);
-    share::<SphereTable>(&mut world, scene);
-    share::<DiskTable>(&mut world, scene);
-    share::<RectangleTable>(&mut world, scene);
-    share::<CuboidTable>(&mut world, scene);
-    share::<TriangleTable>(&mut world, scene);
-    share::<PlaneTable>(&mut world, scene);
+    insert::<AreaLightTable>(&mut world, scene);
+    insert::<SamplingTable>(&mut world, scene);
+    insert::<SphereTable>(&mut world, scene);
+    insert::<DiskTable>(&mut world, scene);
+    insert::<RectangleTable>(&mut world, scene);
+    insert::<CuboidTable>(&mut world, scene);
+    insert::<TriangleTable>(&mut world, scene);
+    insert::<PlaneTable>(&mut world, scene);
     let columns = (
         Surfaces::default(),
         MaterialRows::default(),
@@ -47,7 +47,7 @@ fn tile_world(scene: &World) -> (World, Entity) {
     (world, tile)
 }
 
-/// Aims from these surfaces and looks for everything in the way: how many rays were sent, and what each met.
+/// Samples lights from these surfaces and traces the shadow rays: how many there are, and what each hit.
 fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) -> (usize, Vec<u32>) {
     let mut entity = world.entity_mut(tile);
     entity.insert(SampleNumber(sample));
@@ -58,7 +58,7 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     }
     entity.get_mut::<MaterialRows>().expect("rows").row = (0..surfaces.len() as u32).collect();
     entity.get_mut::<LightRays>().expect("rays").clear();
-    entity.get_mut::<LightPdfs>().expect("densities").clear();
+    entity.get_mut::<LightPdfs>().expect("pdfs").clear();
     world.run_system_once(sample_area_lights).expect("runs");
     world.run_system_once(start_shadows).expect("runs");
     world.run_system_once(intersect_spheres::<LightRays, ShadowHits>).expect("runs");
@@ -69,7 +69,7 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     world.run_system_once(intersect_planes::<LightRays, ShadowHits>).expect("runs");
     let entity = world.entity(tile);
     let rays = entity.get::<LightRays>().expect("rays");
-    assert_eq!(entity.get::<LightPdfs>().expect("densities").rows(), rays.rows());
+    assert_eq!(entity.get::<LightPdfs>().expect("pdfs").rows(), rays.rows());
     (rays.rows(), entity.get::<ShadowHits>().expect("hits").shape.clone())
 }
 
@@ -123,7 +123,7 @@ fn turned(draws: &mut Draws) -> DQuat {
 
 /// From as near as rounding lets a surface come, to a thousand sizes away.
 #[test]
-fn no_light_stands_in_its_own_way() {
+fn no_light_occludes_itself() {
     let (mut sent, mut blocked) = (0, 0);
     for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
         for case in 0..24 {
@@ -147,8 +147,8 @@ fn no_light_stands_in_its_own_way() {
                 })
                 .collect();
             for sample in 0..2 {
-                let (rays, met) = traced(&mut world, tile, &surfaces, sample);
-                let occluders = met.iter().filter(|&&shape| shape != NO_SHAPE).count();
+                let (rays, blockers) = traced(&mut world, tile, &surfaces, sample);
+                let occluders = blockers.iter().filter(|&&shape| shape != NO_SHAPE).count();
                 // Of several, one may hide the other.
                 if lights.emitter.len() == 1 {
                     assert_eq!(occluders, 0, "{name}, case {case}, size {size:e} at {far_off}");
@@ -186,8 +186,8 @@ fn what_stands_before_a_light_hides_it() {
                     Surface { position, normal: Vec3::Y, bound, material: 0 }
                 })
                 .collect();
-            let (rays, met) = traced(&mut world, tile, &surfaces, 0);
-            assert!(met.iter().all(|&shape| shape != NO_SHAPE), "{name}, case {case}");
+            let (rays, blockers) = traced(&mut world, tile, &surfaces, 0);
+            assert!(blockers.iter().all(|&shape| shape != NO_SHAPE), "{name}, case {case}");
             sent += rays;
         }
     }
@@ -195,9 +195,9 @@ fn what_stands_before_a_light_hides_it() {
     assert!(sent > 30_000);
 }
 
-/// The density beside each ray is the one that a ray which meets the light by chance is told.
+/// The pdf beside each ray is the one that a ray which hits the light by BSDF sampling is given.
 #[test]
-fn both_ways_to_a_light_know_one_pdf() {
+fn both_strategies_know_one_pdf() {
     let (mut compared, mut worst) = (0, 0.0_f64);
     for (index, (name, lamp)) in LAMPS.into_iter().enumerate() {
         let mut draws = Draws::new(2500, index as u64);
@@ -205,8 +205,8 @@ fn both_ways_to_a_light_know_one_pdf() {
             Placement { position: DVec3::new(0.0, 4.0, 0.0), orientation: turned(&mut draws), ..Placement::default() };
         let scene = lit_scene(lamp, at, 1.0);
         let lights = AreaLightTable::extract(&Census::of(&scene)).expect("lights");
-        let chances: f64 = lights.probability.iter().sum();
-        assert_eq!(chances, 1.0);
+        let probabilities: f64 = lights.probability.iter().sum();
+        assert_eq!(probabilities, 1.0);
         let (mut world, tile) = tile_world(&scene);
         let surfaces: Vec<Surface> = (0..ROWS)
             .map(|row| {
@@ -217,7 +217,7 @@ fn both_ways_to_a_light_know_one_pdf() {
             .collect();
         traced(&mut world, tile, &surfaces, 3);
         let entity = world.entity(tile);
-        let (rays, pdfs) = (entity.get::<LightRays>().expect("rays"), entity.get::<LightPdfs>().expect("densities"));
+        let (rays, pdfs) = (entity.get::<LightRays>().expect("rays"), entity.get::<LightPdfs>().expect("pdfs"));
         for ray in 0..rays.rows() {
             let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = rays.direction_of(ray);
@@ -225,20 +225,20 @@ fn both_ways_to_a_light_know_one_pdf() {
             let told = |light| area_light_pdf(&lights, light, from, at);
             let nearest = (0..lights.emitter.len()).map(|light| (told(light) / pdfs.pdf[ray] - 1.0).abs());
             let off = nearest.fold(f64::INFINITY, f64::min);
-            // The direction is rounded to f32 in between, which at a disk's ends, where its density grows without end,
-            // is much; from afar a density goes with the square of the distance, and the reach ends short of the light.
-            // Where a flat light is seen at a slant, the rounding counts by as much more as it is slanted.
-            let slant = match &lights.emitter[0] {
+            // The direction is rounded to f32 in between, which at a disk's ends, where its pdf grows without end,
+            // is much; from afar a pdf goes with the square of the distance, and t_max ends short of the light.
+            // Where a planar light is seen obliquely, the rounding counts by one over the cosine more.
+            let obliqueness = match &lights.emitter[0] {
                 Emitter::Rectangle(planar) => planar.normal.dot(direction).abs(),
                 Emitter::Triangle { normal, .. } => normal.dot(direction).abs(),
                 _ => 1.0,
             };
-            let off = off * slant;
+            let off = off * obliqueness;
             assert!(off < if matches!(name, "disk" | "ellipse") { 1e-3 } else { 5e-6 }, "{name}, ray {ray}: {off}");
             worst = worst.max(off);
             compared += 1;
         }
     }
-    eprintln!("densities: {compared} rays, worst {worst:.1e} apart");
+    eprintln!("pdfs: {compared} rays, worst {worst:.1e} apart");
     assert!(compared > 4000);
 }

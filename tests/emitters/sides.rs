@@ -1,4 +1,4 @@
-//! From which side a shape is met, and what shines on one side only.
+//! From which side a shape is hit, and what shines on one side only.
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
@@ -27,7 +27,7 @@ fn scene(eye: DVec3, target: DVec3, shape: impl Bundle, placement: Placement) ->
     world
 }
 
-/// What the middle ray says: whether it met the shape from outside, and the red that it brings.
+/// What the middle ray says: whether it hit the shape from outside, and the red that it brings.
 fn seen(world: &World) -> (u32, f32) {
     let inspection = inspect(world, &offer(), 32).expect("inspects");
     let tile = inspection.world.entity(inspection.tiles[0]);
@@ -50,11 +50,11 @@ fn every_kind_of_shape_knows_its_sides_also_mirrored() {
         let normal = |own: DVec3| (turn * (own / scale)).normalize();
         let placed = corners.map(|corner| turn * (corner * scale));
         let around = (placed[1] - placed[0]).cross(placed[2] - placed[0]).normalize();
-        let mut check = |name: &str, shape: &dyn Fn(DVec3, DVec3) -> World, front: DVec3, reach: f64| {
+        let mut check = |name: &str, shape: &dyn Fn(DVec3, DVec3) -> World, front: DVec3, distance: f64| {
             for (sign, expected) in [(1.0, (1, 3.0)), (-1.0, (0, 0.0))] {
                 // From inside a closed shape, towards its wall.
-                let [eye, target] = if reach > 0.0 {
-                    if sign > 0.0 { [front * reach, DVec3::ZERO] } else { [DVec3::ZERO, front * reach] }
+                let [eye, target] = if distance > 0.0 {
+                    if sign > 0.0 { [front * distance, DVec3::ZERO] } else { [DVec3::ZERO, front * distance] }
                 } else {
                     [front * (sign * 2.0), DVec3::ZERO]
                 };
@@ -63,24 +63,24 @@ fn every_kind_of_shape_knows_its_sides_also_mirrored() {
                 tried += 1;
             }
         };
-        let aslant = |front: DVec3| (front + 0.3 * front.any_orthonormal_vector()).normalize();
+        let oblique = |front: DVec3| (front + 0.3 * front.any_orthonormal_vector()).normalize();
         let plane = DVec3::new(0.3, -1.0, 0.2);
-        check("plane", &|eye, to| scene(eye, to, Plane { normal: plane }, placement), aslant(normal(plane)), 0.0);
-        check("disk", &|eye, to| scene(eye, to, Disk::default(), placement), aslant(normal(DVec3::Y)), 0.0);
-        check("rectangle", &|eye, to| scene(eye, to, Rectangle::default(), placement), aslant(normal(DVec3::Y)), 0.0);
+        check("plane", &|eye, to| scene(eye, to, Plane { normal: plane }, placement), oblique(normal(plane)), 0.0);
+        check("disk", &|eye, to| scene(eye, to, Disk::default(), placement), oblique(normal(DVec3::Y)), 0.0);
+        check("rectangle", &|eye, to| scene(eye, to, Rectangle::default(), placement), oblique(normal(DVec3::Y)), 0.0);
         let bare = Triangle { vertices: corners, ..Triangle::default() };
-        check("triangle", &|eye, to| scene(eye, to, bare, placement), aslant(around), 0.0);
+        check("triangle", &|eye, to| scene(eye, to, bare, placement), oblique(around), 0.0);
         for up in [DVec3::Y, DVec3::NEG_Y] {
             let with = Triangle { normals: Some([up; 3]), ..bare };
-            check("triangle with normals", &|eye, to| scene(eye, to, with, placement), aslant(normal(up)), 0.0);
+            check("triangle with normals", &|eye, to| scene(eye, to, with, placement), oblique(normal(up)), 0.0);
         }
         let even = Placement { scale: scale.signum(), ..placement };
-        for way in [DVec3::X, DVec3::new(-0.6, 0.5, 0.7)] {
-            check("sphere", &|eye, to| scene(eye, to, Sphere::default(), even), way, 9.0);
+        for direction in [DVec3::X, DVec3::new(-0.6, 0.5, 0.7)] {
+            check("sphere", &|eye, to| scene(eye, to, Sphere::default(), even), direction, 9.0);
             let uneven = Placement { scale: scale * DVec3::new(1.0, 1.0, 1.7), ..placement };
-            check("ellipsoid", &|eye, to| scene(eye, to, Sphere::default(), uneven), way, 9.0);
-            check("cuboid", &|eye, to| scene(eye, to, Cuboid::default(), placement), way, 9.0);
+            check("ellipsoid", &|eye, to| scene(eye, to, Sphere::default(), uneven), direction, 9.0);
+            check("cuboid", &|eye, to| scene(eye, to, Cuboid::default(), placement), direction, 9.0);
         }
     }
-    eprintln!("sides: {tried} shapes met from one side or the other");
+    eprintln!("sides: {tried} shapes hit from one side or the other");
 }

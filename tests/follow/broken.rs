@@ -39,11 +39,11 @@ fn off(name: &str, stages: &[Stage]) -> f64 {
 #[test]
 fn mistakes_are_noticed_where_theory_knows_the_answer() {
     let alike = |u| DVec3::from(uniform_direction(u));
-    let matte = |direction, share| instead(scatter_matte_by(MatteSample { direction, share }));
-    let pentagon = "pentagon of triangles, met by chance";
+    let matte = |direction, weight| instead(scatter_matte_by(MatteSample { direction, weight }));
+    let pentagon = "pentagon of triangles, BSDF sampling";
     let mistakes: Vec<(&str, &str, Vec<Stage>)> = vec![
-        ("19, the wrong density", "rough metal, α = 1, seen squarely", instead(metal_counted_as_matte())),
-        ("20, beams kept narrow", "light through a pane, squarely", instead(glass_that_keeps_beams_narrow())),
+        ("19, the wrong pdf", "rough metal, α = 1, seen along its normal", instead(metal_counted_as_matte())),
+        ("20, beams kept narrow", "light through a pane, normal incidence", instead(glass_that_keeps_beams_narrow())),
         ("21, the light's cosine", "square light overhead, aimed at", instead(light_without_cosine())),
         ("21, the Jacobian", "square light overhead, aimed at", instead(light_without_jacobian())),
         ("22, the missing cosine", "sky past a ball overhead", instead(sky_in_all_directions_alike())),
@@ -55,9 +55,9 @@ fn mistakes_are_noticed_where_theory_knows_the_answer() {
         ("24, four moments", "an edge comes to a point and stays", instead(moments_in_turn(4))),
         ("25, the missing cosine", pentagon, matte(alike, |albedo, _| weight_without_cosine(albedo))),
         ("25, the forgotten π", pentagon, matte(cosine_direction, |albedo, _| weight_without_pi(albedo))),
-        ("25, the wrong density", pentagon, matte(alike, |albedo, _| albedo)),
+        ("25, the wrong pdf", pentagon, matte(alike, |albedo, _| albedo)),
         ("25, the cosine twice", pentagon, matte(cosine_direction, |albedo, cosine| albedo * cosine)),
-        ("26, counted in full", "square light overhead, weighed", instead(aimed_light_counted_in_full())),
+        ("26, counted in full", "square light overhead, MIS", instead(light_samples_counted_in_full())),
     ];
     let tried = mistakes.len();
     for (what, name, stages) in mistakes {
@@ -88,7 +88,7 @@ fn mistakes_are_kept_by_the_plan() {
         ("19_mirrors", metal_counted_as_matte()),
         ("20_glass", glass_that_keeps_beams_narrow()),
         ("22_ambient_occlusion", sky_in_all_directions_alike()),
-        ("26_choosing_samples", aimed_light_counted_in_full()),
+        ("26_choosing_samples", light_samples_counted_in_full()),
     ] {
         let scene = chapters::all().into_iter().find(|own| own.name == chapter).expect("a chapter");
         let name = stage.name;

@@ -62,7 +62,7 @@ fn over_square(width: f64, function: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// What a point of the ground receives of a point light of intensity 1 straight above through flat layers: for each its
-/// height and index of refraction, and the share that all faces between let through together.
+/// height and index of refraction, and the transmittance of all faces between together.
 ///
 /// A ring of directions, sin θ dθ, falls on the ring x dx of the ground, where x is the sum of all h tan θᵢ.
 fn through_layers(x: f64, layers: &[(f64, f64)]) -> f64 {
@@ -213,7 +213,7 @@ fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
 }
 
 #[test]
-fn light_from_lamps_brings_what_the_camera_s_paths_bring() {
+fn light_from_area_lights_brings_what_the_camera_s_paths_bring() {
     agrees("caustics", &|| caustics(true), 16);
     let through_a_lens = || {
         let mut world = caustics(true);
@@ -234,7 +234,7 @@ fn light_from_lamps_brings_what_the_camera_s_paths_bring() {
 }
 
 #[test]
-fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
+fn light_from_area_lights_has_the_same_bits_however_it_is_traced() {
     let filters = [Filter::Box { radius: 0.5 }, Filter::Mitchell { radius: 2.0, b: 1.0 / 3.0, c: 1.0 / 3.0 }];
     let (mut tried, folder) = (0, tempfile::tempdir().expect("a folder"));
     for (lamps, filter, sampler) in [

@@ -43,7 +43,7 @@ fn an_even_sky_is_seen_evenly_through_any_number_of_shells() {
                 (lowest, highest) = (lowest.min(part), highest.max(part));
             }
             eprintln!("{count:>2} {kind}: from {lowest} to {highest}");
-            // What is caught in a cuboid for 4096 legs is lost, and is never more than a share of a pixel's light.
+            // What is caught in a cuboid for 4096 segments is lost, and is never more than a fraction of a pixel's light.
             assert!((highest - 1.0).abs() < 1e-5, "{count} {kind}: {highest}");
             assert!(kind == "cuboids" || (lowest - 1.0).abs() < 1e-5, "{count} {kind}: {lowest}");
             tried += 1;

@@ -1,4 +1,4 @@
-//! What must be exactly nothing, and what must be nearly all: the cases of light's ways that have no standard error.
+//! What must be exactly nothing, and what must be nearly all: the cases of light transport that have no standard error.
 
 use super::*;
 use glam::DVec3;
@@ -61,10 +61,10 @@ fn a_point_behind_glass_lights_nothing_and_that_is_said() {
     eprintln!("points behind glass: {tried} integrators, no light at all");
 }
 
-/// In a closed room of albedo a whose ways end by chance alone, a way has 2 + a² / (1 − a) legs on average: two before
-/// the first chance, a² for going on then, and a each time after.
+/// In a closed room of albedo a whose paths end by Russian roulette alone, a path has 2 + a² / (1 − a) segments on average: two before
+/// the first roulette, a² for surviving it, and a each time after.
 #[test]
-fn ways_in_a_closed_room_are_as_long_as_they_must_be() {
+fn paths_in_a_closed_room_are_as_long_as_they_must_be() {
     for albedo in [0.5, 0.8, 0.99] {
         let room = |world: &mut World| {
             let wall =
@@ -77,15 +77,15 @@ fn ways_in_a_closed_room_are_as_long_as_they_must_be() {
         world.entity_mut(camera).insert(Statistics);
         let rendered = render(&world, &offer(), &Execution::default(), &()).expect("renders");
         let slot = rendered.plan.stages.iter().position(|stage| stage.name == "Intersect spheres").expect("runs");
-        let ways = f64::from(rendered.film.width * rendered.film.height * 8);
-        let (length, truth) = (rendered.laps[slot].rows as f64 / ways, 2.0 + albedo * albedo / (1.0 - albedo));
-        // What comes after the first chance is a geometric number of legs, or none.
+        let paths = f64::from(rendered.film.width * rendered.film.height * 8);
+        let (length, truth) = (rendered.laps[slot].rows as f64 / paths, 2.0 + albedo * albedo / (1.0 - albedo));
+        // What comes after the first roulette is a geometric number of segments, or none.
         let (on, end) = (albedo * albedo, 1.0 - albedo);
         let variance = on * (2.0 - end) / (end * end) - on * on / (end * end);
-        let error = (variance / ways).sqrt();
+        let error = (variance / paths).sqrt();
         let off = (length - truth) / error;
-        eprintln!("albedo {albedo}: {ways} ways of {length:.3} legs for {truth:.3}: {off:+.1} SE");
-        assert!(off.abs() <= 4.0 && error <= 0.02 * truth, "albedo {albedo}: {length} legs for {truth}");
+        eprintln!("albedo {albedo}: {paths} paths of {length:.3} segments for {truth:.3}: {off:+.1} SE");
+        assert!(off.abs() <= 4.0 && error <= 0.02 * truth, "albedo {albedo}: {length} segments for {truth}");
     }
 }
 

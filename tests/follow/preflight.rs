@@ -17,7 +17,7 @@ fn said(scene: &World) -> Result<Vec<String>, Error> {
 }
 
 #[test]
-fn slips_are_told_before_the_picture_is_rendered() {
+fn mistakes_are_reported_before_the_picture_is_rendered() {
     let expected: &[(&str, &[&[&str]])] = &[
         ("nothing wrong", &[]),
         ("no light, by path tracing", &[&["probably be black", "there is no light"]]),
@@ -164,7 +164,7 @@ fn nothing_is_said_of_the_chapters_scenes() {
 
 /// A chapter that has not come to following light refuses what would be black in its picture.
 #[test]
-fn matter_that_no_stage_follows_is_refused() {
+fn a_material_that_no_stage_samples_is_refused() {
     let scene = |spawn: &dyn Fn(&mut World) -> Entity| {
         let mut world = World::new();
         world.spawn((Name::new("camera"), PerspectiveCamera::default(), Placement::at(0.0, 0.0, 5.0)));

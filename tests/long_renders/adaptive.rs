@@ -1,4 +1,4 @@
-//! Adaptive sampling: right on average, where the naive way is not, and as exact as it says.
+//! Adaptive sampling: right on average, where the naive method is not, and as exact as it says.
 
 use super::*;
 use pinhole::plan::Census;
@@ -10,7 +10,7 @@ const SIDE: u32 = 24;
 const RADIUS: f64 = 1.3;
 const HEIGHT: f64 = 4.0;
 
-/// A white disc on black, by parallel rays: a pixel's light is the share of it that the disc covers.
+/// A white disc on black, by parallel rays: a pixel's light is the fraction of it that the disc covers.
 fn disc(seed: u64, samples: u32, adaptive: Adaptive) -> World {
     let mut world = World::new();
     let sampling = Sampling { samples, seed, sampler: Sampler::Independent, filter: Filter::Box { radius: 0.5 } };
@@ -26,7 +26,7 @@ fn along(raster: f64) -> f64 {
     (raster / f64::from(SIDE) - 0.5) * HEIGHT
 }
 
-/// The share of a pixel that the disc covers: lengths of chords, summed across the pixel.
+/// The fraction of a pixel that the disc covers: lengths of chords, summed across the pixel.
 fn covered(x: u32, y: u32) -> f64 {
     const LINES: u32 = 4096;
     let (top, bottom) = (along(f64::from(y)), along(f64::from(y + 1)));
@@ -56,7 +56,7 @@ fn mean_of(values: &[f64]) -> (f64, f64) {
 }
 
 #[test]
-fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
+fn the_naive_method_is_wrong_on_average_and_the_two_stages_are_not() {
     const RENDERS: u64 = 48;
     let adaptive = Adaptive { error: 0.1, pilot: 8 };
     let truth: Vec<f64> = (0..SIDE * SIDE).map(|pixel| covered(pixel % SIDE, pixel / SIDE)).collect();
@@ -67,7 +67,7 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
     let thin: Vec<usize> = (0..truth.len()).filter(|&pixel| truth[pixel] > 0.0 && truth[pixel] < 0.2).collect();
     let thin_truth: f64 = thin.iter().map(|&pixel| truth[pixel]).sum();
 
-    let (mut ours, mut pinhole_thin, mut naive_thin) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut two_stage, mut pinhole_thin, mut naive_thin) = (Vec::new(), Vec::new(), Vec::new());
     let mut samples = [0.0; 2];
     for seed in 0..RENDERS {
         let (film, outcome) = run(seed, 400, adaptive);
@@ -76,7 +76,7 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
             let (tile, row) = film.place(pixel as u32 % SIDE, pixel as u32 / SIDE);
             film.tiles[tile].mean_f64(row)[0]
         };
-        ours.push((0..truth.len()).map(value).sum::<f64>() / truth.len() as f64);
+        two_stage.push((0..truth.len()).map(value).sum::<f64>() / truth.len() as f64);
         pinhole_thin.push(thin.iter().map(|&pixel| value(pixel)).sum());
         let naive = |pixel: usize| {
             let at = [pixel as u32 % SIDE, pixel as u32 / SIDE];
@@ -90,12 +90,13 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
         samples[1] += (0..truth.len()).map(|pixel| f64::from(naive(pixel).samples)).sum::<f64>() / truth.len() as f64;
         naive_thin.push(thin.iter().map(|&pixel| naive(pixel).mean).sum());
     }
-    let [ours, pinhole_thin, naive_thin] = [ours, pinhole_thin, naive_thin].map(|values: Vec<f64>| mean_of(&values));
+    let [two_stage, pinhole_thin, naive_thin] =
+        [two_stage, pinhole_thin, naive_thin].map(|values: Vec<f64>| mean_of(&values));
     let off = |(mean, error): (f64, f64), truth: f64| (mean - truth) / error;
     eprintln!(
         "adaptive: the whole disc {:+.1} standard errors from πr²; its {} thin pixels: two stages {:+.1} ({:+.1} %), \
          naive {:+.1} ({:+.1} %); {:.1} and {:.1} samples a pixel",
-        off(ours, area),
+        off(two_stage, area),
         thin.len(),
         off(pinhole_thin, thin_truth),
         (pinhole_thin.0 / thin_truth - 1.0) * 100.0,
@@ -104,8 +105,8 @@ fn the_naive_way_is_wrong_on_average_and_the_two_stages_are_not() {
         samples[0] / RENDERS as f64,
         samples[1] / RENDERS as f64
     );
-    assert!(off(ours, area).abs() < 4.0 && off(pinhole_thin, thin_truth).abs() < 4.0, "the two stages are biased");
-    assert!(off(naive_thin, thin_truth) < -6.0, "the bias of the naive way was not found");
+    assert!(off(two_stage, area).abs() < 4.0 && off(pinhole_thin, thin_truth).abs() < 4.0, "the two stages are biased");
+    assert!(off(naive_thin, thin_truth) < -6.0, "the bias of the naive method was not found");
 }
 
 #[test]

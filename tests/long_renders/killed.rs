@@ -66,7 +66,7 @@ fn ten_kills_at_random_moments_change_no_bit() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (mut killed, mut continued, mut pace) = (0, 0, 1.0);
     for number in 0..10 {
-        // Long enough on average for a tenth of the way, short enough that some end before anything is written.
+        // Long enough on average for a tenth of the render, short enough that some end before anything is written.
         let wait = took.mul_f64(pace * (0.02 + 0.18 * scattered(number)));
         let more: &[&str] = if number == 0 { &[] } else { &["--resume"] };
         let child = pinhole(folder.path(), more).spawn().expect("the program starts");

@@ -38,7 +38,7 @@ fn plain(eye: scenes::Eye) -> World {
 #[test]
 fn layers_agree_with_each_other_and_with_the_scene() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let (mut met, mut missed) = (0, 0);
+    let (mut hit, mut missed) = (0, 0);
     for camera in scenes::EYES {
         let mut scene = plain(camera);
         let (_, layer) = written(&scene, &folder.path().join("layers.exr"));
@@ -70,12 +70,12 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             if at("coverage.A", pixel) == 0.0 {
                 assert_eq!(at("entity.ID", pixel), f64::from(u32::MAX));
                 for name in ["position.X", "normal.Y", "normal_camera.Z", "albedo.R", "depth_along_ray.Z", "uv.U"] {
-                    assert_eq!(at(name, pixel), 0.0, "{name} where nothing is met");
+                    assert_eq!(at(name, pixel), 0.0, "{name} where nothing is hit");
                 }
                 missed += 1;
                 continue;
             }
-            met += 1;
+            hit += 1;
             let entity = at("entity.ID", pixel) as usize;
             let albedo = three("albedo", "RGB", pixel);
             assert!((albedo - colours[entity]).length() < 1e-6, "{albedo} of {}", names[entity]);
@@ -98,13 +98,13 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             assert!((ray - at("depth_along_ray.Z", pixel)).abs() < 1e-6 * size, "{ray}");
         }
     }
-    assert!(met > 1000 && missed > 100, "{met} met, {missed} missed");
-    eprintln!("layers: {met} pixels that met something and {missed} that did not, every layer checked by another");
+    assert!(hit > 1000 && missed > 100, "{hit} hit, {missed} missed");
+    eprintln!("layers: {hit} pixels that hit something and {missed} that did not, every layer checked by another");
 }
 
-/// Where a camera takes samples, a layer is the mean over those that met something.
+/// Where a camera takes samples, a layer is the mean over those that hit something.
 #[test]
-fn layers_are_means_over_the_samples_that_met_something() {
+fn layers_are_means_over_the_samples_that_hit_something() {
     let layers = Layers { kinds: vec![LayerKind::Coverage, LayerKind::Position, LayerKind::Variance] };
     let scene = sampled(SIZE, seven(Sampler::Independent), layers);
     let mut in_progress =
@@ -145,9 +145,9 @@ fn layers_are_means_over_the_samples_that_met_something() {
     assert_eq!(layers.taken[row], 7);
     let edge = (0..SIZE[0] * SIZE[1]).filter(|pixel| {
         let (tile, row) = in_progress.film.place(pixel % SIZE[0], pixel / SIZE[0]);
-        let share = in_progress.film.layers[tile].mean(LayerKind::Coverage, 0, row);
-        assert!((0.0..=1.0).contains(&share));
-        share > 0.0 && share < 1.0
+        let coverage = in_progress.film.layers[tile].mean(LayerKind::Coverage, 0, row);
+        assert!((0.0..=1.0).contains(&coverage));
+        coverage > 0.0 && coverage < 1.0
     });
     let edge = edge.count();
     assert!(edge > 20, "{edge} pixels at an edge");

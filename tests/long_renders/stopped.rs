@@ -262,7 +262,7 @@ fn many_lights_take_smaller_tiles_and_not_more_memory() {
         let render = begun(&scene(lights, [64, 64]), &Execution::default());
         let of_lights = ["light", "light pdf", "shadow"];
         let columns = render.plan.columns.iter().filter(|column| of_lights.contains(&column.name));
-        let row: usize = columns.map(|column| column.bytes_a_row()).sum();
+        let row: usize = columns.map(|column| column.bytes_per_row()).sum();
         let side = render.film.tile_side;
         let bytes = (side * side * lights) as usize * row;
         assert!(row > 0 && bytes <= 16 << 20, "{lights} lights in tiles of {side}: {bytes} bytes");

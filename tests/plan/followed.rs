@@ -33,7 +33,7 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 Integrator::Distribution { .. } => Light,
                 _ => Bsdf,
             };
-            let (aimed, weighed) = (lights != Bsdf, lights == Mis);
+            let (samples_lights, mis) = (lights != Bsdf, lights == Mis);
             let whitted = matches!(integrator, Integrator::Whitted { .. });
             let path = matches!(integrator, Integrator::Path { .. });
             let random = path || matches!(integrator, Integrator::Distribution { .. });
@@ -54,14 +54,14 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 ("Sample BSDFs: metal", random && has(Metal)),
                 ("Sample BSDFs: matte", path),
                 ("Russian roulette", path),
-                ("Sample area lights", aimed && has(Lamp)),
-                ("Sample the environment", aimed && has(Environment)),
-                ("Compute MIS weights: matte", weighed && (has(Lamp) || has(Environment))),
-                ("Compute MIS weights: metal", weighed && has(Metal) && (has(Lamp) || has(Environment))),
-                ("Add emission, weighted by MIS", aimed && has(Lamp)),
-                ("Add emission", !aimed && !sky && has(Lamp)),
-                ("Add the environment, weighted by MIS", aimed && has(Environment)),
-                ("Add the environment", !aimed && !sky && has(Environment)),
+                ("Sample area lights", samples_lights && has(Lamp)),
+                ("Sample the environment", samples_lights && has(Environment)),
+                ("Compute MIS weights: matte", mis && (has(Lamp) || has(Environment))),
+                ("Compute MIS weights: metal", mis && has(Metal) && (has(Lamp) || has(Environment))),
+                ("Add emission, weighted by MIS", samples_lights && has(Lamp)),
+                ("Add emission", !samples_lights && !sky && has(Lamp)),
+                ("Add the environment, weighted by MIS", samples_lights && has(Environment)),
+                ("Add the environment", !samples_lights && !sky && has(Environment)),
                 ("Evaluate direct light: metal", !sky && has(Metal)),
                 ("Evaluate direct light", !sky),
                 ("Sample point lights", !sky),
@@ -78,7 +78,7 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
                 ("path", followed),
                 ("path light", followed),
                 ("scattered", followed),
-                ("light pdf", weighed && (has(Lamp) || has(Environment))),
+                ("light pdf", mis && (has(Lamp) || has(Environment))),
                 ("media", followed && absorbing),
                 ("side", (followed && has(Glass)) || (!sky && has(Lamp) && has(OneSided))),
             ];
@@ -88,8 +88,8 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
             let tables: BTreeSet<&str> = tables.iter().map(|table| table.name).collect();
             for (table, needed) in [
                 ("integrator", followed || sky),
-                ("lights with area", aimed && has(Lamp)),
-                ("light of the environment", aimed && has(Environment)),
+                ("lights with area", samples_lights && has(Lamp)),
+                ("light of the environment", samples_lights && has(Environment)),
             ] {
                 assert_eq!(tables.contains(table), needed, "{integrator:?} {on:?}: {table}");
             }

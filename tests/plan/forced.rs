@@ -29,7 +29,11 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         .map(|on| (format!("{on:?}"), toggled(&on), on.len() < 2))
         .collect();
     for eye in EYES {
-        scenes.push((format!("pieces, {eye:?}"), pieces(Setup { eye, size: [24, 16], ..Setup::default() }), true));
+        scenes.push((
+            format!("shapes, {eye:?}"),
+            shapes_of_all_kinds(Setup { eye, size: [24, 16], ..Setup::default() }),
+            true,
+        ));
         scenes.push((
             format!("stretched, {eye:?}"),
             stretched(Setup { eye, size: [24, 16], ..Setup::default() }),
@@ -135,13 +139,13 @@ fn forcing_a_needed_stage_off_shows() {
     let offer = offer();
     let size = [24, 16];
     let witnesses: Vec<(&str, World)> = vec![
-        // First those whose ways end by themselves where no chance ends them.
+        // First those whose paths end by themselves where no roulette ends them.
         ("paths", followed(INTEGRATORS[6], Setup { size, ..Setup::default() })),
         ("paths in motion", paths_in_motion(Setup { size, ..Setup::default() })),
-        ("ways of two legs", followed(two_bounces, Setup { size, ..Setup::default() })),
+        ("paths of two segments", followed(two_bounces, Setup { size, ..Setup::default() })),
         ("everything", full(Setup { size, ..Setup::default() })),
         ("everything, orthographic", full(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
-        ("pieces", pieces(Setup { size, ..Setup::default() })),
+        ("shapes", shapes_of_all_kinds(Setup { size, ..Setup::default() })),
         ("stretched", stretched(Setup { size, ..Setup::default() })),
         ("textured", textured(Setup { size, ..Setup::default() })),
         ("textured, orthographic", textured(Setup { size, eye: Eye::Orthographic, ..Setup::default() })),
@@ -154,11 +158,11 @@ fn forcing_a_needed_stage_off_shows() {
         ("samples", toggled(&[Toggle::Sphere, Toggle::Samples])),
         ("a fisheye", scenes::fisheye(Setup { size, ..Setup::default() })),
         ("all round", scenes::all_round(Setup { size, ..Setup::default() })),
-        ("polished", scenes::material::specular(Setup { size, ..Setup::default() })),
+        ("specular", scenes::material::specular(Setup { size, ..Setup::default() })),
         ("brushed", scenes::material::brushed(Setup { size, ..Setup::default() })),
         ("in motion", scenes::moving(Setup { size, ..Setup::default() })),
         ("a lens", toggled(&[Toggle::Sphere, Toggle::Plane, Toggle::Lens])),
-        ("paths by chance", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
+        ("paths, BSDF sampling", followed(INTEGRATORS[4], Setup { size, ..Setup::default() })),
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
         ("light from lamps through a lens", through_a_lens()),

@@ -35,8 +35,18 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scene
     };
     let paths = |setup: Setup| followed(INTEGRATORS[6], setup);
-    let scenes: [fn(Setup) -> World; 10] =
-        [full, stretched, pieces, shining, textured, soft, sampled, scenes::blurred, scenes::moving, paths];
+    let scenes: [fn(Setup) -> World; 10] = [
+        full,
+        stretched,
+        shapes_of_all_kinds,
+        shining,
+        textured,
+        soft,
+        sampled,
+        scenes::blurred,
+        scenes::moving,
+        paths,
+    ];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };
         let whole = inspect(&scene_of(setup), &first_bounce_only(&offer()), 32).expect("inspects");
@@ -58,7 +68,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
             compared += 1;
         }
     }
-    // A sample's sign is what the film weighs its view by; densities of light rays are there only where they are weighed;
+    // A sample's sign is what the film weights its view by; pdfs of light rays are there only where MIS needs them;
     // the first sample of every pixel has one number.
     let unseen = ["radiance", "sign", "light pdf", "samples"];
     let views = view_names(&offer()).into_iter().filter(|name| !unseen.contains(name));

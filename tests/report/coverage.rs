@@ -17,8 +17,8 @@ pub struct Coverage {
 pub const LADDER: [u64; 4] = [1, 2, 4, 8];
 /// Seeds a level.
 pub const SEEDS: usize = 16;
-/// Samples of each piece of the reference.
-pub const PIECE: u64 = 8;
+/// Samples of each batch of the reference.
+pub const BATCH: u64 = 8;
 
 /// Repeats whole reports on renderers of known error.
 pub fn coverage(noise: Noise, bias: f64, repetitions: usize) -> Vec<Coverage> {
@@ -26,8 +26,8 @@ pub fn coverage(noise: Noise, bias: f64, repetitions: usize) -> Vec<Coverage> {
     let other = Renderer { deviation: 0.2, seconds: 2e-3, ..one };
     let mut found: Vec<Coverage> = Vec::new();
     for repetition in 0..repetitions as u64 {
-        let reference = one.reference(PIECE, repetition);
-        let against = (&reference, PIECE);
+        let reference = one.reference(BATCH, repetition);
+        let against = (&reference, BATCH);
         let [curve, rival] = [(one, 2 * repetition), (other, 2 * repetition + 1)]
             .map(|(renderer, seed)| renderer.curve(&LADDER, SEEDS, against, seed + 1));
         let last = LADDER.len() - 1;

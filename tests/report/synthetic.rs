@@ -7,8 +7,8 @@ use pinhole_lab::report::ensemble::{Ensemble, Reference};
 
 /// Pixels of the synthetic images.
 pub const PIXELS: usize = 120;
-/// Pieces of the reference.
-pub const PIECES: usize = 8;
+/// Batches of the reference.
+pub const BATCHES: usize = 8;
 
 /// The noise of one sample: mean 0, variance 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,13 +73,13 @@ impl Renderer {
         Numbers { size: [PIXELS as u32, 1], pixels: (0..PIXELS).map(pixel).collect(), white: None }
     }
 
-    /// A reference without bias, in pieces of so many samples.
+    /// A reference without bias, in batches of so many samples.
     pub fn reference(&self, samples: u64, seed: u64) -> Reference {
         let right = Self { bias: 0.0, ..*self };
-        let pieces: Vec<Numbers> = (0..PIECES as u64)
-            .map(|piece| right.render(samples, seed.wrapping_mul(0x9e37) + 1_000_000 + piece))
+        let batches: Vec<Numbers> = (0..BATCHES as u64)
+            .map(|batch| right.render(samples, seed.wrapping_mul(0x9e37) + 1_000_000 + batch))
             .collect();
-        Reference::of(&pieces).expect("pieces")
+        Reference::of(&batches).expect("batches")
     }
 
     /// Runs of several sample counts and seeds against a reference.
@@ -92,7 +92,7 @@ impl Renderer {
             Level { samples, ensemble: Ensemble::of(&runs, reference.0), seconds }
         };
         let levels = ladder.iter().map(level).collect();
-        Curve { levels, seeds, pieces: PIECES, reference_samples: reference.1 * PIECES as u64 }
+        Curve { levels, seeds, batches: BATCHES, reference_samples: reference.1 * BATCHES as u64 }
     }
 
     /// The variance of an image, mean over its pixels.

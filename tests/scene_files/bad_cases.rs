@@ -4,7 +4,7 @@
 /// that it must hold.
 pub type Case = (&'static str, &'static str, &'static [&'static str]);
 
-/// Slips in the form of a file.
+/// Mistakes in the form of a file.
 pub const FORM: &[Case] = &[
     ("empty", "^", &["no list begins here", "list of entities"]),
     ("only a comment", "// a scene\n^", &["no list begins here"]),
@@ -33,7 +33,7 @@ pub const FORM: &[Case] = &[
     ("a letter for a text", "[(name: ^'a')]", &["name", "'a'", "double quotes"]),
 ];
 
-/// Slips in words and values.
+/// Mistakes in words and values.
 pub const WORDS: &[Case] = &[
     ("an unknown component", "[(name: \"a\", ^spere: ())]", &["\"a\"", "`spere`", "nearest is `sphere`"]),
     ("a type's name", "[(name: \"a\", ^PointLight: ())]", &["`PointLight`", "nearest is `point_light`"]),

@@ -71,9 +71,9 @@ pub fn kept(name: &str, lines: &[String]) {
     settings.bind(|| insta::assert_snapshot!(name, lines.join("\n")));
 }
 
-/// Every message that the page of the book shows is one that the kit gives.
+/// Every message that the page of the book shows is one that pinhole gives.
 #[test]
-fn the_page_s_messages_are_the_kit_s() {
+fn the_page_s_messages_are_pinhole_s() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/scene_files.md");
     let page = fs::read_to_string(page).expect("the page is there");
     let folder = tempfile::tempdir().expect("a temporary folder");

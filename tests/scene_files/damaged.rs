@@ -275,9 +275,9 @@ fn damage(dice: &mut Dice, bytes: &mut Vec<u8>) {
             0 => bytes.truncate(at),
             1 => drop(bytes.drain(at..end)),
             2 => {
-                let piece = bytes[at..end].to_vec();
+                let part = bytes[at..end].to_vec();
                 let to = dice.below(bytes.len() + 1);
-                bytes.splice(to..to, piece);
+                bytes.splice(to..to, part);
             }
             3 | 4 if at + 4 <= bytes.len() => bytes[at..at + 4].copy_from_slice(&number),
             5 if at < bytes.len() => bytes[at] = dice.roll() as u8,

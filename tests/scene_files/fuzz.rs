@@ -20,7 +20,7 @@ pub enum End {
     Panic,
 }
 
-/// How many ended in each way; the seeds of those that must not be.
+/// How many ended in each outcome; the seeds of those that must not be.
 #[derive(Default)]
 pub struct Counts {
     pub mistakes: u64,
@@ -52,7 +52,7 @@ impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} with a slip, {} refused, {} without a plan, {} rendered, {} panics {:?}, {} over 1 s {:?}, slowest {:?}",
+            "{} with a mistake, {} refused, {} without a plan, {} rendered, {} panics {:?}, {} over 1 s {:?}, slowest {:?}",
             self.mistakes,
             self.refused,
             self.no_plan,
@@ -136,7 +136,7 @@ const NUMBERS: &[&str] = &[
     "5e-324",
     "99999999999999999999999999999999999999999999",
 ];
-const PIECES: &[&str] = &[
+const PARTS: &[&str] = &[
     "(",
     ")",
     "[",
@@ -219,11 +219,11 @@ fn change(dice: &mut Dice, bytes: &mut Vec<u8>) {
         0 => bytes.truncate(at),
         1 => drop(bytes.drain(at..end)),
         2 => {
-            let piece = bytes[at..end].to_vec();
+            let part = bytes[at..end].to_vec();
             let to = dice.below(bytes.len() + 1);
-            bytes.splice(to..to, piece);
+            bytes.splice(to..to, part);
         }
-        3 => drop(bytes.splice(at..at, dice.pick(PIECES).bytes())),
+        3 => drop(bytes.splice(at..at, dice.pick(PARTS).bytes())),
         4 if at < bytes.len() => bytes[at] = dice.roll() as u8,
         5 => drop(bytes.splice(at..at, dice.pick(FIELDS).bytes())),
         6..=10 => {

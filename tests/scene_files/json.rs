@@ -149,7 +149,7 @@ fn word<'v>(value: &'v Value, key: &str) -> &'v str {
 }
 
 fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} is no number in {value}"))
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} is not a number in {value}"))
 }
 
 fn each(value: &Value, key: &str, says: impl Fn(&Value) -> String) -> Vec<String> {
@@ -196,8 +196,8 @@ fn preflight(value: &Value) -> Vec<String> {
 fn angles(value: &Value) -> Vec<String> {
     let size = format!("{} x {} pixels, aspect {:.6}", value["width"], value["height"], number(value, "aspect"));
     let mut says = each(value, "axes", |axis| {
-        let [reach, tangent] = ["half_heights", "tan_half_angle"].map(|key| number(axis, key));
-        format!("{} {reach:.6} {tangent:.6} {:.4}°", word(axis, "axis"), number(axis, "degrees"))
+        let [extent, tangent] = ["half_heights", "tan_half_angle"].map(|key| number(axis, key));
+        format!("{} {extent:.6} {tangent:.6} {:.4}°", word(axis, "axis"), number(axis, "degrees"))
     });
     says.extend([size, format!("{}° across {}", number(&value["asked"], "degrees"), word(&value["asked"], "axis"))]);
     says
@@ -239,7 +239,7 @@ fn shown(value: f64) -> String {
 fn extremes(value: &Value) -> Vec<String> {
     let mut says = vec![format!("held: {} of {} cases", value["held"], value["tried"])];
     for case in list(value, "cases") {
-        says.push(format!("{}: {} tried, {} ", word(case, "case"), case["inputs"], case["judged"]));
+        says.push(format!("{}: {} tried, {} ", word(case, "case"), case["inputs"], case["checked"]));
         says.extend(each(case, "methods", |method| format!("{} {} ", word(method, "name"), method["wrong"])));
         let naive = &case["naive_at_its_worst"];
         if naive.is_null() {

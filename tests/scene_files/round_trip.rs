@@ -53,7 +53,7 @@ fn parents_materials_and_what_is_disabled_come_back_too() {
             scenes::turned(setup),
             scenes::ties(),
             scenes::shining(setup),
-            scenes::pieces(setup),
+            scenes::shapes_of_all_kinds(setup),
             scenes::blurred(setup),
             scenes::material::brushed(setup),
             scenes::moving(setup),

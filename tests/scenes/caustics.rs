@@ -25,15 +25,15 @@ pub fn caustics(lamps: bool) -> World {
     world.spawn((Name::new("ball"), Sphere { radius: 0.5 }, Placement::at(-0.6, 0.6, 0.2), glass));
     let metal = Metal { colour: Rgb::new(0.9, 0.8, 0.5), roughness: 0.3, ..Metal::default() };
     world.spawn((Name::new("coin"), Disk { radius: 0.5 }, Placement::at(-0.9, 0.02, 1.2), metal));
-    const PIECES: u32 = 8;
+    const PARTS: u32 = 8;
     let silver = world.spawn((Name::new("silver"), Mirror { colour: Rgb::new(0.9, 0.85, 0.8) })).id();
-    let corner = |piece: u32, height: f64| {
-        let angle = PI * f64::from(piece) / f64::from(PIECES) - 0.9 * PI;
+    let corner = |part: u32, height: f64| {
+        let angle = PI * f64::from(part) / f64::from(PARTS) - 0.9 * PI;
         let out = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
         (DVec3::new(0.9, height, 0.2) + 0.8 * out, -out)
     };
-    for piece in 0..PIECES {
-        let corners = [corner(piece, 0.0), corner(piece + 1, 0.0), corner(piece + 1, 0.6), corner(piece, 0.6)];
+    for part in 0..PARTS {
+        let corners = [corner(part, 0.0), corner(part + 1, 0.0), corner(part + 1, 0.6), corner(part, 0.6)];
         for pick in [[0, 1, 2], [0, 2, 3]] {
             let (vertices, normals) = (pick.map(|at| corners[at].0), pick.map(|at| corners[at].1));
             world.spawn((Triangle { vertices, normals: Some(normals), uvs: None }, UsesMaterial(silver)));

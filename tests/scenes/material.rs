@@ -6,7 +6,7 @@ use glam::DVec3;
 use pinhole::scene::*;
 
 /// Mirrors, one of them with normals of its own, and glass that absorbs and overlaps, under a lamp: nothing is left to
-/// chance.
+/// BSDF sampling.
 ///
 /// All places lie on the grid of [`full`](super::full), so that it may be moved exactly.
 pub fn specular(setup: Setup) -> World {
@@ -31,7 +31,7 @@ pub fn specular(setup: Setup) -> World {
     world
 }
 
-/// The same beside rough metal, one piece of it with normals of its own: directions by chance.
+/// The same beside rough metal, one part of it with normals of its own: random directions.
 pub fn brushed(setup: Setup) -> World {
     let mut world = specular(setup);
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
@@ -45,14 +45,14 @@ pub fn brushed(setup: Setup) -> World {
     world
 }
 
-/// Adds matter of one kind to a scene of toggles.
+/// Adds a material of one kind to a scene of toggles.
 pub(super) fn ball_of(world: &mut World, name: &'static str, x: f64, material: impl Bundle) {
     world.spawn((Name::new(name), Sphere { radius: 0.4 }, Placement::at(x, 0.5, 0.9), material));
 }
 
 /// Both, in both projections where that matters.
 pub const MATERIAL: [(&str, fn(Setup) -> World, Eye); 3] = [
-    ("polished", specular, Eye::Perspective),
-    ("polished, orthographic", specular, Eye::Orthographic),
+    ("specular", specular, Eye::Perspective),
+    ("specular, orthographic", specular, Eye::Orthographic),
     ("brushed", brushed, Eye::Perspective),
 ];

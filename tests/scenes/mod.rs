@@ -1,4 +1,4 @@
-//! Scenes that several tests share, and the film as bits, so that equal means equal.
+//! Scenes that several tests use, and the film as bits, so that equal means equal.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 pub mod caustics;
@@ -142,7 +142,7 @@ fn add_things(world: &mut World, setup: &Setup) {
         at(0.29, 0.5, 1.09),
         Matte { colour: Rgb::new(0.2, 0.5, 0.9) },
     ));
-    // The same ball again in another colour: every ray that meets one meets the other at the very same distance.
+    // The same ball again in another colour: every ray that hits one hits the other at the very same distance.
     world.spawn((Name::new("double"), sphere(0.5), at(0.29, 0.5, 1.09), Matte { colour: Rgb::new(0.9, 0.1, 0.1) }));
     let mirrored = Placement { scale: DVec3::new(-2.0, 2.0, 2.0), ..at(1.53, 0.27, -0.51) };
     let group = world.spawn((Name::new("group"), mirrored)).id();
@@ -260,7 +260,7 @@ pub fn stretched(setup: Setup) -> World {
 /// same, and an edge that two share; nothing else.
 ///
 /// All places lie on the grid of [`full`], so that it may be moved exactly; nothing but the scale is in scene units.
-pub fn pieces(setup: Setup) -> World {
+pub fn shapes_of_all_kinds(setup: Setup) -> World {
     let mut world = World::new();
     let look = LookAt { eye: setup.point(0.23, 1.53, 4.9), target: setup.point(0.01, 0.77, 0.02), up: DVec3::Y };
     setup.camera(&mut world, look);
@@ -355,7 +355,7 @@ pub fn leaning_triangle(size: f64) -> Triangle {
 pub const TIED_PIXELS: usize = 8;
 
 /// Eight balls whose tops touch a pane from behind, each top at the very centre of a pixel, half of them made before the
-/// pane and half after: at those pixels a sphere and a plane are met at the same distance, and the lower number wins.
+/// pane and half after: at those pixels a sphere and a plane are hit at the same distance, and the lower number wins.
 pub fn ties() -> World {
     let mut world = World::new();
     let size = [32, 32];
@@ -387,7 +387,7 @@ pub enum Toggle {
     Sphere,
     Ellipsoid,
     /// A disk, a rectangle, a cuboid and a triangle.
-    Pieces,
+    Shapes,
     Shadow,
     Orthographic,
     Background,
@@ -402,7 +402,7 @@ pub enum Toggle {
     Samples,
     /// A lens, where the camera is a perspective one.
     Lens,
-    /// A shutter that stays open while the camera moves, and the ball and the flat pieces where there are any.
+    /// A shutter that stays open while the camera moves, and the ball and the planar shapes where there are any.
     Motion,
     Mirror,
     /// Glass that absorbs.
@@ -426,7 +426,7 @@ pub const TOGGLES: &[Toggle] = &[
 /// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
 pub const MORE: [Toggle; 14] = [
     Toggle::Ellipsoid,
-    Toggle::Pieces,
+    Toggle::Shapes,
     Toggle::Layers,
     Toggle::Samples,
     Toggle::Sun,
@@ -471,7 +471,7 @@ pub fn toggled(on: &[Toggle]) -> World {
         let egg = (Sphere { radius: 0.5 }, Placement { scale, ..Placement::at(1.2, 0.75, 0.3) });
         world.spawn((Name::new("egg"), egg, Matte { colour: Rgb::new(0.9, 0.8, 0.6) }));
     }
-    if has(Toggle::Pieces) {
+    if has(Toggle::Shapes) {
         let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
         let coin = Placement {
             orientation: DQuat::from_xyzw(0.5, 0.1, 0.1, 0.5).normalize(),

@@ -46,7 +46,7 @@ const fn plate([low, near]: [f64; 2], [high, far]: [f64; 2]) -> Quad {
     [[-4.0, low, near], [4.0, low, near], [4.0, high, far], [-4.0, high, far]]
 }
 
-/// A scene by its name, with the most legs of a way that it asks for.
+/// A scene by its name, with the max_depth that it asks for.
 pub fn public(name: &str, lights: LightStrategy) -> World {
     let mut world = World::new();
     let camera = |eye: [f64; 3], target: [f64; 3], fov, axis, size: [u32; 2], max_depth| {

@@ -75,7 +75,7 @@ struct Shadows {
     surfaces: Surfaces,
     rays: LightRays,
     hits: ShadowHits,
-    /// What each pixel has without the light of any lamp.
+    /// What each pixel has without the light of any light source.
     unlit: Vec<[f32; 3]>,
 }
 
@@ -94,14 +94,14 @@ impl Shadows {
         });
         let ((surfaces, rays), hits, film) = columns.ok_or_else(|| figure.unsuited("a light that casts shadows"))?;
         // A surface begins black, and what is behind everything has its light already.
-        let met = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
-        let unlit = |row: usize| if met(row) { [0.0; 3] } else { film.mean(row) };
+        let is_hit = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
+        let unlit = |row: usize| if is_hit(row) { [0.0; 3] } else { film.mean(row) };
         let unlit = (0..film.count.len()).map(unlit).collect();
         let (occluders, materials) = (Occluders::of(&scene)?, MaterialTable::extract(&Census::of(&scene))?);
         Ok(Self { occluders, materials, surfaces, rays, hits, unlit })
     }
 
-    /// The pixels with another start of each shadow ray, and how many of them are judged otherwise than by the kit.
+    /// The pixels with another start of each shadow ray, and how many of them differ from pinhole's.
     fn started_by(&self, start: Start) -> (Vec<[f32; 3]>, usize) {
         let (rays, mut pixels, mut wrong) = (&self.rays, self.unlit.clone(), 0);
         for (ray, &path) in rays.path.iter().enumerate() {
@@ -118,14 +118,14 @@ impl Shadows {
         (pixels, wrong)
     }
 
-    /// Whether anything is met beyond `t_min` and within reach.
-    fn blocked(&self, start: ShadowStart, direction: DVec3, reach: f64) -> bool {
+    /// Whether anything is hit between `t_min` and `t_max`.
+    fn blocked(&self, start: ShadowStart, direction: DVec3, t_max: f64) -> bool {
         let t_min = f64::from(start.t_min);
-        self.occluders.block(start.origin.as_dvec3() + t_min * direction, direction, reach - t_min)
+        self.occluders.block(start.origin.as_dvec3() + t_min * direction, direction, t_max - t_min)
     }
 }
 
-/// Makes a scene so many times as large, and its lamps as much stronger as they are then farther away.
+/// Makes a scene larger by this factor, and its lights stronger by its square, since they are then farther away.
 fn scale_scene(scene: &mut World, scale: f64) {
     for mut placement in scene.query::<&mut Placement>().iter_mut(scene) {
         placement.position *= scale;

@@ -94,8 +94,8 @@ mod tests {
     fn filtered_is_nearer_to_many_points() {
         let figure = trial::figure(draw);
         let [point, filtered, many] = pictures(&trial::chapter(trial::checkered), &figure).expect("pictures");
-        let (naive, kit) = (apart(&point, &many), apart(&filtered, &many));
-        eprintln!("a point is off by {naive:.4}, filtered by {kit:.4}");
-        assert!(kit < 0.7 * naive);
+        let (naive, pinhole) = (apart(&point, &many), apart(&filtered, &many));
+        eprintln!("a point is off by {naive:.4}, filtered by {pinhole:.4}");
+        assert!(pinhole < 0.7 * naive);
     }
 }

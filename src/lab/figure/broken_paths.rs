@@ -15,7 +15,7 @@ use pinhole::scene::{Integrator, LightStrategy, Sampling};
 
 /// Three in a row.
 const SIZE: [u32; 2] = [276, 155];
-/// Legs: so few that what grows at each of them is still a picture.
+/// Path segments: so few that what grows at each of them is still a picture.
 const MAX_DEPTH: u32 = 4;
 
 /// Right, then with each mistake.
@@ -25,8 +25,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         camera.insert((integrator, Sampling { samples: 8, seed: 25, ..Sampling::default() }));
     };
     let alike = |u| DVec3::from(uniform_direction(u));
-    let by = |way: MatteSample, lines: [&str; 2]| {
-        let picture = Picture::of(chapter, SIZE, Some(scatter_matte_by(way)), change)?;
+    let by = |sample: MatteSample, lines: [&str; 2]| {
+        let picture = Picture::of(chapter, SIZE, Some(scatter_matte_by(sample)), change)?;
         Ok::<_, pinhole::Error>(Exhibit { picture, lines: lines.map(str::to_owned).to_vec() })
     };
     let right = Exhibit {
@@ -40,19 +40,19 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let exhibits = [
         right,
         by(
-            MatteSample { direction: alike, share: |albedo, _| weight_without_cosine(albedo) },
+            MatteSample { direction: alike, weight: |albedo, _| weight_without_cosine(albedo) },
             ["the missing cosine", "twice what it may"],
         )?,
         by(
-            MatteSample { direction: cosine_direction, share: |albedo, _| weight_without_pi(albedo) },
+            MatteSample { direction: cosine_direction, weight: |albedo, _| weight_without_pi(albedo) },
             ["the forgotten π", "π times too much"],
         )?,
         by(
-            MatteSample { direction: alike, share: |albedo, _| albedo },
-            ["the wrong density", "directions alike, not so counted"],
+            MatteSample { direction: alike, weight: |albedo, _| albedo },
+            ["the wrong pdf", "uniform directions, counted as cosine-weighted"],
         )?,
         by(
-            MatteSample { direction: cosine_direction, share: |albedo, cosine| albedo * cosine },
+            MatteSample { direction: cosine_direction, weight: |albedo, cosine| albedo * cosine },
             ["the cosine twice", "a third is lost"],
         )?,
         twice,

@@ -34,7 +34,7 @@ pub fn draw_focus(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         })?;
         Ok(Exhibit { picture, lines: vec![line] })
     };
-    let at = |share: f64| Lens { focus_distance: own.focus_distance * share, ..own };
+    let at = |fraction: f64| Lens { focus_distance: own.focus_distance * fraction, ..own };
     let told = |lens: &Lens| format!("focused at {:.1}", lens.focus_distance);
     let closed = Lens { aperture: Aperture::Radius { radius: 0.0 }, ..own };
     let exhibits = [(at(0.6), told(&at(0.6))), (at(1.5), told(&at(1.5))), (closed, "aperture 0: the pinhole".into())];
@@ -89,8 +89,8 @@ pub fn draw_cameras(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn draw_shutters(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let mut scene = chapter.world(&Default::default());
     let own = scene.query::<&Shutter>().iter(&scene).next().copied().unwrap_or_default();
-    let exhibit = |share: f64| {
-        let shutter = Shutter { close: own.open + share * (own.close - own.open), ..own };
+    let exhibit = |fraction: f64| {
+        let shutter = Shutter { close: own.open + fraction * (own.close - own.open), ..own };
         let picture = Picture::of(chapter, SIZE, None, |camera| {
             fewer(camera);
             camera.insert(shutter);

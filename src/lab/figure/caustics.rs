@@ -1,4 +1,4 @@
-//! One scene by the camera's rays alone, and with rays from the lamps.
+//! One scene by the camera's rays alone, and with rays from the lights.
 
 use super::Figure;
 use super::gallery::{Exhibit, gallery_foot, hang};
@@ -37,7 +37,7 @@ pub fn draw_sides(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     const SAMPLES: u32 = 8;
     let [once, often] = [1.0, 8.0].map(|paths| Some(LightTracing { paths }));
     let exhibits = [
-        exhibit(chapter, None, None, SAMPLES, ["from the camera alone", "few rays meet the lamp"])?,
+        exhibit(chapter, None, None, SAMPLES, ["from the camera alone", "few rays hit the light"])?,
         exhibit(chapter, None, once, SAMPLES, ["from the lamp too", "as many rays again"])?,
         exhibit(chapter, None, often, SAMPLES, ["more from the lamp", "eight for each of the camera"])?,
         exhibit(
@@ -45,7 +45,7 @@ pub fn draw_sides(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
             Some(join_without_cosine()),
             once,
             SAMPLES,
-            ["the cosine forgotten", "too bright at a slant"],
+            ["the cosine forgotten", "too bright at grazing incidence"],
         )?,
     ];
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))

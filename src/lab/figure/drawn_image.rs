@@ -1,4 +1,4 @@
-//! Images that chapters read from files: drawn by the kit, so that nothing in them comes from elsewhere.
+//! Images that chapters read from files: drawn by pinhole, so that nothing in them comes from elsewhere.
 
 use glam::{DVec2, DVec3};
 use image::Rgb;
@@ -7,7 +7,7 @@ use pinhole::film::{Curve, Film, png_bytes};
 use pinhole::shade::direction_of;
 use pinhole::{Error, Result};
 
-/// An image that the kit draws.
+/// An image that pinhole draws.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnImage {
     /// The file's name.
@@ -68,8 +68,8 @@ fn smooth(low: f64, high: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-fn mixed(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    [0, 1, 2].map(|part| a[part] + share * (b[part] - a[part]))
+fn mixed(a: [f64; 3], b: [f64; 3], fraction: f64) -> [f64; 3] {
+    [0, 1, 2].map(|part| a[part] + fraction * (b[part] - a[part]))
 }
 
 /// Eight by eight fields: the hue goes round from left to right, the brightness rises from below.

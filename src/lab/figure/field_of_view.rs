@@ -11,7 +11,7 @@ use pinhole::Result;
 
 const HEIGHT: f64 = 420.0;
 /// How far the rays may reach to the right, up and down.
-const REACH: DVec2 = DVec2::new(WIDTH - 190.0, 166.0);
+const EXTENT: DVec2 = DVec2::new(WIDTH - 190.0, 166.0);
 /// Room for the words at the eye, and for those at the right.
 const WORDS: DVec2 = DVec2::new(56.0, 96.0);
 /// How far the rays are drawn, in distances of the plane.
@@ -21,17 +21,18 @@ const FAR: f64 = 2.25;
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 48, 27)?;
     let Lens::Perspective(tangent) = subject.lens else { return Err(figure.unsuited("a perspective camera")) };
-    let scale = (REACH.x / FAR).min(REACH.y / (2.0 * tangent));
+    let scale = (EXTENT.x / FAR).min(EXTENT.y / (2.0 * tangent));
     let spare = WIDTH - WORDS.x - WORDS.y - FAR * scale;
-    let eye = DVec2::new(WORDS.x + spare.max(0.0) / 2.0, REACH.y + 26.0);
+    let eye = DVec2::new(WORDS.x + spare.max(0.0) / 2.0, EXTENT.y + 26.0);
     let at = |ahead: f64, up: f64| eye + scale * DVec2::new(ahead, -up);
     let mut svg = Svg::new(figure.name, HEIGHT);
     paint(&mut svg, &at, tangent);
     let angle = libm::atan(tangent);
     arc(&mut svg, eye, scale * 0.62, -angle, angle, Pen::new(INK, 1.1));
     arc(&mut svg, eye, scale * 0.36, 0.0, angle, Pen::new(RAY, 1.8));
-    let along =
-        |share: f64, at: f64| eye + scale * at * DVec2::new(libm::cos(share * angle), -libm::sin(share * angle));
+    let along = |fraction: f64, at: f64| {
+        eye + scale * at * DVec2::new(libm::cos(fraction * angle), -libm::sin(fraction * angle))
+    };
     svg.label(Label::near(along(-0.5, 0.62), "*φ*", DVec2::new(1.0, 0.25), 6.0));
     svg.label(Label::near(along(0.5, 0.36), "*φ*/2", DVec2::new(1.0, -0.25), 5.0).coloured(RAY));
     svg.label(Label::near(at(0.0, 0.0), "eye", DVec2::new(-1.0, 0.0), 9.0));

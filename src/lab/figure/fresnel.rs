@@ -18,18 +18,18 @@ const CORNER: DVec2 = DVec2::new(50.0, 222.0);
 const SIZE: DVec2 = DVec2::new(280.0, 190.0);
 const STEPS: u32 = 180;
 
-/// The mirrored share over the angle for a chapter's first kind of glass: both parts, their mean, and Schlick's guess.
+/// The reflectance over the angle for a chapter's first kind of glass: both parts, their mean, and Schlick's guess.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let glass = GlassTable::extract(&Census::of(&chapter.world(&Overrides::default())))?;
     let Some(&index) = glass.ior.first() else { return Err(figure.unsuited("glass")) };
     let mut svg = Svg::new(figure.name, HEIGHT);
     for (panel, (eta, told)) in [(index, "into the glass"), (1.0 / index, "out of it")].into_iter().enumerate() {
         let corner = CORNER + DVec2::X * (WIDTH / 2.0 - 5.0) * panel as f64;
-        let at = |degrees: f64, share: f64| corner + DVec2::new(degrees / 90.0, -share) * SIZE;
-        let curve = |svg: &mut Svg, pen: Pen, share: &dyn Fn(f64) -> f64| {
+        let at = |degrees: f64, reflectance: f64| corner + DVec2::new(degrees / 90.0, -reflectance) * SIZE;
+        let curve = |svg: &mut Svg, pen: Pen, curve_of: &dyn Fn(f64) -> f64| {
             let point = |step: u32| {
                 let degrees = f64::from(step) * 90.0 / f64::from(STEPS);
-                at(degrees, share(libm::cos(degrees.to_radians())))
+                at(degrees, curve_of(libm::cos(degrees.to_radians())))
             };
             (0..STEPS).for_each(|step| svg.line(point(step), point(step + 1), pen));
         };
@@ -48,16 +48,17 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let half = at(45.0, -0.16);
         svg.label(Label::near(half, &format!("{told}, *η* = {eta:.3}"), DVec2::Y, 4.0).title(0.95));
         if panel == 0 {
-            let named =
-                |degrees: f64, share: fn(f64, f64) -> f64| at(degrees, share(libm::cos(degrees.to_radians()), eta));
+            let named = |degrees: f64, curve_of: fn(f64, f64) -> f64| {
+                at(degrees, curve_of(libm::cos(degrees.to_radians()), eta))
+            };
             let across = named(66.0, |cosine, eta| fresnel_parts(cosine, eta)[0]);
-            svg.label(Label::near(across, "*s*, across", DVec2::new(-1.0, -1.0), 8.0));
+            svg.label(Label::near(across, "*s*-polarised", DVec2::new(-1.0, -1.0), 8.0));
             let within = named(74.0, |cosine, eta| fresnel_parts(cosine, eta)[1]);
-            svg.label(Label::near(within, "*p*, within", DVec2::new(1.0, 0.6), 8.0));
+            svg.label(Label::near(within, "*p*-polarised", DVec2::new(1.0, 0.6), 8.0));
         } else {
             svg.label(Label::near(at(62.0, 0.12), "Schlick", DVec2::new(0.4, 1.0), 6.0).coloured(IMAGE));
-            svg.label(Label::near(at(66.0, 1.0), "all is mirrored", DVec2::Y, 8.0).coloured(RAY));
+            svg.label(Label::near(at(66.0, 1.0), "total reflection", DVec2::Y, 8.0).coloured(RAY));
         }
     }
-    Ok(svg.finish(figure.about, &figure.stamp([480, 270], "the mirrored share over the angle to the normal")))
+    Ok(svg.finish(figure.about, &figure.stamp([480, 270], "the reflectance over the angle to the normal")))
 }

@@ -46,8 +46,8 @@ pub fn hang(figure: &Figure, exhibits: &[Exhibit], columns: usize, foot: &str) -
     let mut svg = Svg::new(figure.name, MARGIN + rows.iter().sum::<f64>() + FOOT);
     let mut top = MARGIN;
     for (row, height) in exhibits.chunks(columns).zip(&rows) {
-        let double_double = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
-        let mut left = (WIDTH - double_double) / 2.0;
+        let width = scale * widest(row) + GAP * (row.len() as f64 - 1.0);
+        let mut left = (WIDTH - width) / 2.0;
         for Exhibit { picture, lines } in row {
             let size = DVec2::from(picture.size.map(f64::from)) * scale;
             svg.picture(DVec2::new(left, top), size, picture);
@@ -129,7 +129,7 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let Lens::Perspective(tangent) = subject.lens else { return Err(figure.unsuited("a perspective camera")) };
     let middle = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
     let nearest = middle.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)));
-    let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray meets"))?;
+    let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray hits"))?;
     let scene = chapter.world(&Default::default());
     let census = &Census::of(&scene);
     let target = eye(census)? + *centre;
@@ -151,7 +151,7 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, size)))
 }
 
-/// The chapter's angle as the kit takes it, and with three slips.
+/// The chapter's angle as pinhole takes it, and with three mistakes.
 pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let own = own_camera(chapter, figure)?.fov;
     let size = pixels(345.0, 2.0);

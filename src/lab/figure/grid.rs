@@ -61,9 +61,9 @@ impl Grid {
     pub fn hides(&self, point: DVec3, toward_viewer: DVec3) -> bool {
         let normal = self.right.cross(self.down);
         let steps = normal.dot(self.corner - point) / normal.dot(toward_viewer);
-        let met = point + steps * toward_viewer - self.corner;
-        let across = met.dot(self.right) / self.right.length_squared();
-        let down = met.dot(self.down) / self.down.length_squared();
+        let hit = point + steps * toward_viewer - self.corner;
+        let across = hit.dot(self.right) / self.right.length_squared();
+        let down = hit.dot(self.down) / self.down.length_squared();
         steps > 1e-6 * self.right.length() && (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down)
     }
 }

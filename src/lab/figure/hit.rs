@@ -13,7 +13,7 @@ use pinhole::Chapter;
 use pinhole::Result;
 
 const HEIGHT: f64 = 400.0;
-/// Share of the radius at which a ray passes the centre that shows triangle and chord best.
+/// The fraction of the radius at which a ray passes the centre that shows triangle and chord best.
 const BEST_ACROSS: f64 = 0.55;
 /// Below the ray: the first row of marks, and the distance to the next.
 const ROWS: f64 = 34.0;
@@ -21,7 +21,7 @@ const ROWS: f64 = 34.0;
 /// What `sphere_t` computes, drawn in the plane of the ray and the sphere's centre.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 96, 54)?;
-    let (ray, ball) = telling_ray(&subject).ok_or_else(|| figure.unsuited("a sphere that a pixel's ray meets"))?;
+    let (ray, ball) = telling_ray(&subject).ok_or_else(|| figure.unsuited("a sphere that a pixel's ray hits"))?;
     let to_centre = ball.centre - ray.origin;
     let end = to_centre.length() + ball.radius * 1.35;
     let frame = Frame { low: DVec2::new(40.0, 22.0), high: DVec2::new(WIDTH - 30.0, HEIGHT - 136.0) };
@@ -37,14 +37,14 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// Of the sphere that looks largest, the ray that passes its centre at the most telling distance.
 fn telling_ray(subject: &Subject) -> Option<(&PixelRay, &Ball)> {
-    let met = || subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
+    let hitting = || subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?)));
     let away = |(ray, ball): &(&PixelRay, &Ball)| (ball.centre - ray.origin).length() / ball.radius;
-    let (_, largest) = met().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let (_, largest) = hitting().min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let off = |(ray, ball): &(&PixelRay, &Ball)| {
         let across = (ball.centre - ray.origin).cross(ray.direction).length() / ball.radius;
         (across - BEST_ACROSS).abs()
     };
-    met().filter(|(_, ball)| ball.shape == largest.shape).min_by(|a, b| off(a).total_cmp(&off(b)))
+    hitting().filter(|(_, ball)| ball.shape == largest.shape).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
 /// The names of `sphere_t`.
@@ -93,10 +93,10 @@ fn measure(svg: &mut Svg, section: &Section, chord: &Chord) {
     }
     let pen = Pen::new(INK, 1.1).faint(0.75);
     // Both halves are named where there is room for both names.
-    let double_double = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
+    let wide = (chord.far - chord.s) * section.scale > 5.6 * TEXT;
     for (from, to, row, name) in [
         (0.0, chord.near, rows[0], "`near` = `s` − `half_chord`"),
-        (chord.near, chord.s, rows[0], if double_double { "`half_chord`" } else { "" }),
+        (chord.near, chord.s, rows[0], if wide { "`half_chord`" } else { "" }),
         (chord.s, chord.far, rows[0], "`half_chord`"),
         (0.0, chord.s, rows[1], "`s`"),
         (0.0, chord.far, rows[2], "`far` = `s` + `half_chord`"),

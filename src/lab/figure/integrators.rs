@@ -38,29 +38,29 @@ pub fn draw_distance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }
 
-/// Ray casting beside paths of more and more legs.
+/// Ray casting beside paths of more and more segments.
 pub fn draw_segments(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let paths = |max_depth| Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 5 };
     let of = |integrator, lines| exhibit(chapter, LARGE, 12, integrator, lines);
     let exhibits = [
         of(Integrator::RayCasting, ["ray casting", "the lamp is seen, and lights nothing"])?,
-        of(paths(2), ["paths of 2 legs", "lamp to surface to eye"])?,
-        of(paths(3), ["paths of 3 legs", "off one more surface"])?,
+        of(paths(2), ["paths of 2 segments", "light to surface to eye"])?,
+        of(paths(3), ["paths of 3 segments", "off one more surface"])?,
         of(paths(1 << 20), ["paths of any length", "all the light there is"])?,
     ];
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, LARGE)))
 }
 
-/// Three ways to find the same lamps.
-pub fn draw_ways(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+/// Three strategies for the same lights.
+pub fn draw_strategies(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let of = |lights, lines| {
         let integrator = Integrator::Path { max_depth: 2, lights, roulette: 0 };
         exhibit(chapter, SMALL, 16, integrator, lines)
     };
     let exhibits = [
-        of(LightStrategy::Bsdf, ["by chance", "as the metal sends light on"])?,
-        of(LightStrategy::Light, ["aimed", "points on the lamps"])?,
-        of(LightStrategy::Mis, ["weighed", "both, each where it is dense"])?,
+        of(LightStrategy::Bsdf, ["BSDF sampling", "as the metal sends light on"])?,
+        of(LightStrategy::Light, ["light sampling", "points on the lights"])?,
+        of(LightStrategy::Mis, ["MIS", "both, each where its pdf is high"])?,
     ];
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SMALL)))
 }

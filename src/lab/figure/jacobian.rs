@@ -1,4 +1,4 @@
-//! One scene by the density that light asks for, and by densities with something forgotten.
+//! One scene with the right pdf, and with pdfs that have something forgotten.
 
 use super::Figure;
 use super::gallery::{Exhibit, gallery_foot, hang};

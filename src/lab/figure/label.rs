@@ -7,7 +7,7 @@ use glam::DVec2;
 pub struct Label {
     /// The point; where there are several, any of them will do.
     pub anchors: Vec<DVec2>,
-    /// The words; `*slanted*` and code in backticks.
+    /// The words; `*italic*` and code in backticks.
     pub text: String,
     /// On which side of the point they stand if nothing is in the way; y down.
     pub toward: DVec2,
@@ -94,10 +94,10 @@ impl Placed {
     /// The rectangle that the words take, upper left and lower right, by a cautious guess at the font.
     pub fn extent(&self) -> [DVec2; 2] {
         let parts = self.text.split('`').zip([false, true].into_iter().cycle());
-        let share_of = |(part, code): (&str, bool)| -> f64 {
-            part.chars().filter(|c| *c != '*').map(|letter| if code { 0.57 } else { share(letter) }).sum()
+        let width_of = |(part, code): (&str, bool)| -> f64 {
+            part.chars().filter(|c| *c != '*').map(|letter| if code { 0.57 } else { letter_width(letter) }).sum()
         };
-        let width = parts.map(share_of).sum::<f64>() * self.size;
+        let width = parts.map(width_of).sum::<f64>() * self.size;
         let left = match self.anchor {
             "start" => self.at.x,
             "end" => self.at.x - width,
@@ -116,8 +116,8 @@ impl Placed {
     }
 }
 
-/// A letter's width as a share of its size.
-fn share(letter: char) -> f64 {
+/// A letter's width as a fraction of its size.
+fn letter_width(letter: char) -> f64 {
     match letter {
         'i' | 'l' | 'j' | '.' | ',' | '(' | ')' | '|' | ' ' | 't' | 'f' | '\'' => 0.38,
         'm' | 'w' | 'M' | 'W' => 0.9,

@@ -14,7 +14,7 @@ use pinhole::scene::{LookAt, Resolution};
 use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 400.0;
-/// How long the camera's axes are drawn, as a share of the way from eye to target.
+/// How long the camera's axes are drawn, as a fraction of the distance from eye to target.
 const AXIS: f64 = 0.42;
 
 /// The camera's three axes, made of eye, target and up.

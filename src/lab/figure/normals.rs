@@ -33,7 +33,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let off = format!("the worst normal is off by {:.0}°", worst.degrees);
     let told = [
         ("transformed like a direction", &naive, off.as_str()),
-        ("by the inverse transpose", &right, "as the kit renders"),
+        ("by the inverse transpose", &right, "as pinhole renders"),
     ];
     for (column, (title, picture, below)) in told.into_iter().enumerate() {
         let low = DVec2::new(GAP + column as f64 * (across + GAP), HEAD);
@@ -43,8 +43,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         svg.label(Label::near(low + middle + DVec2::Y * (panel.y + 5.0), below, DVec2::Y, 0.0).title(0.92));
     }
     let (x, y) = (worst.row as u32 % SIZE[0], worst.row as u32 / SIZE[0]);
-    let share = (DVec2::new(f64::from(x), f64::from(y)) + 0.5) / DVec2::new(f64::from(SIZE[0]), f64::from(SIZE[1]));
-    let at = DVec2::new(GAP, HEAD) + share * panel;
+    let place = (DVec2::new(f64::from(x), f64::from(y)) + 0.5) / DVec2::new(f64::from(SIZE[0]), f64::from(SIZE[1]));
+    let at = DVec2::new(GAP, HEAD) + place * panel;
     svg.circle(at, 5.0, None, Some(Pen::new(RAY, 1.6)));
     svg.label(Label::near(at, "here", DVec2::X, 9.0).coloured(RAY));
     Ok(svg.finish(figure.about, &figure.stamp(SIZE, "")))
@@ -59,7 +59,7 @@ struct Worst {
     row: usize,
 }
 
-/// What the kit renders, the same with naive normals, and the worst of these.
+/// What pinhole renders, the same with naive normals, and the worst of these.
 fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f32; 3]>, Worst)> {
     let [width, height] = SIZE;
     let scene = chapter.world(&Overrides { resolution: Some(Resolution { width, height }), ..Overrides::default() });
@@ -120,7 +120,7 @@ mod tests {
     use crate::figure::trial;
 
     #[test]
-    fn naive_normals_change_the_scaled_sphere_and_the_right_ones_are_shaded_as_the_kit_does() {
+    fn naive_normals_change_the_scaled_sphere_and_the_right_ones_are_shaded_as_pinhole_does() {
         let figure = trial::figure(draw);
         let (right, naive, worst) = pictures(&trial::chapter(trial::central), &figure).expect("pictures");
         let differ = right.iter().zip(&naive).filter(|(right, naive)| right != naive).count();

@@ -7,7 +7,7 @@ use pinhole::extract::{
 use pinhole::intersect::{cuboid_t, disk_t, ellipsoid_t, plane_t, rectangle_t, sphere_t, triangle_t};
 use pinhole::plan::{Census, Table};
 
-/// A scene's shapes, for figures that send rays of their own; the intersection is the kit's.
+/// A scene's shapes, for figures that send rays of their own; the intersection is pinhole's.
 pub struct Occluders {
     spheres: SphereTable,
     ellipsoids: EllipsoidTable,
@@ -33,8 +33,8 @@ impl Occluders {
         })
     }
 
-    /// Whether anything is met before `reach`.
-    pub fn block(&self, origin: DVec3, direction: DVec3, reach: f64) -> bool {
+    /// Whether anything is hit before `t_max`.
+    pub fn block(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
         let spheres = (0..self.spheres.radius.len())
             .map(|row| sphere_t(origin, direction, self.spheres.centre(row), self.spheres.radius[row]));
         let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
@@ -45,6 +45,6 @@ impl Occluders {
         let rectangles = self.rectangles.planar.iter().map(|planar| rectangle_t(origin, direction, planar));
         let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));
         let round = spheres.chain(ellipsoids);
-        round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < reach)
+        round.chain(planes).chain(triangles).chain(disks).chain(rectangles).chain(cuboids).any(|t| t < t_max)
     }
 }

@@ -17,7 +17,7 @@ const HEIGHT: f64 = 372.0;
 const MIDDLE: f64 = 330.0;
 /// The bound in the magnified part, in units of the drawing.
 const BOUND: f64 = 118.0;
-/// How steeply the way from the sphere's centre to the light rises in the drawing, in radians.
+/// How steeply the direction from the sphere's centre to the light rises in the drawing, in radians.
 const LEAN: f64 = 0.9;
 
 /// A hit and where its shadow ray starts: the sphere cut through, and the hit magnified.
@@ -47,18 +47,18 @@ struct Hit<'s> {
 
 impl Hit<'_> {
     /// A vector of render space in that plane.
-    fn planar(&self, v: DVec3) -> DVec2 {
+    fn in_section(&self, v: DVec3) -> DVec2 {
         DVec2::new(v.dot(self.along), v.dot(self.surface.normal.as_dvec3()))
     }
 
     /// How far rounding has put the position below the surface, in bounds.
     fn depth(&self) -> f64 {
-        -self.planar(self.surface.position.as_dvec3() - self.point).y / f64::from(self.surface.bound)
+        -self.in_section(self.surface.position.as_dvec3() - self.point).y / f64::from(self.surface.bound)
     }
 
     /// More where depth and both sides of the box of rounding are large.
     fn telling(&self) -> f64 {
-        let corners = rounding_box(self.surface.position, |point| self.planar(point - self.point));
+        let corners = rounding_box(self.surface.position, |point| self.in_section(point - self.point));
         let low = corners.iter().fold(DVec2::INFINITY, |low, &corner| low.min(corner));
         let high = corners.iter().fold(DVec2::NEG_INFINITY, |high, &corner| high.max(corner));
         let thinnest = (high - low).min_element() / f64::from(self.surface.bound);
@@ -66,7 +66,7 @@ impl Hit<'_> {
     }
 }
 
-/// Of the hits on the sphere that most rays meet, lit at a middling slant, one that rounding has put deep inside
+/// Of the hits on the sphere that most rays hit, lit obliquely, one that rounding has put deep inside
 /// and whose box of rounding is drawn neither flat nor thin.
 fn telling_hit(subject: &Subject) -> Option<Hit<'_>> {
     let light = *subject.lights.first()?;
@@ -78,16 +78,16 @@ fn telling_hit(subject: &Subject) -> Option<Hit<'_>> {
         let normal = surface.normal.as_dvec3();
         let to_light = (light - point).try_normalize()?;
         let along = (to_light - normal * normal.dot(to_light)).try_normalize()?;
-        let slanted = (0.45..0.8).contains(&normal.dot(to_light));
-        slanted.then_some(Hit { pixel: ray.pixel, ball, point, surface, along, light })
+        let oblique = (0.45..0.8).contains(&normal.dot(to_light));
+        oblique.then_some(Hit { pixel: ray.pixel, ball, point, surface, along, light })
     });
     hits.max_by(|a, b| a.telling().total_cmp(&b.telling()))
 }
 
-/// The sphere, the hit, its normal and the way to the light, at the scene's own scale.
+/// The sphere, the hit, its normal and the direction to the light, at the scene's own scale.
 fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     let frame = Frame { low: DVec2::new(26.0, 44.0), high: DVec2::new(MIDDLE - 26.0, HEIGHT - 56.0) };
-    let [centre, light] = [hit.ball.centre, hit.light].map(|place| hit.planar(place - hit.point));
+    let [centre, light] = [hit.ball.centre, hit.light].map(|place| hit.in_section(place - hit.point));
     let radius = hit.ball.radius;
     // Turned so that the light is to the upper right: the drawing's y goes down.
     let up = (light - centre).normalize_or(DVec2::Y);
@@ -119,7 +119,7 @@ fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     let normal = DVec2::Y * 46.0 / scale;
     svg.arrow(place(DVec2::ZERO), place(normal), Pen::new(IMAGE, 2.0));
     svg.dot(place(DVec2::ZERO), 4.5, INK);
-    paint_lamp(svg, place(light));
+    paint_light(svg, place(light));
     svg.label(Label::near(place(light), "light", DVec2::X, 16.0));
     svg.label(Label::near(place(DVec2::ZERO), "hit", turned(-DVec2::Y), 9.0));
     svg.label(Label::near(place(normal), "*n*", turned(DVec2::Y), 5.0).coloured(IMAGE));
@@ -130,7 +130,7 @@ fn paint_section(svg: &mut Svg, hit: &Hit<'_>) {
     svg.label(Label::near(place(centre - up * radius * 0.55), "cos θ < 0: no ray", DVec2::NEG_Y, 0.0).title(0.92));
 }
 
-fn paint_lamp(svg: &mut Svg, at: DVec2) {
+fn paint_light(svg: &mut Svg, at: DVec2) {
     for step in 0..12 {
         let angle = f64::from(step) * std::f64::consts::TAU / 12.0;
         let out = DVec2::new(libm::cos(angle), libm::sin(angle));
@@ -145,8 +145,8 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     let scale = BOUND / f64::from(hit.surface.bound);
     let origin = DVec2::new((MIDDLE + WIDTH) / 2.0 - 60.0, 218.0);
     let place = |point: DVec3| {
-        let planar = hit.planar(point - hit.point) * scale;
-        origin + DVec2::new(planar.x, -planar.y)
+        let in_section = hit.in_section(point - hit.point) * scale;
+        origin + DVec2::new(in_section.x, -in_section.y)
     };
     let (left, right, floor) = (MIDDLE + 14.0, WIDTH - 12.0, HEIGHT - 46.0);
     let inside =
@@ -164,19 +164,19 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     }
     let [p, p_off] = [position, start].map(|point| place(point.as_dvec3()));
     let toward = (hit.light - hit.point).normalize_or(hit.along);
-    let toward = DVec2::new(hit.planar(toward).x, -hit.planar(toward).y);
-    // The naive ray starts inside and meets its own surface.
+    let toward = DVec2::new(hit.in_section(toward).x, -hit.in_section(toward).y);
+    // The naive ray starts inside and hits its own surface.
     let to_surface = (origin.y - p.y) / toward.y;
     if to_surface > 0.0 {
         svg.line(p, p + toward * to_surface, Pen::new(LIGHT, 1.4).dashed("2 4"));
         svg.dot(p + toward * to_surface, 3.2, LIGHT);
-        let met = p + toward * to_surface;
-        svg.label(Label::near(met, "blocked by its own surface", DVec2::new(1.0, 0.5), 12.0));
+        let at_surface = p + toward * to_surface;
+        svg.label(Label::near(at_surface, "blocked by its own surface", DVec2::new(1.0, 0.5), 12.0));
     }
     let pushed = place(position.as_dvec3() + hit.surface.normal.as_dvec3() * f64::from(hit.surface.bound));
     svg.arrow(p, pushed, Pen::new(IMAGE, 2.0));
-    let reach = ((36.0 - p_off.y) / toward.y).min((right - 10.0 - p_off.x) / toward.x.max(1e-9));
-    svg.arrow(p_off, p_off + toward * reach, Pen::new(LIGHT, 1.9).dashed("7 4"));
+    let length = ((36.0 - p_off.y) / toward.y).min((right - 10.0 - p_off.x) / toward.x.max(1e-9));
+    svg.arrow(p_off, p_off + toward * length, Pen::new(LIGHT, 1.9).dashed("7 4"));
     for (at, radius) in [(origin, 3.6), (p, 4.5), (p_off, 4.5)] {
         svg.dot(at, radius, INK);
     }
@@ -185,7 +185,7 @@ fn paint_magnified(svg: &mut Svg, hit: &Hit<'_>) {
     svg.label(Label::near(p_off, "start of the shadow ray", DVec2::new(-0.6, -1.0), 20.0));
     let bound = format!("`bound` = {:.2e}", hit.surface.bound);
     svg.label(Label::near(p.lerp(pushed, 0.5), &bound, DVec2::NEG_X, 8.0).coloured(IMAGE));
-    svg.label(Label::near(p_off + toward * reach * 0.75, "to the light", DVec2::NEG_Y, 10.0).coloured(LIGHT));
+    svg.label(Label::near(p_off + toward * length * 0.75, "to the light", DVec2::NEG_Y, 10.0).coloured(LIGHT));
     let corner = DVec2::new(right - 4.0, floor - 10.0);
     svg.label(Label::near(corner, "inside the ball", DVec2::NEG_X, 0.0).title(0.92));
 }
@@ -213,8 +213,8 @@ mod tests {
         let hit = telling_hit(&subject).expect("a hit");
         let Surface { position, normal, bound, .. } = hit.surface;
         let start = offset_origin(position, normal, bound).as_dvec3();
-        assert!(hit.depth() > 0.0 && hit.planar(start - hit.point).y > 0.0);
-        let box_of_hit = rounding_box(position, |point| hit.planar(point - hit.point) / f64::from(bound));
+        assert!(hit.depth() > 0.0 && hit.in_section(start - hit.point).y > 0.0);
+        let box_of_hit = rounding_box(position, |point| hit.in_section(point - hit.point) / f64::from(bound));
         assert!(box_of_hit.len() >= 4 && box_of_hit.iter().all(|corner| corner.length() < 1.0));
     }
 }

@@ -20,7 +20,7 @@ pub struct Patch {
     pub v: DVec3,
     /// Its convex outline in u and v, scene units, counter-clockwise.
     pub outline: Vec<DVec2>,
-    /// The share of light that the plane sends on, linear Rec. 709.
+    /// The fraction of light that the plane sends on, linear Rec. 709.
     pub colour: [f64; 3],
 }
 
@@ -31,11 +31,12 @@ impl Patch {
         let u = along.try_normalize().unwrap_or_else(|| planar.normal.any_orthonormal_vector());
         let v = planar.normal.cross(u);
         let origin = planar.normal * planar.offset;
-        let foot = |&(centre, reach): &Extent| (DVec2::new((centre - origin).dot(u), (centre - origin).dot(v)), reach);
+        let foot =
+            |&(centre, extent): &Extent| (DVec2::new((centre - origin).dot(u), (centre - origin).dot(v)), extent);
         let feet: Vec<(DVec2, f64)> = things.iter().map(foot).collect();
         let (low, high) = bounds(feet.iter().map(|&(at, _)| at));
         let margin = 0.07 * (high - low).max_element().max(1e-9);
-        let around = |&(at, reach): &(DVec2, f64)| circle(at, reach + margin);
+        let around = |&(at, extent): &(DVec2, f64)| circle(at, extent + margin);
         let outline = hull(feet.iter().flat_map(around).collect());
         Self { origin, normal: planar.normal, u, v, outline, colour: planar.colour }
     }
@@ -88,7 +89,7 @@ impl Patch {
 
     /// The outline of the shadow that a sphere casts here, cut at the patch's edges; none where none falls.
     ///
-    /// Its edge is where the rays from the light that only just touch the sphere meet the plane.
+    /// Its edge is where the rays from the light that only just touch the sphere intersect the plane.
     pub fn shadow(&self, light: DVec3, ball: &Ball) -> Vec<DVec3> {
         let to_light = light - ball.centre;
         let distance = to_light.length();
@@ -108,8 +109,8 @@ impl Patch {
             if !t.is_finite() || t < 1.0 - 1e-9 {
                 return Vec::new();
             }
-            let met = light + t * (edge - light) - self.origin;
-            outline.push(DVec2::new(met.dot(self.u), met.dot(self.v)));
+            let edge_point = light + t * (edge - light) - self.origin;
+            outline.push(DVec2::new(edge_point.dot(self.u), edge_point.dot(self.v)));
         }
         self.trimmed(outline).into_iter().map(|at| self.point(at)).collect()
     }
@@ -187,9 +188,11 @@ mod tests {
     #[test]
     fn its_lines_end_at_its_edge() {
         let patch = ground();
-        let reach = patch.corners().iter().map(|corner| corner.length()).fold(0.0, f64::max);
+        let extent = patch.corners().iter().map(|corner| corner.length()).fold(0.0, f64::max);
         assert!(patch.lines().len() >= 10);
-        assert!(patch.lines().iter().flatten().all(|end| end.length() <= reach + 1e-9 && end.length() > 0.95 * reach));
+        assert!(
+            patch.lines().iter().flatten().all(|end| end.length() <= extent + 1e-9 && end.length() > 0.95 * extent)
+        );
     }
 
     #[test]

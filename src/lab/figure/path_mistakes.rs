@@ -5,7 +5,7 @@ use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::Picture;
 use super::svg::Drawing;
 use crate::naive::mistake::{
-    aimed_light_counted_in_full, glass_that_keeps_beams_narrow, metal_counted_as_matte, sky_in_all_directions_alike,
+    glass_that_keeps_beams_narrow, light_samples_counted_in_full, metal_counted_as_matte, sky_in_all_directions_alike,
 };
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
@@ -44,9 +44,9 @@ fn replaced(chapter: &Chapter, figure: &Figure, samples: u32, stage: Stage, line
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, SIZE)))
 }
 
-/// Rough metal by the wrong density.
+/// Rough metal by the wrong pdf.
 pub fn draw_metal(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let lines = ["the wrong density", "drawn by tiny mirrors, counted as matte"];
+    let lines = ["the wrong pdf", "microfacets sampled, a matte pdf"];
     spoiled(chapter, figure, 8, metal_counted_as_matte(), lines)
 }
 
@@ -76,5 +76,5 @@ pub fn draw_sky(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 /// Two ways to find a light, both counted.
 pub fn draw_weights(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let lines = ["no weight on what was aimed at", "found twice, counted twice"];
-    replaced(chapter, figure, 8, aimed_light_counted_in_full(), lines)
+    replaced(chapter, figure, 8, light_samples_counted_in_full(), lines)
 }

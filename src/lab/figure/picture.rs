@@ -18,7 +18,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Renders a chapter's scene with all stages that the kit has, after `change` has had its camera.
+    /// Renders a chapter's scene with all stages that pinhole has, after `change` has had its camera.
     ///
     /// `instead` takes the place of the stages that stand where it stands in the order.
     /// Errors: what a render of that scene would be refused for.
@@ -99,7 +99,7 @@ impl Picture {
     }
 }
 
-/// The chapter with every stage that the kit has.
+/// The chapter with every stage that pinhole has.
 fn all_stages(chapter: &Chapter) -> Chapter {
     let mut whole = chapter.clone();
     whole.view = None;

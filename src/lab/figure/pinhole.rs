@@ -27,7 +27,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let rays = chosen_rays(&subject);
     let scenery = eye_scenery(&subject, &rays, ROOM)?;
     let Some(first) = clearest(&scenery, &rays) else {
-        return Err(figure.unsuited("a sphere that a pixel's ray meets"));
+        return Err(figure.unsuited("a sphere that a pixel's ray hits"));
     };
     let mut svg = Svg::new(figure.name, scenery.bottom + 36.0);
     let mut strands = edges(&scenery.grid);
@@ -47,7 +47,8 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 pub fn eye_scenery<'s>(subject: &'s Subject, rays: &[&PixelRay], room: Frame) -> Result<Scenery<'s>> {
     let most = drawn_distance(subject);
     // One decimal, since the figure's foot says it.
-    let grids = [1.0, 0.8, 0.65, 0.5].map(|share| Grid::of(subject, ((most * share * 10.0).floor() / 10.0).max(0.1)));
+    let grids =
+        [1.0, 0.8, 0.65, 0.5].map(|fraction| Grid::of(subject, ((most * fraction * 10.0).floor() / 10.0).max(0.1)));
     best_scenery(subject, &grids, rays, &[(DVec3::ZERO, 0.1)], room)
 }
 
@@ -57,7 +58,7 @@ pub fn distance_note(scenery: &Scenery<'_>) -> String {
     format!("image plane drawn {distance:.1} before the eye")
 }
 
-/// The ray of which most is seen behind the image and, where it is lit, on the way to the light.
+/// The ray of which most is seen behind the image and, where it is lit, on its segment to the light.
 fn clearest<'r>(scenery: &Scenery<'_>, rays: &[&'r PixelRay]) -> Option<&'r PixelRay> {
     let seen = |ray: &PixelRay| {
         let centre = scenery.grid.centre(ray.pixel);
@@ -68,17 +69,18 @@ fn clearest<'r>(scenery: &Scenery<'_>, rays: &[&'r PixelRay]) -> Option<&'r Pixe
     rays.iter().copied().max_by(|a, b| seen(a).total_cmp(&seen(b)))
 }
 
-/// For each sphere that the image shows, the lit ray that meets it most squarely: largest sphere in the image first.
+/// For each sphere that the image shows, the lit ray that hits it closest to normal incidence: largest sphere in the image first.
 pub fn chosen_rays(subject: &Subject) -> Vec<&PixelRay> {
     let mut chosen: Vec<(usize, &PixelRay)> = Vec::new();
     for ball in &subject.balls {
-        let met: Vec<&PixelRay> =
+        let hitting: Vec<&PixelRay> =
             subject.rays.iter().filter(|ray| ray.hit.is_some_and(|(_, shape)| shape == ball.shape)).collect();
         let off = |ray: &PixelRay| (ball.centre - ray.origin).cross(ray.direction).length();
         // A lit ray first; among equals the one that passes nearest the centre.
-        let best =
-            met.iter().min_by(|a, b| a.lit().is_none().cmp(&b.lit().is_none()).then_with(|| off(a).total_cmp(&off(b))));
-        chosen.extend(best.map(|ray| (met.len(), *ray)));
+        let best = hitting
+            .iter()
+            .min_by(|a, b| a.lit().is_none().cmp(&b.lit().is_none()).then_with(|| off(a).total_cmp(&off(b))));
+        chosen.extend(best.map(|ray| (hitting.len(), *ray)));
     }
     chosen.sort_by_key(|(count, ray)| (ray.lit().is_none(), std::cmp::Reverse(*count)));
     chosen.into_iter().map(|(_, ray)| ray).take(3).collect()
@@ -109,8 +111,8 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, rays: &[&PixelRay], first: &Pixel
         svg.label(Label::near(rim, "sphere", DVec2::Y, 5.0).or(rims));
     }
     if let Some(onward) = first.lit() {
-        let share = |share| at(onward.from.lerp(onward.to, share));
-        let shadow_ray = Label::near(share(0.6), "shadow ray", DVec2::X, 8.0).or([0.5, 0.7].map(share));
+        let fraction = |fraction| at(onward.from.lerp(onward.to, fraction));
+        let shadow_ray = Label::near(fraction(0.6), "shadow ray", DVec2::X, 8.0).or([0.5, 0.7].map(fraction));
         svg.label(shadow_ray.coloured(LIGHT));
     }
     // In the open, between what the image covers and the surface.
@@ -119,7 +121,7 @@ fn label(svg: &mut Svg, scenery: &Scenery<'_>, rays: &[&PixelRay], first: &Pixel
     if let Some(middle) = open.next() {
         svg.label(Label::near(middle, "ray", DVec2::NEG_Y, 6.0).or(open).coloured(RAY));
     }
-    let top = |share: f64| at(scenery.grid.point(f64::from(scenery.grid.size[0]) * share, 0.0));
+    let top = |fraction: f64| at(scenery.grid.point(f64::from(scenery.grid.size[0]) * fraction, 0.0));
     svg.label(Label::near(top(0.5), "image plane", DVec2::NEG_Y, 8.0).or([0.0, 0.25, 0.75, 1.0].map(top)));
     let centres = rays.iter().map(|ray| at(scenery.grid.centre(ray.pixel)));
     svg.label(Label::near(at(scenery.grid.centre(first.pixel)), "pixel centre", DVec2::Y, 40.0).or(centres));

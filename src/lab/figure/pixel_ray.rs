@@ -14,11 +14,11 @@ pub struct PixelRay {
     pub origin: DVec3,
     /// Its direction, a unit vector to within f32.
     pub direction: DVec3,
-    /// The distance and the shape it meets; none where nothing is met.
+    /// The distance and the shape it hits; none where nothing is hit.
     pub hit: Option<(f64, u32)>,
-    /// The surface it meets; none where nothing is met or no stage describes surfaces.
+    /// The surface it hits; none where nothing is hit or no stage describes surfaces.
     pub surface: Option<Surface>,
-    /// The colour that the kit rendered, as a screen shows it.
+    /// The colour that pinhole rendered, as a screen shows it.
     pub colour: String,
     /// From the surface on to each light that it faces: where it starts, the light, and what stands in between.
     pub onward: Vec<Onward>,
@@ -41,7 +41,7 @@ impl PixelRay {
         self.origin + t * self.direction
     }
 
-    /// Where it meets a surface.
+    /// Where it hits a surface.
     pub fn point(&self) -> Option<DVec3> {
         self.hit.map(|(t, _)| self.at(t))
     }

@@ -36,7 +36,7 @@ impl Scenery<'_> {
         svg.ball(self.point(ball.centre), ball.radius * self.sketch.scale, lit, &tones(ball.colour));
     }
 
-    /// The image, each pixel in the colour that the kit rendered.
+    /// The image, each pixel in the colour that pinhole rendered.
     pub(super) fn paint_grid(&self, svg: &mut Svg) {
         for ray in &self.subject.rays {
             let cell = self.grid.cell(ray.pixel).map(|corner| self.point(corner));
@@ -53,8 +53,8 @@ impl Scenery<'_> {
     /// A ray to a light, up to where the light's sign begins.
     pub(super) fn shadow_ray(&self, onward: Onward, pen: Pen, size: f64) -> Strand {
         let length = self.point(onward.from).distance(self.point(onward.to));
-        let share = (1.0 - 15.0 * size / length.max(1.0)).max(0.5);
-        Strand::arrow(onward.from, onward.from.lerp(onward.to, share), pen)
+        let fraction = (1.0 - 15.0 * size / length.max(1.0)).max(0.5);
+        Strand::arrow(onward.from, onward.from.lerp(onward.to, fraction), pen)
     }
 
     /// A light: a disc with short rays; `size` is 1 in a drawing of full width.
@@ -84,7 +84,7 @@ fn tones(colour: [f64; 3]) -> [String; 3] {
     [tone(|part| part + (1.0 - part) * 0.35), tone(|part| part), tone(|part| part * 0.32)]
 }
 
-/// The eye: where all rays of a perspective camera meet; `size` is 1 in a drawing of full width.
+/// The eye: where all rays of a perspective camera start; `size` is 1 in a drawing of full width.
 pub fn paint_eye(svg: &mut Svg, at: DVec2, ahead: DVec2, size: f64) {
     let along = ahead.normalize_or(DVec2::X);
     let open = DVec2::new(libm::cos(0.55), libm::sin(0.55));

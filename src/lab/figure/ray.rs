@@ -16,10 +16,10 @@ use pinhole::Result;
 const RISE: f64 = 0.16;
 const HEIGHT: f64 = 340.0;
 
-/// The model of a ray: r(t) = O + tR up to the surface that it meets.
+/// The model of a ray: r(t) = O + tR up to the surface that it hits.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = first_with_sphere(chapter, figure)?;
-    let (ray, ball, t) = centre_ray(&subject).ok_or_else(|| figure.unsuited("a sphere that a pixel's ray meets"))?;
+    let (ray, ball, t) = centre_ray(&subject).ok_or_else(|| figure.unsuited("a sphere that a pixel's ray hits"))?;
     let end = ray_end(ray, ball, t);
     let frame = Frame { low: DVec2::new(46.0, 44.0), high: DVec2::new(WIDTH - 36.0, HEIGHT - 96.0) };
     let section = Section::new(ray, ball, RISE, &[DVec2::new(end, 0.0)], frame);
@@ -31,7 +31,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     Ok(svg.finish(figure.about, &figure.foot(&subject, &format!("pixel {},{}", ray.pixel[0], ray.pixel[1]))))
 }
 
-/// The coarsest run that has a ray which meets a sphere; an odd number of pixels has one in the middle.
+/// The coarsest run that has a ray which hits a sphere; an odd number of pixels has one in the middle.
 fn first_with_sphere(chapter: &Chapter, figure: &Figure) -> Result<Subject> {
     for side in [1, 3, 9, 27] {
         let subject = Subject::of(chapter, 15 * side, 9 * side)?;
@@ -39,13 +39,13 @@ fn first_with_sphere(chapter: &Chapter, figure: &Figure) -> Result<Subject> {
             return Ok(subject);
         }
     }
-    Err(figure.unsuited("a sphere that a pixel's ray meets"))
+    Err(figure.unsuited("a sphere that a pixel's ray hits"))
 }
 
-/// Of the rays that meet a sphere, the one nearest the image's centre; with the sphere and t.
+/// Of the rays that hit a sphere, the one nearest the image's centre; with the sphere and t.
 fn centre_ray(subject: &Subject) -> Option<(&PixelRay, &Ball, f64)> {
-    let met = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?, ray.hit?.0)));
-    met.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)))
+    let hitting = subject.rays.iter().filter_map(|ray| Some((ray, subject.ball_hit(ray)?, ray.hit?.0)));
+    hitting.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)))
 }
 
 /// How far the ray is drawn: past the sphere, and past the last of its marks.

@@ -60,13 +60,13 @@ const TICK: Pen = Pen::new(INK, 0.9).faint(0.7);
 
 /// The variance of the mean over its samples, on two logarithmic scales: a smooth function and one with an edge.
 pub fn draw_variance(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let (double_double, tall) = (250.0, 200.0);
+    let (wide, tall) = (250.0, 200.0);
     let mut svg = Svg::new(figure.name, tall + 92.0);
     for (number, integrand) in (0_u32..).zip([INTEGRANDS[1], INTEGRANDS[2]]) {
         let corner = DVec2::new(52.0 + f64::from(number) * (WIDTH / 2.0 - 6.0), 12.0);
         let at = |samples: f64, variance: f64| {
             let (x, y) = (libm::log2(samples) / 10.0, libm::log10(variance) / -10.0);
-            corner + DVec2::new(x * double_double, y * tall)
+            corner + DVec2::new(x * wide, y * tall)
         };
         for power in 0..=5 {
             let (samples, variance) = (libm::exp2(2.0 * f64::from(power)), libm::pow(0.01, f64::from(power)));

@@ -68,7 +68,7 @@ impl<'s> Scenery<'s> {
         let (toward, up) = side.view(subject);
         things.extend(subject.lights.iter().map(|&light| (light, 0.2)));
         let sketch = Sketch::fitting(toward, up, &things, frame)?;
-        let low = |&(at, reach): &Extent| sketch.point(at).y + reach * sketch.scale;
+        let low = |&(at, extent): &Extent| sketch.point(at).y + extent * sketch.scale;
         let bottom = things.iter().map(low).fold(frame.low.y, f64::max);
         Ok(Self { subject, sketch, grid, patches, bottom })
     }
@@ -85,16 +85,16 @@ impl<'s> Scenery<'s> {
 
     /// The middle of the longest part of a straight line that nothing stands before; its own middle where all is.
     pub fn open_middle(&self, from: DVec3, to: DVec3) -> DVec3 {
-        let pieces = self.sketch.cut(from, to, |point| self.veiled(point));
-        let open = pieces.into_iter().filter(|(_, _, veiled)| !veiled);
+        let parts = self.sketch.cut(from, to, |point| self.veiled(point));
+        let open = parts.into_iter().filter(|(_, _, veiled)| !veiled);
         let longest = open.max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
         longest.map_or(from.lerp(to, 0.5), |(from, to, _)| from.lerp(to, 0.5))
     }
 
     /// How much of a straight line nothing stands before, in units of the drawing.
     pub fn open_length(&self, from: DVec3, to: DVec3) -> f64 {
-        let pieces = self.sketch.cut(from, to, |point| self.veiled(point));
-        let open = pieces.into_iter().filter(|(_, _, veiled)| !veiled);
+        let parts = self.sketch.cut(from, to, |point| self.veiled(point));
+        let open = parts.into_iter().filter(|(_, _, veiled)| !veiled);
         open.map(|(from, to, _)| self.point(from).distance(self.point(to))).sum()
     }
 
@@ -104,23 +104,23 @@ impl<'s> Scenery<'s> {
         for patch in &self.patches {
             self.paint_patch(svg, patch);
         }
-        let pieces: Vec<(Strand, Veil)> = strands.iter().flat_map(|strand| self.pieces(strand)).collect();
+        let parts: Vec<(Strand, Veil)> = strands.iter().flat_map(|strand| self.parts(strand)).collect();
         let image_nearness = self.sketch.nearness(self.grid.middle());
         let mut balls: Vec<&Ball> = self.subject.balls.iter().collect();
         balls.sort_by(|a, b| self.sketch.nearness(a.centre).total_cmp(&self.sketch.nearness(b.centre)));
         let nearer = balls.partition_point(|ball| self.sketch.nearness(ball.centre) < image_nearness);
         balls[..nearer].iter().for_each(|ball| self.paint_ball(svg, ball));
-        self.paint_pieces(svg, &pieces, Veil::Image);
+        self.paint_parts(svg, &parts, Veil::Image);
         self.paint_grid(svg);
         balls[nearer..].iter().for_each(|ball| self.paint_ball(svg, ball));
-        self.paint_pieces(svg, &pieces, Veil::Sphere);
-        self.paint_pieces(svg, &pieces, Veil::Nothing);
+        self.paint_parts(svg, &parts, Veil::Sphere);
+        self.paint_parts(svg, &parts, Veil::Nothing);
         for &light in &self.subject.lights {
             self.paint_light(svg, light, size);
         }
     }
 
-    fn pieces(&self, strand: &Strand) -> Vec<(Strand, Veil)> {
+    fn parts(&self, strand: &Strand) -> Vec<(Strand, Veil)> {
         let toward = self.sketch.axes.z_axis;
         let veil = |point: DVec3| {
             if self.sketch.hidden(point, &self.subject.balls) {
@@ -133,14 +133,14 @@ impl<'s> Scenery<'s> {
         };
         let cuts = self.sketch.cut(strand.from, strand.to, veil);
         let last = cuts.len() - 1;
-        let piece = |(index, (from, to, veil)): (usize, (DVec3, DVec3, Veil))| {
+        let part = |(index, (from, to, veil)): (usize, (DVec3, DVec3, Veil))| {
             (Strand { from, to, head: strand.head && index == last, ..*strand }, veil)
         };
-        cuts.into_iter().enumerate().map(piece).collect()
+        cuts.into_iter().enumerate().map(part).collect()
     }
 
-    fn paint_pieces(&self, svg: &mut Svg, pieces: &[(Strand, Veil)], asked: Veil) {
-        for (strand, _) in pieces.iter().filter(|(_, veil)| *veil == asked) {
+    fn paint_parts(&self, svg: &mut Svg, parts: &[(Strand, Veil)], asked: Veil) {
+        for (strand, _) in parts.iter().filter(|(_, veil)| *veil == asked) {
             let (from, to) = (self.point(strand.from), self.point(strand.to));
             // What is inside or behind a sphere is only hinted at.
             let pen = match asked {

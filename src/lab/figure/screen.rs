@@ -1,4 +1,4 @@
-//! The screen's corners, and what three slips on the way to it make of the picture.
+//! The screen's corners, and what three mistakes on the path to it make of the picture.
 
 use super::Figure;
 use super::gallery::{Exhibit, gallery_foot, hang};
@@ -58,20 +58,20 @@ fn pair(point: DVec2) -> String {
     format!("({}, {})", point.x, point.y).replace('-', "−")
 }
 
-/// The picture as it should be, and with each slip.
+/// The picture as it should be, and with each mistake.
 pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let size = [430, 215];
-    let ways: [(&str, &str, fn(DVec2, f64) -> DVec2); 4] = [
+    let formulas: [(&str, &str, fn(DVec2, f64) -> DVec2); 4] = [
         ("right", "((2*x* − 1) · aspect, 1 − 2*y*)", screen_from_ndc),
         ("the aspect forgotten", "(2*x* − 1, 1 − 2*y*)", without_aspect),
         ("y still downward", "((2*x* − 1) · aspect, 2*y* − 1)", upside_down),
         ("x to the left", "((1 − 2*x*) · aspect, 1 − 2*y*)", mirrored),
     ];
-    let exhibit = |(name, formula, way): (&str, &str, fn(DVec2, f64) -> DVec2)| {
-        let picture = Picture::of(chapter, size, Some(placed_by(way)), |_| ())?;
+    let exhibit = |(name, formula, place): (&str, &str, fn(DVec2, f64) -> DVec2)| {
+        let picture = Picture::of(chapter, size, Some(placed_by(place)), |_| ())?;
         Ok(Exhibit { picture, lines: vec![name.into(), formula.into()] })
     };
-    let exhibits = ways.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
+    let exhibits = formulas.map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 2, &gallery_foot(chapter, figure, size)))
 }
 
@@ -87,5 +87,5 @@ fn placed_by(screen_from_ndc: fn(DVec2, f64) -> DVec2) -> Stage {
             }
         }
     };
-    Stage::new("Place screen points another way", TileSystems::Screen, fill)
+    Stage::new("Place screen points wrongly", TileSystems::Screen, fill)
 }

@@ -29,15 +29,15 @@ impl Section {
         let across = (to_centre - s * ray.direction).length();
         let centre = DVec2::new(s, across);
         let along = DVec2::new(libm::cos(rise), -libm::sin(rise));
-        let planar = Self { origin: DVec2::ZERO, along, scale: 1.0, centre, radius: ball.radius };
-        let at = planar.point(centre.x, centre.y);
+        let unscaled = Self { origin: DVec2::ZERO, along, scale: 1.0, centre, radius: ball.radius };
+        let at = unscaled.point(centre.x, centre.y);
         let (mut low, mut high) = (at - ball.radius, at + ball.radius);
         for point in points.iter().chain([&DVec2::ZERO]) {
-            let at = planar.point(point.x, point.y);
+            let at = unscaled.point(point.x, point.y);
             (low, high) = (low.min(at), high.max(at));
         }
         let scale = ((frame.high - frame.low) / (high - low)).min_element();
-        Self { origin: (frame.low + frame.high) / 2.0 - scale * (low + high) / 2.0, scale, ..planar }
+        Self { origin: (frame.low + frame.high) / 2.0 - scale * (low + high) / 2.0, scale, ..unscaled }
     }
 
     /// The drawing's point at t along and so far across.

@@ -74,7 +74,7 @@ fn worth(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let apart = unit(scenery.subject.axes.z_axis).perp_dot(unit(scenery.subject.axes.x_axis)).abs().sqrt();
     // A camera's rays that spread by themselves need it less.
     let apart = if matches!(scenery.subject.lens, Lens::Perspective(_)) { apart.sqrt() } else { apart };
-    // Where it makes little difference, the way of the rays is the way one reads.
+    // Where it makes little difference, the rays run in the direction in which one reads.
     let reads = if scenery.sketch.direction(-scenery.subject.axes.z_axis).x > 0.0 { 1.35 } else { 1.0 };
     let clear = reads * upright * libm::pow(seen, 6.0) * apart;
     clear * image.sqrt() * image.sqrt().sqrt() * mean(camera).sqrt() * mean(shadow).sqrt()
@@ -86,7 +86,7 @@ fn mean(lengths: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 1.0 }
 }
 
-/// The share of what materials that nothing hides: the rims of spheres, where rays end, their way to the light.
+/// The fraction of what matters that nothing hides: the rims of spheres, where rays end, their segments to the light.
 fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     let [right, up, toward] = [scenery.sketch.axes.x_axis, scenery.sketch.axes.y_axis, scenery.sketch.axes.z_axis];
     let (mut seen, mut all) = (0.0, 0.0);
@@ -106,10 +106,10 @@ fn seen(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> f64 {
     for ray in rays {
         if let Some(point) = ray.point() {
             let centre = scenery.grid.centre(ray.pixel);
-            [0.8, 1.0].into_iter().for_each(|share| ask(centre.lerp(point, share), 3.0));
+            [0.8, 1.0].into_iter().for_each(|fraction| ask(centre.lerp(point, fraction), 3.0));
         }
         if let Some(on) = ray.lit() {
-            [0.15, 0.4, 0.7].into_iter().for_each(|share| ask(on.from.lerp(on.to, share), 1.0));
+            [0.15, 0.4, 0.7].into_iter().for_each(|fraction| ask(on.from.lerp(on.to, fraction), 1.0));
         }
     }
     seen / f64::max(all, 1.0)

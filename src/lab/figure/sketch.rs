@@ -4,9 +4,9 @@ use pinhole::extract::look_at_axes;
 use pinhole::scene::LookAt;
 use pinhole::{Error, Result};
 
-/// How many pieces a line is first cut into when it is asked what hides it.
+/// How many parts a line is first cut into when it is asked what hides it.
 const STEPS: usize = 160;
-/// How often the place where a line disappears is narrowed to half.
+/// How often the place where a line disappears is halved.
 const HALVINGS: usize = 24;
 
 /// A scene seen in parallel projection, so that parallel lines stay parallel and lengths along an axis compare.
@@ -46,11 +46,11 @@ impl Sketch {
     pub fn fitting(toward_viewer: DVec3, up: DVec3, things: &[Extent], frame: Frame) -> Result<Self> {
         let look = LookAt { eye: toward_viewer, target: DVec3::ZERO, up };
         let axes = look_at_axes("the figure", &look).map_err(Error::from)?;
-        let planar = Self { axes, scale: 1.0, origin: DVec2::ZERO };
+        let unscaled = Self { axes, scale: 1.0, origin: DVec2::ZERO };
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for &(centre, reach) in things {
-            let at = planar.point(centre);
-            (low, high) = (low.min(at - reach), high.max(at + reach));
+        for &(centre, extent) in things {
+            let at = unscaled.point(centre);
+            (low, high) = (low.min(at - extent), high.max(at + extent));
         }
         let room = (frame.high - frame.low) / (high - low).max(DVec2::splat(1e-9));
         let scale = room.min_element();
@@ -93,25 +93,25 @@ impl Sketch {
         to: DVec3,
         class: impl Fn(DVec3) -> C,
     ) -> Vec<(DVec3, DVec3, C)> {
-        let at = |share: f64| from.lerp(to, share);
-        let share = |step: usize| (step as f64 + 0.5) / STEPS as f64;
-        let mut pieces = Vec::new();
-        let (mut start, mut current) = (0.0, class(at(share(0))));
+        let at = |fraction: f64| from.lerp(to, fraction);
+        let fraction = |step: usize| (step as f64 + 0.5) / STEPS as f64;
+        let mut parts = Vec::new();
+        let (mut start, mut current) = (0.0, class(at(fraction(0))));
         for step in 1..STEPS {
-            let next = class(at(share(step)));
+            let next = class(at(fraction(step)));
             if next == current {
                 continue;
             }
-            let (mut low, mut high) = (share(step - 1), share(step));
+            let (mut low, mut high) = (fraction(step - 1), fraction(step));
             for _ in 0..HALVINGS {
                 let middle = (low + high) / 2.0;
                 if class(at(middle)) == current { low = middle } else { high = middle }
             }
-            pieces.push((at(start), at(high), current));
+            parts.push((at(start), at(high), current));
             (start, current) = (high, next);
         }
-        pieces.push((at(start), to, current));
-        pieces
+        parts.push((at(start), to, current));
+        parts
     }
 }
 
@@ -141,8 +141,8 @@ mod tests {
 
     #[test]
     fn a_line_is_cut_where_it_disappears() {
-        let pieces = sketch().cut(DVec3::ZERO, DVec3::X * 3.0, |point| point.x > 1.25);
-        assert_eq!(pieces.len(), 2);
-        assert!((pieces[0].1.x - 1.25).abs() < 1e-6 && pieces[1].2);
+        let parts = sketch().cut(DVec3::ZERO, DVec3::X * 3.0, |point| point.x > 1.25);
+        assert_eq!(parts.len(), 2);
+        assert!((parts[0].1.x - 1.25).abs() < 1e-6 && parts[1].2);
     }
 }

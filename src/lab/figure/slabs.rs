@@ -21,7 +21,7 @@ const LEFT: f64 = 110.0;
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 96, 54)?;
     let table = CuboidTable::extract(&Census::of(&chapter.world(&Overrides::default())))?;
-    let told = telling(&subject, &table).ok_or_else(|| figure.unsuited("a cuboid that a pixel's ray meets"))?;
+    let told = telling(&subject, &table).ok_or_else(|| figure.unsuited("a cuboid that a pixel's ray hits"))?;
     let (ray, spans) = told;
     let mut svg = Svg::new(figure.name, HEIGHT);
     let enters = spans.iter().map(|span| span[0]).fold(f64::NEG_INFINITY, f64::max);
@@ -63,7 +63,7 @@ fn spans(ray: &PixelRay, slabs: &Slabs) -> [[f64; 2]; 3] {
     })
 }
 
-/// A little more than where any slab begins or ends, but no more than three times the way through the cuboid to each side.
+/// A little more than where any slab begins or ends, but no more than three times the length inside the cuboid to each side.
 fn drawn_range(spans: &[[f64; 2]; 3]) -> (f64, f64) {
     let enters = spans.iter().map(|span| span[0]).fold(f64::NEG_INFINITY, f64::max);
     let leaves = spans.iter().map(|span| span[1]).fold(f64::INFINITY, f64::min);
@@ -74,11 +74,11 @@ fn drawn_range(spans: &[[f64; 2]; 3]) -> (f64, f64) {
     (least - margin, most + margin)
 }
 
-/// Of the cuboid that most rays meet, the ray whose six ends stand farthest apart on the drawing; first those that enter
+/// Of the cuboid that most rays hit, the ray whose six ends stand farthest apart on the drawing; first those that enter
 /// through one pair of faces and leave through another.
 fn telling<'s>(subject: &'s Subject, table: &CuboidTable) -> Option<(&'s PixelRay, [[f64; 2]; 3])> {
-    let met = |shape: u32| subject.rays.iter().filter(move |ray| ray.hit.is_some_and(|(_, hit)| hit == shape));
-    let row = (0..table.shape.len()).max_by_key(|&row| met(table.shape[row]).count())?;
+    let hitting = |shape: u32| subject.rays.iter().filter(move |ray| ray.hit.is_some_and(|(_, hit)| hit == shape));
+    let row = (0..table.shape.len()).max_by_key(|&row| hitting(table.shape[row]).count())?;
     let slabs = &table.slabs[row];
     let apart = |ray: &&PixelRay| {
         let spans = spans(ray, slabs);
@@ -90,6 +90,6 @@ fn telling<'s>(subject: &'s Subject, table: &CuboidTable) -> Option<(&'s PixelRa
         let first_left = (0..3).min_by(|&a, &b| spans[a][1].total_cmp(&spans[b][1]));
         f64::from(u8::from(last_entered != first_left)) + nearest / (last - first)
     };
-    let ray = met(table.shape[row]).max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let ray = hitting(table.shape[row]).max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     Some((ray, spans(ray, slabs)))
 }

@@ -29,7 +29,7 @@ pub struct Ball {
     pub centre: DVec3,
     /// Its radius, scene units.
     pub radius: f64,
-    /// The share of light that it sends on, linear Rec. 709.
+    /// The fraction of light that it sends on, linear Rec. 709.
     pub colour: [f64; 3],
     /// The number that hits carry.
     pub shape: u32,
@@ -42,7 +42,7 @@ pub struct Planar {
     pub normal: DVec3,
     /// The offset k, scene units.
     pub offset: f64,
-    /// The share of light that it sends on, linear Rec. 709.
+    /// The fraction of light that it sends on, linear Rec. 709.
     pub colour: [f64; 3],
 }
 
@@ -101,7 +101,7 @@ impl Subject {
         &self.rays[(y * self.image.width + x) as usize]
     }
 
-    /// The sphere that a ray meets.
+    /// The sphere that a ray hits.
     pub fn ball_hit(&self, ray: &PixelRay) -> Option<&Ball> {
         let (_, shape) = ray.hit?;
         self.balls.iter().find(|ball| ball.shape == shape)
@@ -117,7 +117,7 @@ impl Subject {
     }
 }
 
-/// The chapter's own stages, or all that the kit has where those do not yet lead to a hit.
+/// The chapter's own stages, or all that pinhole has where those do not yet lead to a hit.
 fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> {
     let complete = |inspection: &Inspection| {
         let tile = inspection.tiles.first().map(|&tile| inspection.world.entity(tile));

@@ -175,13 +175,13 @@ fn paint(fill: Option<&Fill>, pen: Option<Pen>) -> String {
     fill + &pen
 }
 
-/// Words with `*slanted*` mathematics and names of the code in backticks, as SVG has them.
+/// Words with `*italic*` mathematics and names of the code in backticks, as SVG has them.
 fn spans(text: &str) -> String {
     let mut out = String::new();
-    for (part, slanted) in text.split('*').zip([false, true].into_iter().cycle()) {
+    for (part, italic) in text.split('*').zip([false, true].into_iter().cycle()) {
         for (part, code) in part.split('`').zip([false, true].into_iter().cycle()) {
             let part = escaped(part);
-            let _ = match (slanted, code) {
+            let _ = match (italic, code) {
                 (_, true) => {
                     write!(out, "<tspan font-family=\"ui-monospace, monospace\" font-size=\"0.92em\">{part}</tspan>")
                 }

@@ -26,7 +26,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     }
     let rays = chosen_rays(&subject);
     if rays.is_empty() {
-        return Err(figure.unsuited("a sphere that a pixel's ray meets"));
+        return Err(figure.unsuited("a sphere that a pixel's ray hits"));
     }
     let frame = |left: f64| Frame { low: DVec2::new(left + 8.0, 58.0), high: DVec2::new(left + HALF - 8.0, 400.0) };
     let [left, right] = [eye_scenery(&subject, &rays, frame(0.0))?, eye_scenery(&subject, &rays, frame(HALF))?];
@@ -54,8 +54,8 @@ fn panel(svg: &mut Svg, scenery: &Scenery<'_>, strands: &[Strand], frame: Frame,
         Label::near(scenery.point(point), text, toward, distance).within(frame.taller(12.0))
     };
     svg.label(near(DVec3::ZERO, "eye", DVec2::NEG_Y, 13.0));
-    let top = |share: f64| scenery.grid.point(f64::from(scenery.grid.size[0]) * share, 0.0);
-    let elsewhere = [0.0, 0.25, 0.75, 1.0].map(|share| scenery.point(top(share)));
+    let top = |fraction: f64| scenery.grid.point(f64::from(scenery.grid.size[0]) * fraction, 0.0);
+    let elsewhere = [0.0, 0.25, 0.75, 1.0].map(|fraction| scenery.point(top(fraction)));
     svg.label(near(top(0.5), "image", DVec2::NEG_Y, 7.0).or(elsewhere));
     let nearness = |ball: &&Ball| scenery.sketch.nearness(ball.centre);
     if let Some(ball) = scenery.subject.balls.iter().max_by(|a, b| nearness(a).total_cmp(&nearness(b))) {
@@ -67,9 +67,9 @@ fn panel(svg: &mut Svg, scenery: &Scenery<'_>, strands: &[Strand], frame: Frame,
 /// From points of the objects to where they come to lie in the image, and thin on to the eye.
 fn inward(scenery: &Scenery<'_>, rays: &[&PixelRay]) -> Vec<Strand> {
     let strand = |point: DVec3| {
-        let met = projected(scenery, point);
-        let on = Strand::new(met, DVec3::ZERO, Pen::new(IMAGE, 0.8).faint(0.6));
-        [Strand::new(point, met, Pen::new(IMAGE, 1.6)), on]
+        let on_image = projected(scenery, point);
+        let on = Strand::new(on_image, DVec3::ZERO, Pen::new(IMAGE, 0.8).faint(0.6));
+        [Strand::new(point, on_image, Pen::new(IMAGE, 1.6)), on]
     };
     object_points(scenery, rays).into_iter().flat_map(strand).collect()
 }
@@ -87,12 +87,12 @@ fn projected(scenery: &Scenery<'_>, point: DVec3) -> DVec3 {
 
 /// A head half-way, since the image hides the end of the line from behind; and the point's place in the image.
 fn arrive(svg: &mut Svg, scenery: &Scenery<'_>, point: DVec3) {
-    let met = projected(scenery, point);
-    let along = (scenery.point(met) - scenery.point(point)).normalize_or(DVec2::X);
-    svg.head(scenery.point(scenery.open_middle(point, met)) + along * 4.0, along, Pen::new(IMAGE, 1.6));
+    let on_image = projected(scenery, point);
+    let along = (scenery.point(on_image) - scenery.point(point)).normalize_or(DVec2::X);
+    svg.head(scenery.point(scenery.open_middle(point, on_image)) + along * 4.0, along, Pen::new(IMAGE, 1.6));
     svg.dot(scenery.point(point), 2.2, IMAGE);
     let rim = Pen::new("var(--bg, #fff)", 1.2);
-    svg.circle(scenery.point(met), 3.0, Some(&Fill::new(IMAGE, 1.0)), Some(rim));
+    svg.circle(scenery.point(on_image), 3.0, Some(&Fill::new(IMAGE, 1.0)), Some(rim));
 }
 
 /// The highest and the lowest point of a sphere as the eye sees it.

@@ -1,4 +1,4 @@
-//! The judge of a camera's points and rays: enclosed first, exactly where that cannot tell.
+//! The oracle of a camera's points and rays: enclosed first, exactly where that cannot tell.
 //!
 //! Reads: what [`ExactCamera`] reads. Writes: the errors that it writes; lengths and angles within 2⁻²⁰ of themselves.
 
@@ -26,7 +26,7 @@ pub struct CameraOracle {
 }
 
 impl CameraOracle {
-    /// The judge of the camera whose image of `width` × `height` pixels spans `full_angle` degrees along `axis`.
+    /// The oracle of the camera whose image of `width` × `height` pixels spans `full_angle` degrees along `axis`.
     #[must_use]
     pub fn new(width: u32, height: u32, full_angle: f64, axis: FovAxis, rotation: DMat3) -> Self {
         let enclosed = OracleCamera::new(width, height, full_angle, axis, rotation);

@@ -1,4 +1,4 @@
-//! Whether counts are what a density says: Pearson's χ², and how likely one so large is by chance.
+//! Whether counts are what a pdf says: Pearson's χ², and the probability of one so large.
 
 /// How often each of a number of things was expected and how often it was counted.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl Bins {
     }
 }
 
-/// How likely a χ² of so many degrees of freedom is at least as large by chance: Q(freedom / 2, statistic / 2).
+/// The probability that a χ² of so many degrees of freedom is at least as large: Q(freedom / 2, statistic / 2).
 #[must_use]
 pub fn p_value(statistic: f64, freedom: usize) -> f64 {
     if freedom == 0 { 1.0 } else { upper_gamma(0.5 * freedom as f64, 0.5 * statistic.min(1e9)) }
@@ -68,7 +68,7 @@ pub fn p_value(statistic: f64, freedom: usize) -> f64 {
 
 /// The regularised upper incomplete gamma function Q(a, x) = Γ(a, x) / Γ(a), for a > 0 and x ≥ 0.
 ///
-/// Below a + 1 by the series of its complement, above by Lentz's way through the continued fraction.
+/// Below a + 1 by the series of its complement, above by Lentz's evaluation of the continued fraction.
 #[must_use]
 pub fn upper_gamma(a: f64, x: f64) -> f64 {
     const STEPS: u32 = 100_000;

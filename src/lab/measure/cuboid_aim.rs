@@ -1,4 +1,4 @@
-//! Cuboids of any size, slant and skew, and rays aimed at their faces, edges and corners.
+//! Cuboids of any size, tilt and skew, and rays aimed at their faces, edges and corners.
 
 use super::ray_aim::{AimedRay, BAND_IN_QUANTA, Draws, rounded_ray};
 use glam::{DVec3, Vec3};
@@ -65,7 +65,7 @@ pub fn cuboid_shot(seed: u64, index: u64, spot: Spot, eye: Eye, sizes: f64, rati
         Eye::Axis | Eye::InFace => centre_on_axes(edges, at, &mut draws),
         _ => -start,
     };
-    // Judged with its faces as f32 holds their normals; aimed at the corners that these make.
+    // Checked with its faces as f32 holds their normals; aimed at the corners that these make.
     let slabs = Slabs::new(centre, turned, edges);
     if on_axes {
         return (ray_on_axes(&slabs, at, matches!(eye, Eye::InFace), &mut draws), slabs);

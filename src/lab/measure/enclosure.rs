@@ -1,19 +1,19 @@
 //! Numbers enclosed: a pair of f64, about 106 bits, and a radius that the true number cannot lie beyond.
 //!
 //! Reads: f64 inputs, taken exactly. Writes: signs and rounded values where the radius allows, nothing where it does
-//! not; then exact arithmetic decides. The kit's own pairs in `intersect` share no line with these.
+//! not; then exact arithmetic decides. Pinhole's own pairs in `intersect` share no line with these.
 //!
 //! With u = 2⁻⁵³ and |low| ≤ u|high|, a sum as done here is off by less than 4u² of itself and a product by less than
 //! 8u² (Joldes, Muller and Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
 //! arithmetic*, 2017, theorems 3.1 and 5.1, the product there with a fused step less). Radii take 16u² for both.
-//! Quotients and roots are judged by what multiplying back leaves, whatever way they were found. What a radius loses by
+//! Quotients and roots are checked by what multiplying back leaves, however they were found. What a radius loses by
 //! its own rounding, and what any pair loses below 2⁻⁹⁰⁰, is made good by a factor and a floor.
 
 use super::exact::Dyadic;
 use super::number::Number;
 use std::sync::LazyLock;
 
-/// The number lies within `radius` of `high` + `low`; a radius that is no number says nothing.
+/// The number lies within `radius` of `high` + `low`; a radius that is NaN says nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Enclosure {
     high: f64,

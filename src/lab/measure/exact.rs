@@ -27,7 +27,7 @@ impl Dyadic {
     /// The exact value of an f32, an f64 or an i32.
     ///
     /// # Panics
-    /// When the value is not finite: infinity has no exact value to judge by.
+    /// When the value is not finite: infinity has no exact value to check by.
     #[must_use]
     pub fn of(value: impl Into<f64>) -> Self {
         let value: f64 = value.into();

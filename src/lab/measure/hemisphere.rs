@@ -48,7 +48,7 @@ impl Quadrature {
         ends.windows(2).map(|pair| self.sum(pair[0], pair[1], &f)).sum()
     }
 
-    /// The share of a beam's light that a surface with normal z sends on: ∫ f(l, ω) cos θ dω over the hemisphere, for a
+    /// The albedo: the fraction of a beam's light that a surface with normal z sends on: ∫ f(l, ω) cos θ dω over the hemisphere, for a
     /// beam that falls at `angle` to the normal.
     ///
     /// `brdf` gets the ways to the light and to the eye.
@@ -69,16 +69,16 @@ impl Quadrature {
         self.sum_of_panels(&ends, |ring| {
             let (sin_ring, cos_ring) = (libm::sin(ring), libm::cos(ring));
             // Above the surface: cos_ring · cos + sin_ring · sin · cos φ > 0.
-            let reach = match (-cos_ring * cos) / (sin_ring * sin) {
+            let extent = match (-cos_ring * cos) / (sin_ring * sin) {
                 edge if edge >= 1.0 => return 0.0,
                 edge if edge > -1.0 => libm::acos(edge),
                 _ => PI,
             };
             let along = |turn: f64| {
-                let way = cos_ring * mirrored + sin_ring * (libm::cos(turn) * inward + libm::sin(turn) * across);
-                brdf(to_light, way) * way.z.max(0.0)
+                let direction = cos_ring * mirrored + sin_ring * (libm::cos(turn) * inward + libm::sin(turn) * across);
+                brdf(to_light, direction) * direction.z.max(0.0)
             };
-            2.0 * sin_ring * self.sum_of_panels(&[0.0, 0.5 * reach, reach], along)
+            2.0 * sin_ring * self.sum_of_panels(&[0.0, 0.5 * extent, extent], along)
         })
     }
 }
@@ -93,13 +93,13 @@ mod tests {
         assert!((quadrature.sum(-1.0, 2.0, |x| libm::pow(x, 9.0)) - 102.3).abs() < 1e-12);
         for angle in [0.0, 0.3, 1.2, 1.57] {
             let matte = quadrature.albedo(angle, 1.0, |_, _| 1.0 / PI);
-            // Where a ring begins to be cut off, its reach grows as a root does, which costs digits.
+            // Where a ring begins to be cut off, its extent grows as a root does, which costs digits.
             assert!((matte - 1.0).abs() < 1e-8, "a matte surface lit at {angle}: {matte}");
         }
         // Lobes of cosⁿ about the normal: 2π / (n + 2).
         for exponent in [1.0, 7.0, 1e3, 1e6] {
             let width = 1.0 / libm::sqrt(exponent + 1.0);
-            let lobe = quadrature.albedo(0.0, width, |_, way| libm::pow(way.z.clamp(0.0, 1.0), exponent));
+            let lobe = quadrature.albedo(0.0, width, |_, direction| libm::pow(direction.z.clamp(0.0, 1.0), exponent));
             assert!((lobe * (exponent + 2.0) / (2.0 * PI) - 1.0).abs() < 1e-9, "exponent {exponent}: {lobe}");
         }
     }

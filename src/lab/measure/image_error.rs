@@ -1,4 +1,4 @@
-//! How far an image is from a reference: MSE, RMSE, relMSE, MAE, PSNR, and what is no number.
+//! How far an image is from a reference: MSE, RMSE, relMSE, MAE, PSNR, and what is not finite.
 
 use std::fmt;
 

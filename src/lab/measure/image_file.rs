@@ -50,7 +50,7 @@ impl ImageKind {
     }
 }
 
-/// Reads an image as numbers: a PNG of any depth as shares of its largest, an EXR's channels R, G and B as they are.
+/// Reads an image as numbers: a PNG of any depth as fractions of its largest, an EXR's channels R, G and B as they are.
 ///
 /// Errors: the file, and what is wrong with it, in one sentence.
 pub fn read_numbers(path: &Path) -> Result<Numbers, String> {

@@ -1,6 +1,6 @@
-//! How wrong a number is: exact judges for the kit's kernels, and the rays that test them.
+//! How wrong a number is: exact oracles for pinhole's kernels, and the rays that test them.
 //!
-//! Reads: the very inputs a kernel sees (f32 rays, f64 tables). Writes: verdicts and errors as f64.
+//! Reads: the very inputs a kernel sees (f32 rays, f64 tables). Writes: hits or misses and errors as f64.
 //! Nothing here runs in a render.
 
 pub mod camera_check;

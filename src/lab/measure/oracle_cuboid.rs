@@ -1,4 +1,4 @@
-//! The exact judge of a ray against a cuboid.
+//! The exact oracle of a ray against a cuboid.
 //!
 //! Reads: the f32 ray and the slabs that a kernel sees, in render space. Writes: hit or miss and the face without any
 //! rounding, and t with a relative error below 2^-319.
@@ -24,7 +24,7 @@ impl<N: Number> Fraction<N> {
     }
 }
 
-/// The nearest t > 0 on a face and that face's axis, the first where several are met at once; nothing where these
+/// The nearest t > 0 on a face and that face's axis, the first where several are hit at once; nothing where these
 /// numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, slabs: &Slabs) -> Option<Option<(N, usize)>> {
     let f: Vector<N> = Vector::of(slabs.centre).minus(&Vector::of(origin));
@@ -67,8 +67,8 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, slabs: &Slabs) -> Option<Option
     Some(None)
 }
 
-/// The nearest t > 0 at which the ray meets a face of the cuboid, from outside or inside, and the axis of that face, the
-/// first where several are met at once; nothing when it meets none.
+/// The nearest t > 0 at which the ray hits a face of the cuboid, from outside or inside, and the axis of that face, the
+/// first where several are hit at once; nothing when it hits none.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -165,7 +165,7 @@ mod tests {
                 }
             }
         }
-        eprintln!("cuboids: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        eprintln!("cuboids: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misclassified");
         assert!(hits > tried / 4 && hits < tried && uncertain > 0 && uncertain < tried / 2);
     }
 

@@ -1,6 +1,6 @@
-//! The exact judge of a ray against a disk.
+//! The exact oracle of a ray against a disk.
 //!
-//! Reads: the f32 ray and the flat piece that a kernel sees, in render space. Writes: hit or miss without any rounding,
+//! Reads: the f32 ray and the planar shape that a kernel sees, in render space. Writes: hit or miss without any rounding,
 //! and t with a relative error below 2^-319.
 //! What is exact is the disk that the table describes; that its normal is rounded to f32 is part of that.
 
@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use pinhole::extract::Planar;
 use std::cmp::Ordering;
 
-/// Where the line of a ray crosses a flat piece's plane: t is `distance` over `approach`, and the coordinates there are
+/// Where the line of a ray crosses a planar shape's plane: t is `distance` over `approach`, and the coordinates there are
 /// `at` over `approach`.
 pub(super) struct Crossing<N> {
     pub distance: N,
@@ -25,8 +25,8 @@ impl<N: Number> Crossing<N> {
         let f: Vector<N> = Vector::of(planar.centre).minus(&Vector::of(origin));
         let (normal, direction) = (Vector::of(planar.normal), Vector::of(direction));
         let (distance, approach) = (normal.dot(&f), normal.dot(&direction));
-        let way = direction.times(&distance).minus(&f.times(&approach));
-        let at = planar.along.map(|along| Vector::of(along).dot(&way));
+        let along_ray = direction.times(&distance).minus(&f.times(&approach));
+        let at = planar.along.map(|along| Vector::of(along).dot(&along_ray));
         Self { distance, approach, at }
     }
 
@@ -41,7 +41,7 @@ impl<N: Number> Crossing<N> {
     }
 }
 
-/// The t > 0 at which the ray meets the disk, if it does; nothing where these numbers cannot tell.
+/// The t > 0 at which the ray hits the disk, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<N>> {
     let crossing = Crossing::<N>::of(origin, direction, planar);
     let [x, z] = &crossing.at;
@@ -52,7 +52,7 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Opti
     Some((beyond.sign()? <= 0).then(|| crossing.t()))
 }
 
-/// The t > 0 at which the ray meets the disk, or nothing when it does not, lies along it or starts on its plane.
+/// The t > 0 at which the ray hits the disk, or nothing when it does not, lies along it or starts on its plane.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -81,7 +81,7 @@ fn height<N: Number>(point: DVec3, planar: &Planar) -> N {
     Vector::of(planar.normal).dot(&Vector::of(point).minus(&Vector::of(planar.centre)))
 }
 
-/// How a point lies to the plane of a flat piece, exactly: `Greater` is strictly on the side of its normal.
+/// How a point lies to the plane of a planar shape, exactly: `Greater` is strictly on the side of its normal.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn where_it_is_met_its_plane_is() {
+    fn where_it_is_hit_its_plane_is() {
         for index in 0..2000 {
             let view = View { seed: 61, at: At::Inside, sizes: 3.0, flattest: 0.0, away: [0.0, 3.0], from_eye: true };
             let (ray, planar) = planar_shot(view, index);
@@ -160,7 +160,7 @@ mod tests {
             assert_eq!(pinhole_t(DVec3::X * bad, DVec3::NEG_Y, &planar), f64::INFINITY);
             assert_eq!(pinhole_t(DVec3::ONE * 9.0, DVec3::X * bad, &planar), f64::INFINITY);
         }
-        eprintln!("disks: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        eprintln!("disks: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misclassified");
         assert!(hits > tried / 4 && hits < tried * 3 / 4 && uncertain > 0 && uncertain < tried / 4);
     }
 }

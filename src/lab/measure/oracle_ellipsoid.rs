@@ -1,9 +1,9 @@
-//! The exact judge of a ray against an ellipsoid.
+//! The exact oracle of a ray against an ellipsoid.
 //!
 //! Reads: the f32 ray and the f64 ellipsoid that a kernel sees, in render space. Writes: hit or miss without any
 //! rounding, the roots t and the normal there with a relative error below 2^-300.
 //! What is exact is the shape that the table describes, |A (x − C)| = 1; that A itself is the author's placement turned
-//! round and rounded is another matter, judged by `extremes transform` in pixels.
+//! round and rounded is another matter, checked by `extremes transform` in pixels.
 
 use super::enclosure::Enclosure;
 use super::exact::Dyadic;
@@ -23,7 +23,7 @@ fn from_centre<N: Number>(point: &Vector<N>, ellipsoid: &Ellipsoid) -> Vector<N>
     point.minus(&Vector::of(ellipsoid.centre))
 }
 
-/// Where the line of the ray meets the ellipsoid, if it does; nothing where these numbers cannot tell.
+/// Where the line of the ray intersects the ellipsoid, if it does; nothing where these numbers cannot tell.
 ///
 /// With p = A (O − C) and q = A R the roots solve (q·q) t² + 2 (p·q) t + (p·p − 1) = 0.
 fn roots<N: Number>(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<Option<Roots<N>>> {
@@ -43,7 +43,7 @@ fn roots<N: Number>(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Opt
     Some(Some(if negative { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } }))
 }
 
-/// Where the line of the ray meets the ellipsoid, or nothing when it passes by or the direction is zero.
+/// Where the line of the ray intersects the ellipsoid, or nothing when it passes by or the direction is zero.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -52,7 +52,7 @@ pub fn line_roots(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Optio
     roots(origin, direction, ellipsoid).flatten()
 }
 
-/// The nearest t > 0 at which the ray meets the ellipsoid's surface, or nothing when it does not.
+/// The nearest t > 0 at which the ray hits the ellipsoid's surface, or nothing when it does not.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -106,13 +106,13 @@ pub fn side_of_ellipsoid(point: DVec3, ellipsoid: &Ellipsoid) -> i32 {
 
 /// Aᵀ A (O + tR − C): along the outward normal where the ray has come at t, of no particular length.
 fn outward_at<N: Number>(origin: Vec3, direction: Vec3, t: &N, ellipsoid: &Ellipsoid) -> Vector<N> {
-    let way = Vector::of(direction).times(&N::of(0.0).less(t));
-    let unit = to_unit(ellipsoid, &from_centre(&Vector::of(origin), ellipsoid).minus(&way));
+    let along_ray = Vector::of(direction).times(&N::of(0.0).less(t));
+    let unit = to_unit(ellipsoid, &from_centre(&Vector::of(origin), ellipsoid).minus(&along_ray));
     let [x, y, z] = [0, 1, 2].map(|column| Vector::of(ellipsoid.unit_from_world.col(column)).dot(&unit));
     Vector { x, y, z }
 }
 
-/// Along the outward normal where the ray first meets the ellipsoid, of no particular length; nothing where it does not.
+/// Along the outward normal where the ray first hits the ellipsoid, of no particular length; nothing where it does not.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -122,7 +122,7 @@ pub fn outward(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<E
     Some(outward_at(origin, direction, &t.shortened(), ellipsoid))
 }
 
-/// The same by enclosures; nothing where these cannot tell, or the ray does not meet it.
+/// The same by enclosures; nothing where these cannot tell, or the ray does not hit it.
 pub fn enclosed_outward(origin: Vec3, direction: Vec3, ellipsoid: &Ellipsoid) -> Option<EnclosedVector> {
     let Roots { near, far } = roots::<Enclosure>(origin, direction, ellipsoid)??;
     let t = if near.sign()? > 0 { near } else { far };
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn poles_are_met_where_the_half_axes_end() {
+    fn poles_are_hit_where_the_half_axes_end() {
         let hit = |origin, direction| ellipsoid_hit(origin, direction, &egg()).map(|t| t.to_f64());
         assert_eq!(hit(Vec3::ZERO, Vec3::NEG_Z), Some(6.0));
         assert_eq!(hit(Vec3::new(0.0, 5.0, -10.0), Vec3::NEG_Y), Some(3.0));
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn an_even_one_is_judged_as_the_sphere_oracle_does() {
+    fn an_even_one_is_decided_as_the_sphere_oracle_does() {
         let mut hits = 0;
         for index in 0..500 {
             let mut draws = Draws::new(81, index);

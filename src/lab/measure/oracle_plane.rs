@@ -1,4 +1,4 @@
-//! The exact judge of a ray against a plane.
+//! The exact oracle of a ray against a plane.
 //!
 //! Reads: the f32 ray and the f64 plane a kernel sees, in render space. Writes: hit or miss without
 //! any rounding, and t with a relative error below 2^-319.
@@ -20,7 +20,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane an f32 method sees, so that the oracle can judge it by its own inputs.
+    /// The plane an f32 method sees, so that the oracle can check it with its own inputs.
     #[must_use]
     pub fn rounded_to_f32(self) -> Self {
         Self { normal: self.normal.as_vec3().as_dvec3(), offset: f64::from(self.offset as f32) }
@@ -32,15 +32,15 @@ fn depth_below<N: Number>(point: &Vector<N>, plane: Plane) -> N {
     N::of(plane.offset).less(&Vector::of(plane.normal).dot(point))
 }
 
-/// The t > 0 at which the ray meets the plane, if it does; nothing where these numbers cannot tell.
+/// The t > 0 at which the ray intersects the plane, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, plane: Plane) -> Option<Option<N>> {
     let distance: N = depth_below(&Vector::of(origin), plane);
     let approach: N = Vector::of(plane.normal).dot(&Vector::of(direction));
-    // Two numbers of one sign have a positive quotient, so the verdict needs no division.
+    // Two numbers of one sign have a positive quotient, so the decision needs no division.
     Some((distance.sign()? * approach.sign()? > 0).then(|| distance.over(&approach)))
 }
 
-/// The t > 0 at which the ray meets the plane, or nothing when it is parallel, points away or
+/// The t > 0 at which the ray intersects the plane, or nothing when it is parallel, points away or
 /// starts on it.
 ///
 /// # Panics

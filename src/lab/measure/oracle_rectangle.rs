@@ -1,6 +1,6 @@
-//! The exact judge of a ray against a rectangle.
+//! The exact oracle of a ray against a rectangle.
 //!
-//! Reads: the f32 ray and the flat piece that a kernel sees, in render space. Writes: hit or miss without any rounding,
+//! Reads: the f32 ray and the planar shape that a kernel sees, in render space. Writes: hit or miss without any rounding,
 //! and t with a relative error below 2^-319.
 
 use super::enclosure::Enclosure;
@@ -10,7 +10,7 @@ use super::oracle_disk::Crossing;
 use glam::Vec3;
 use pinhole::extract::Planar;
 
-/// The t > 0 at which the ray meets the rectangle, if it does; nothing where these numbers cannot tell.
+/// The t > 0 at which the ray hits the rectangle, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<N>> {
     let crossing = Crossing::<N>::of(origin, direction, planar);
     if !crossing.is_ahead()? {
@@ -26,7 +26,7 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Opti
     Some(Some(crossing.t()))
 }
 
-/// The t > 0 at which the ray meets the rectangle, or nothing when it does not, lies along it or starts on its plane.
+/// The t > 0 at which the ray hits the rectangle, or nothing when it does not, lies along it or starts on its plane.
 ///
 /// # Panics
 /// When an input is not finite.
@@ -96,7 +96,7 @@ mod tests {
             assert_eq!(pinhole_t(DVec3::X * bad, DVec3::NEG_Y, &planar), f64::INFINITY);
             assert_eq!(pinhole_t(DVec3::ONE * 9.0, DVec3::X * bad, &planar), f64::INFINITY);
         }
-        eprintln!("rectangles: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misjudged");
+        eprintln!("rectangles: {tried} rays, {hits} hit, {uncertain} left to the wide numbers, 0 misclassified");
         assert!(hits > tried / 4 && hits < tried * 3 / 4 && uncertain > 0 && uncertain < tried / 4);
     }
 }

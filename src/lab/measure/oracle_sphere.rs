@@ -1,4 +1,4 @@
-//! The exact judge of a ray against a sphere.
+//! The exact oracle of a ray against a sphere.
 //!
 //! Reads: the f32 ray and the f64 sphere a kernel sees, in render space; the direction is taken as
 //! given, unit or not. Writes: hit or miss without any rounding, and the roots t with a relative
@@ -21,14 +21,14 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The sphere an f32 method sees, so that the oracle can judge it by its own inputs.
+    /// The sphere an f32 method sees, so that the oracle can check it with its own inputs.
     #[must_use]
     pub fn rounded_to_f32(self) -> Self {
         Self { centre: self.centre.as_vec3().as_dvec3(), radius: f64::from(self.radius as f32) }
     }
 }
 
-/// Where the ray's line meets a sphere, as parameters t of origin + t · direction.
+/// Where the ray's line intersects a sphere, as parameters t of origin + t · direction.
 #[derive(Clone, Debug)]
 pub struct Roots<N = Dyadic> {
     /// The smaller root.
@@ -37,7 +37,7 @@ pub struct Roots<N = Dyadic> {
     pub far: N,
 }
 
-/// Where the line of the ray meets the sphere, if it does; nothing where these numbers cannot tell.
+/// Where the line of the ray intersects the sphere, if it does; nothing where these numbers cannot tell.
 ///
 /// With f = centre − origin the roots solve (d·d) t² − 2 (f·d) t + (f·f − r²) = 0.
 fn roots<N: Number>(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Option<Roots<N>>> {
@@ -61,7 +61,7 @@ fn roots<N: Number>(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option<Opt
     Some(Some(if behind { Roots { near: outer, far: inner } } else { Roots { near: inner, far: outer } }))
 }
 
-/// Where the line of the ray meets the sphere, or nothing when it passes by or the direction is
+/// Where the line of the ray intersects the sphere, or nothing when it passes by or the direction is
 /// zero.
 ///
 /// # Panics
@@ -87,9 +87,9 @@ pub fn enclosed_line_ts(origin: Vec3, direction: Vec3, sphere: Sphere) -> Option
     }
 }
 
-/// The nearest t > 0 at which the ray meets the sphere's surface, or nothing when it does not.
+/// The nearest t > 0 at which the ray hits the sphere's surface, or nothing when it does not.
 ///
-/// The verdict is exact, because a root's sign is that of f·d, of f·f − r², or of a sum of two
+/// The decision is exact, because a root's sign is that of f·d, of f·f − r², or of a sum of two
 /// numbers of one sign.
 ///
 /// # Panics
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_positive_root_is_judged_from_every_side() {
+    fn the_nearest_positive_root_is_found_from_every_side() {
         assert_eq!(hit(Vec3::ZERO, Vec3::NEG_Z), Some(2.0));
         assert_eq!(hit(Vec3::ZERO, Vec3::NEG_Z * 4.0), Some(0.5));
         assert_eq!(hit(Vec3::new(0.0, 0.0, -3.0), Vec3::X), Some(1.0));
@@ -193,7 +193,7 @@ mod tests {
         let (origin, direction) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.1, -0.05, -1.1));
         for (origin, direction) in [(origin, direction), (origin, -direction)] {
             let Some(Roots { near, far }) = line_roots(origin, direction, UNIT) else {
-                panic!("the line meets the sphere");
+                panic!("the line intersects the sphere");
             };
             assert!(near < far);
             let f = UNIT.centre - origin.as_dvec3();

@@ -1,9 +1,9 @@
-//! The exact judge of a ray against a triangle.
+//! The exact oracle of a ray against a triangle.
 //!
 //! Reads: the f32 ray and the three f64 corners that a kernel sees, in render space. Writes: hit or miss without any
-//! rounding, t and the corners' shares with a relative error below 2^-300.
-//! It asks where the ray meets the plane and on which side of each edge that point lies; the kit's kernels ask for volumes
-//! between the ray and the edges, so that a slip in one is none in the other.
+//! rounding, t and the barycentric coordinates with a relative error below 2^-300.
+//! It asks where the ray intersects the plane and on which side of each edge that point lies; pinhole's kernels ask for volumes
+//! between the ray and the edges, so that a mistake in one is none in the other.
 
 use super::enclosure::Enclosure;
 use super::exact::Dyadic;
@@ -22,7 +22,7 @@ fn normal<N: Number>([a, b, c]: [DVec3; 3]) -> Vector<N> {
     from(b, a).cross(&from(c, a))
 }
 
-/// Where the line of a ray meets the plane of a triangle.
+/// Where the line of a ray intersects the plane of a triangle.
 struct Crossing<N> {
     /// R · N and N · (A − O), whose quotient is t.
     approach: N,
@@ -45,7 +45,7 @@ fn crossing<N: Number>(origin: Vec3, direction: Vec3, corners: [DVec3; 3]) -> Cr
     Crossing { sides: [(1, 2), (2, 0), (0, 1)].map(side), approach, distance }
 }
 
-/// The t > 0 at which the ray meets the triangle, if it does; nothing where these numbers cannot tell.
+/// The t > 0 at which the ray hits the triangle, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, corners: [DVec3; 3]) -> Option<Option<N>> {
     let Crossing { approach, distance, sides } = crossing::<N>(origin, direction, corners);
     let sign = approach.sign()?;
@@ -60,7 +60,7 @@ fn hit<N: Number>(origin: Vec3, direction: Vec3, corners: [DVec3; 3]) -> Option<
     Some(Some(distance.over(&approach)))
 }
 
-/// The t > 0 at which the ray meets the triangle, edges and corners included, or nothing: also for a ray in its plane, or
+/// The t > 0 at which the ray hits the triangle, edges and corners included, or nothing: also for a ray in its plane, or
 /// one that starts on it.
 ///
 /// # Panics
@@ -107,7 +107,7 @@ pub fn exact_normal(corners: [DVec3; 3]) -> DVec3 {
     DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
-/// The corners' shares of the point where the line of the ray meets the plane, each rounded to f64 once; nothing where it
+/// The barycentric coordinates of the point where the line of the ray intersects the plane, each rounded to f64 once; nothing where it
 /// goes along the plane.
 ///
 /// # Panics
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn both_sides_edges_and_corners_are_met() {
+    fn both_sides_edges_and_corners_are_hit() {
         let at = Vec3::new(-0.5, -0.25, 0.0);
         assert_eq!(hit(at, Vec3::NEG_Z), Some(3.0));
         assert_eq!(hit(at - Vec3::Z * 4.0, Vec3::Z), Some(1.0));

@@ -1,4 +1,4 @@
-//! Disks and rectangles at any slant and skew, and rays aimed where they are hard to judge.
+//! Disks and rectangles at any tilt and skew, and rays aimed where they are hard to check.
 
 use super::ray_aim::{AimedRay, BAND_IN_QUANTA, Draws, rounded_ray};
 use glam::{DVec3, Vec3};
@@ -7,7 +7,7 @@ use pinhole::extract::Planar;
 /// One direction quantum: the spacing of f32 numbers just below 1.
 const QUANTUM: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// Where on a flat piece a ray is aimed, up to a few direction quanta.
+/// Where on a planar shape a ray is aimed, up to a few direction quanta.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
     /// Within a disk, and so within a rectangle.
@@ -37,7 +37,7 @@ pub struct View {
     pub from_eye: bool,
 }
 
-/// A ray and the piece that it is aimed at.
+/// A ray and the shape that it is aimed at.
 #[must_use]
 pub fn planar_shot(view: View, index: u64) -> (AimedRay, Planar) {
     let mut draws = Draws::new(view.seed, index);
@@ -56,7 +56,7 @@ pub fn planar_shot(view: View, index: u64) -> (AimedRay, Planar) {
     let start = target - incoming * (size * draws.power_of_ten(view.away[0], view.away[1]));
     let centre = if view.from_eye { -start } else { draws.unit_vector() * draws.power_of_ten(-view.sizes, view.sizes) };
     let origin = (centre + start).as_vec3();
-    // A normal that f32 holds tilts the piece a little; aimed at its own edges, rays are as hard as they get.
+    // A normal that f32 holds tilts the shape a little; aimed at its own edges, rays are as hard as they get.
     let planar = Planar::new(centre, normal, half_edges);
     let aimed = planar.map_or(target, |planar| planar.half_edges()[0] * u + planar.half_edges()[1] * v);
     let quanta = draws.between(-BAND_IN_QUANTA, BAND_IN_QUANTA) * QUANTUM;
@@ -71,18 +71,18 @@ const ANY: Planar =
 
 /// The coordinates of a point to aim at.
 fn spot(at: At, draws: &mut Draws) -> [f64; 2] {
-    let (share, angle) = (draws.between(-1.0, 1.0), draws.between(0.0, std::f64::consts::TAU));
+    let (fraction, angle) = (draws.between(-1.0, 1.0), draws.between(0.0, std::f64::consts::TAU));
     let mut sign = || if draws.unit() < 0.5 { 1.0 } else { -1.0 };
     match at {
-        At::Inside => [share * libm::cos(angle), share * libm::sin(angle)].map(|part| part * 0.99),
+        At::Inside => [fraction * libm::cos(angle), fraction * libm::sin(angle)].map(|part| part * 0.99),
         At::Rim => [libm::cos(angle), libm::sin(angle)],
-        At::Edge if share > 0.0 => [sign(), 2.0 * share - 1.0],
-        At::Edge => [2.0 * share + 1.0, sign()],
+        At::Edge if fraction > 0.0 => [sign(), 2.0 * fraction - 1.0],
+        At::Edge => [2.0 * fraction + 1.0, sign()],
         At::Corner => [sign(), sign()],
     }
 }
 
-/// A ray along or in the plane of a piece whose normal is an axis: nothing to meet, whatever the signs of its zeros.
+/// A ray along or in the plane of a shape whose normal is an axis: nothing to hit, whatever the signs of its zeros.
 #[must_use]
 pub fn edge_on(index: u64) -> (AimedRay, Planar) {
     let mut draws = Draws::new(index, 97);

@@ -1,4 +1,4 @@
-//! Test rays that make the judgement hard: aimed at silhouettes, along planes, from everywhere at
+//! Test rays that make the decision hard: aimed at silhouettes, along planes, from everywhere at
 //! any size.
 //!
 //! Every ray is a pure function of (seed, index), so a failure is named by two numbers. Directions
@@ -49,7 +49,7 @@ impl Draws {
         low + (high - low) * self.unit()
     }
 
-    /// 10 to a uniform power between the two: every size is as likely as every other.
+    /// 10 to a uniform power between the two: every order of magnitude has the same probability.
     pub fn power_of_ten(&mut self, low: f64, high: f64) -> f64 {
         libm::exp10(self.between(low, high))
     }

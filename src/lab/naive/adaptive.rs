@@ -37,7 +37,7 @@ mod tests {
     use pinhole::render::samples_for;
     use pinhole::sample::{Purpose, uniform};
 
-    /// A pixel of which a share is white and the rest black, rendered many times: the mean of the pictures and its
+    /// A pixel of which a fraction is white and the rest black, rendered many times: the mean of the pictures and its
     /// standard error, and samples a picture.
     fn repeated(renders: u32, render: impl Fn(u32) -> Stopped) -> (f64, f64, f64) {
         let (mut sum, mut squares, mut samples) = (0.0, 0.0, 0.0);
@@ -54,9 +54,9 @@ mod tests {
     #[test]
     fn stopping_by_its_own_samples_is_wrong_on_average_and_stopping_by_a_pilot_s_is_not() {
         const RENDERS: u32 = 20_000;
-        for share in [0.02, 0.1, 0.5, 0.9] {
+        for fraction in [0.02, 0.1, 0.5, 0.9] {
             let white = |seed: u64, render: u32, sample: u32| {
-                f64::from(u8::from(uniform(seed, [render, 0], sample, Purpose::Pixel) < share))
+                f64::from(u8::from(uniform(seed, [render, 0], sample, Purpose::Pixel) < fraction))
             };
             let naive = repeated(RENDERS, |render| mean_until(|sample| white(1, render, sample), 8, 400, 0.1));
             let two_stage = repeated(RENDERS, |render| {
@@ -67,16 +67,16 @@ mod tests {
                 Stopped { mean: sum / f64::from(samples), samples: samples + 8 }
             });
             eprintln!(
-                "white share {share}: naive {:+.5} ± {:.5} with {:.0} samples, by a pilot {:+.5} ± {:.5} with {:.0}",
-                naive.0 - share,
+                "white fraction {fraction}: naive {:+.5} ± {:.5} with {:.0} samples, by a pilot {:+.5} ± {:.5} with {:.0}",
+                naive.0 - fraction,
                 naive.1,
                 naive.2,
-                two_stage.0 - share,
+                two_stage.0 - fraction,
                 two_stage.1,
                 two_stage.2
             );
-            assert!((naive.0 - share).abs() > 4.0 * naive.1, "the naive bias was not found");
-            assert!((two_stage.0 - share).abs() < 4.0 * two_stage.1, "a bias of the two stages");
+            assert!((naive.0 - fraction).abs() > 4.0 * naive.1, "the naive bias was not found");
+            assert!((two_stage.0 - fraction).abs() < 4.0 * two_stage.1, "a bias of the two stages");
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::Vec3;
 const U: f32 = 1.0 / (1_u32 << 24) as f32;
 
 // ANCHOR: naive_hit_cuboid_f32
-/// The t where the ray meets the cube from −1 to 1, in f32, by slabs and the minimum and maximum of the processor.
+/// The t where the ray hits the cube from −1 to 1, in f32, by slabs and the minimum and maximum of the processor.
 ///
 /// A ray in the plane of a face multiplies 0 by ∞. `f32::min` and `f32::max` both pass over what is not a number and return
 /// the other face's infinity: the ray counts as one that misses.
@@ -69,6 +69,6 @@ mod tests {
         assert_eq!((along(1.0, 0.0), along(1.0, -0.0)), (None, None));
         assert_eq!((along(-1.0, 0.0), along(-1.0, -0.0)), (None, None));
         assert_eq!(hit_widened_f32(Vec3::new(0.0, 1.0, 5.0), Vec3::NEG_Z), None);
-        assert_eq!(face_by_epsilon(Vec3::new(1.0 - 1e-5, 0.5, 1.0)), Some(0), "the face at z = 1 was met");
+        assert_eq!(face_by_epsilon(Vec3::new(1.0 - 1e-5, 0.5, 1.0)), Some(0), "the face at z = 1 was hit");
     }
 }

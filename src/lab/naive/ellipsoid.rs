@@ -71,9 +71,9 @@ mod tests {
     #[test]
     fn an_uneven_scale_shows_it() {
         let stretched = DMat3::from_diagonal(DVec3::new(1.0, 4.0, 1.0));
-        let slanted = DVec3::new(0.6, 0.8, 0.0);
-        let right = (stretched.inverse().transpose() * slanted).normalize();
-        assert!(normal_as_direction(stretched, slanted).dot(right) < 0.6, "the normal leans the wrong way");
+        let oblique = DVec3::new(0.6, 0.8, 0.0);
+        let right = (stretched.inverse().transpose() * oblique).normalize();
+        assert!(normal_as_direction(stretched, oblique).dot(right) < 0.6, "the normal leans the wrong way");
         let half = DMat3::from_diagonal(DVec3::splat(0.5));
         let t = hit_renormalised(DVec3::ZERO, DVec3::NEG_Z, DVec3::new(0.0, 0.0, -6.0), half);
         assert_eq!(t, Some(2.0), "the sphere begins at 4");

@@ -1,11 +1,11 @@
-//! Lights with an area as they are often aimed at.
+//! Area lights as they are often sampled.
 //!
-//! Directions lead from the lit point to the light; the densities are taken for those per unit of solid angle.
+//! Directions lead from the lit point to the light; the pdfs are taken for those per unit of solid angle.
 
 use glam::DVec3;
 
 // ANCHOR: forgotten_jacobian
-/// The density of a point chosen evenly on an area, taken as it is: 1 / A.
+/// The pdf of a point chosen uniformly on an area, taken as it is: 1 / A.
 ///
 /// That is per unit of area, and says nothing of how much sky the area fills.
 #[must_use]
@@ -38,7 +38,7 @@ pub fn versine_by_difference_f32(sine_squared: f32) -> f32 {
     1.0 - (1.0 - sine_squared).sqrt()
 }
 
-/// What a point chosen evenly on a whole sphere tells of its irradiance for a radiance of 1: nothing where it lies on the
+/// What a point sampled uniformly on a whole sphere tells of its irradiance for a radiance of 1: nothing where it lies on the
 /// side that is turned away.
 #[must_use]
 pub fn irradiance_by_whole_sphere(axis: DVec3, radius: f64, normal: DVec3, u: [f64; 2]) -> f64 {

@@ -1,6 +1,6 @@
 //! The renderer that bevy_ecs seems to ask for: an entity for every ray, a component for every stage.
 //!
-//! It calls the kit's own functions of one row and reads the kit's own tables, so its image is the kit's to the last bit;
+//! It calls pinhole's own functions of one row and reads pinhole's own tables, so its image is pinhole's to the last bit;
 //! what differs is where the numbers lie.
 //! It renders unlit scenes of spheres and planes under a perspective camera, on one thread.
 
@@ -64,7 +64,7 @@ pub struct EntityPerRay {
 impl EntityPerRay {
     /// Reads the scene's tables and spawns the entities.
     ///
-    /// Errors: what the kit refuses the scene for.
+    /// Errors: what pinhole refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
         let census = &Census::of(scene);
         pinhole::extract::validate(census)?;
@@ -78,14 +78,14 @@ impl EntityPerRay {
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        share::<PerspectiveProjection>(&mut world, census)?;
-        share::<CameraAxes>(&mut world, census)?;
-        share::<SphereTable>(&mut world, census)?;
-        share::<PlaneTable>(&mut world, census)?;
-        share::<ShapeTable>(&mut world, census)?;
-        share::<MaterialTable>(&mut world, census)?;
-        share::<BackgroundTable>(&mut world, census)?;
-        let image = share::<ImageFrame>(&mut world, census)?;
+        shared::<PerspectiveProjection>(&mut world, census)?;
+        shared::<CameraAxes>(&mut world, census)?;
+        shared::<SphereTable>(&mut world, census)?;
+        shared::<PlaneTable>(&mut world, census)?;
+        shared::<ShapeTable>(&mut world, census)?;
+        shared::<MaterialTable>(&mut world, census)?;
+        shared::<BackgroundTable>(&mut world, census)?;
+        let image = shared::<ImageFrame>(&mut world, census)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -94,7 +94,7 @@ impl EntityPerRay {
         let mut schedule = Schedule::new(Sample);
         schedule.set_executor(SingleThreadedExecutor::new());
         let to_world = (place, free_of_size, centre, aim, turn);
-        schedule.add_systems((to_world.chain(), (meet, describe, shade, add).chain()).chain());
+        schedule.add_systems((to_world.chain(), (intersect, describe, shade, add).chain()).chain());
         Ok(Self { world, schedule, image })
     }
 
@@ -103,7 +103,7 @@ impl EntityPerRay {
         self.schedule.run(&mut self.world);
     }
 
-    /// The light that arrived, as a film of the kit's.
+    /// The light that arrived, as a film of pinhole's.
     pub fn film(&mut self) -> Film {
         let mut film = Film::new(self.image.width, self.image.height, 32);
         let across = self.image.width.div_ceil(32);
@@ -120,7 +120,7 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn share<T: Table + Clone>(world: &mut World, scene: &Census<'_>) -> Result<T, SceneError> {
+fn shared<T: Table + Clone>(world: &mut World, scene: &Census<'_>) -> Result<T, SceneError> {
     let table = T::clone(&*scene.table::<T>()?);
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
@@ -158,7 +158,11 @@ fn turn(axes: Res<Shared<CameraAxes>>, mut rays: Query<(&CameraRay, &mut WorldRa
     }
 }
 
-fn meet(spheres: Res<Shared<SphereTable>>, planes: Res<Shared<PlaneTable>>, mut rays: Query<(&WorldRay, &mut Hit)>) {
+fn intersect(
+    spheres: Res<Shared<SphereTable>>,
+    planes: Res<Shared<PlaneTable>>,
+    mut rays: Query<(&WorldRay, &mut Hit)>,
+) {
     for (ray, mut hit) in &mut rays {
         let [origin, direction] = ray.0.map(|part| part.as_dvec3());
         let inverse = 1.0 / direction.dot(direction);

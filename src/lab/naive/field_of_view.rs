@@ -45,17 +45,17 @@ mod tests {
     #[test]
     fn near_180_degrees_f32_loses_digits_and_at_180_the_sign() {
         let naive = error_in_u(f64::from(tan_half_f32(179.99)), 179.99);
-        let kit = error_in_u(tan_half(Degrees(179.99)), 179.99);
+        let pinhole = error_in_u(tan_half(Degrees(179.99)), 179.99);
         eprintln!(
-            "tan(179.99° / 2): naive {naive:.0} u off, kit {kit:.1e} u; naive of 180°: {:.1e}",
+            "tan(179.99° / 2): naive {naive:.0} u off, pinhole {pinhole:.1e} u; naive of 180°: {:.1e}",
             tan_half_f32(180.0)
         );
-        assert!(naive > 9000.0 && kit < 1e-8);
+        assert!(naive > 9000.0 && pinhole < 1e-8);
         assert!(tan_half_f32(180.0) < -2e7);
     }
 
     #[test]
-    fn the_kit_keeps_its_digits_at_every_angle() {
+    fn pinhole_keeps_its_digits_at_every_angle() {
         let angles: Vec<f64> = (1..1800)
             .map(|tenth| f64::from(tenth) / 10.0)
             .chain((1..=300).flat_map(|step| {
@@ -64,12 +64,12 @@ mod tests {
             }))
             .collect();
         let worst = angles.iter().map(|&angle| error_in_u(tan_half(Degrees(angle)), angle)).fold(0.0, f64::max);
-        eprintln!("{} angles: the kit's tangent is at most {worst:.1e} u off", angles.len());
+        eprintln!("{} angles: pinhole's tangent is at most {worst:.1e} u off", angles.len());
         assert!(worst * UNIT_ROUNDOFF_F32 < 4.0 * f64::EPSILON);
     }
 
     #[test]
-    fn the_slips_are_far_off_at_an_everyday_angle() {
+    fn the_mistakes_are_far_off_at_an_everyday_angle() {
         let half = tan_half_f32(60.0);
         assert!((tan_of_full_angle(60.0) / half - 3.0).abs() < 1e-5);
         assert!((whole_height(60.0) / half - 2.0).abs() < 1e-5);

@@ -2,7 +2,7 @@
 
 /// The mean of samples summed in f32.
 ///
-/// From 2²⁴ on a sum of ones no longer grows, since f32 has no number between it and the next but one: the more samples,
+/// From 2²⁴ on a sum of ones no longer grows, since f32 has nothing between it and the next but one: the more samples,
 /// the darker the picture.
 #[must_use]
 pub fn mean_by_sum_f32(samples: impl IntoIterator<Item = f32>) -> f32 {

@@ -30,7 +30,7 @@ pub fn highlight_f32(peak: f32, exponent: f32, normal: Vec3, to_light: Vec3, to_
     peak * libm::powf(mirrored.dot(to_eye), exponent)
 }
 
-/// The share of a spot light by cosines, as many programs have it.
+/// The falloff of a spot light by cosines, as many programs have it.
 ///
 /// In a narrow cone all cosines are 1 but for their last digits.
 #[must_use]
@@ -46,21 +46,21 @@ pub fn spot_falloff_by_cosine_f32(cosine: f32, inner: f32, outer: f32) -> f32 {
     s * s * (3.0 - 2.0 * s)
 }
 
-/// Where a lamp stands that is to pass for the sun: far off for scenes of the size that its author had in mind.
-pub const FAR_LAMP: f32 = 1e6;
+/// Where a point light stands that is to pass for the sun: far off for scenes of the size that its author had in mind.
+pub const FAR_LIGHT: f32 = 1e6;
 
-/// The irradiance of that lamp, which gives `irradiance` at the origin to what faces it.
+/// The irradiance of that light, which gives `irradiance` at the origin to what faces it.
 #[must_use]
-pub fn sun_as_a_far_lamp(irradiance: f32, to_light: Vec3, position: Vec3, normal: Vec3) -> f32 {
-    let way = to_light * FAR_LAMP - position;
-    let distance_squared = way.length_squared();
-    irradiance * FAR_LAMP * FAR_LAMP * normal.dot(way / distance_squared.sqrt()) / distance_squared
+pub fn sun_as_a_far_light(irradiance: f32, to_light: Vec3, position: Vec3, normal: Vec3) -> f32 {
+    let offset = to_light * FAR_LIGHT - position;
+    let distance_squared = offset.length_squared();
+    irradiance * FAR_LIGHT * FAR_LIGHT * normal.dot(offset / distance_squared.sqrt()) / distance_squared
 }
 
-/// Light and matter in f32 without a second thought: a lamp's irradiance times a highlight.
+/// Light and materials in f32 without a second thought: a point light's irradiance times a highlight.
 #[must_use]
-pub fn lit_f32(intensity: f32, way: Vec3, normal: Vec3, highlight: f32) -> f32 {
-    let distance_squared = way.length_squared();
-    let cosine = normal.dot(way / distance_squared.sqrt());
+pub fn lit_f32(intensity: f32, offset: Vec3, normal: Vec3, highlight: f32) -> f32 {
+    let distance_squared = offset.length_squared();
+    let cosine = normal.dot(offset / distance_squared.sqrt());
     intensity * cosine / distance_squared * highlight
 }

@@ -14,19 +14,19 @@ pub fn refract_unchecked(direction: DVec3, normal: DVec3, eta: f64) -> DVec3 {
 // ANCHOR_END: refract_unchecked
 
 // ANCHOR: schlick
-/// Schlick's polynomial (1994) for the reflected share: cheap, and for a denser medium a fair guess.
+/// Schlick's polynomial (1994) for the Fresnel reflectance: cheap, and a fair approximation for a denser medium.
 #[must_use]
 pub fn schlick(cosine: f64, eta: f64) -> f64 {
-    let squarely = (eta - 1.0) / (eta + 1.0);
-    let squarely = squarely * squarely;
+    let normal_incidence = (eta - 1.0) / (eta + 1.0);
+    let normal_incidence = normal_incidence * normal_incidence;
     let rest = 1.0 - cosine;
-    squarely + (1.0 - squarely) * rest * rest * rest * rest * rest
+    normal_incidence + (1.0 - normal_incidence) * rest * rest * rest * rest * rest
 }
 // ANCHOR_END: schlick
 
 // ANCHOR: fresnel_by_sines_f32
-/// The reflected share by way of the sine on the far side, in f32: between two media that are nearly one, the sine of a
-/// flat angle is 1 to the last digit, and all seems reflected.
+/// The Fresnel reflectance by way of the sine on the far side, in f32: between two media that are nearly one, the sine of a
+/// grazing angle is 1 to the last digit, and all seems reflected.
 #[must_use]
 pub fn fresnel_by_sines_f32(cosine: f32, eta: f32) -> f32 {
     let sine_squared = (1.0 - cosine * cosine) / (eta * eta);

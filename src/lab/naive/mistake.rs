@@ -1,4 +1,4 @@
-//! Stages with one mistake each, to take the place of the kit's or to spoil what they wrote: for figures, and for tests
+//! Stages with one mistake each, to take the place of pinhole's or to spoil what they wrote: for figures, and for tests
 //! that must notice.
 
 use super::emitter::{pdf_without_cosine, pdf_without_jacobian};
@@ -21,18 +21,18 @@ use pinhole::shade::emitter::{distance_to, parallelogram_area_pdf};
 use pinhole::shade::{LightRays, area_light_stage};
 use std::f64::consts::FRAC_1_PI;
 
-/// How a matte surface sends light on: a direction about +z by two numbers, and the share that it counts by albedo and
+/// How a matte surface sends light on: a direction about +z by two numbers, and the weight that it counts with, by albedo and
 /// cosine.
 #[derive(Clone, Copy)]
 pub struct MatteSample {
     /// The direction.
     pub direction: fn([f64; 2]) -> DVec3,
-    /// The share.
-    pub share: fn(f64, f64) -> f64,
+    /// The weight: BSDF times cosine over pdf.
+    pub weight: fn(f64, f64) -> f64,
 }
 
-/// Matte surfaces alone send light on, and by this way; in the place of all that scatter.
-pub fn scatter_matte_by(way: MatteSample) -> Stage {
+/// Matte surfaces alone continue paths, by this sample; in place of all stages that sample BSDFs.
+pub fn scatter_matte_by(sample: MatteSample) -> Stage {
     type Known<'a> = (&'a Tile, &'a Depth, Option<&'a SampleNumber>, Option<&'a PixelSamples>, &'a Paths);
     let scatter =
         move |sampling: Res<Shared<SamplingTable>>,
@@ -44,12 +44,12 @@ pub fn scatter_matte_by(way: MatteSample) -> Stage {
                 draws_of_two(&draws, Purpose::Direction, &list.row, &mut points);
                 scattered.append(&list.row, |number, row| {
                     let surface = surfaces.get(row);
-                    let local = (way.direction)(points[number]);
-                    let (share, colour) = (paths.throughput(row), materials.colour[surface.material as usize]);
+                    let local = (sample.direction)(points[number]);
+                    let (throughput, colour) = (paths.throughput(row), materials.colour[surface.material as usize]);
                     ScatteredRay {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,
-                        throughput: [0, 1, 2].map(|part| share[part] * (way.share)(colour[part], local.z)),
+                        throughput: [0, 1, 2].map(|part| throughput[part] * (sample.weight)(colour[part], local.z)),
                         pdf: cosine_pdf(local.z),
                     }
                 });
@@ -74,7 +74,7 @@ fn direction(Scattered { dx, dy, dz, .. }: &Scattered, ray: usize) -> DVec3 {
     DVec3::new(dx[ray].into(), dy[ray].into(), dz[ray].into())
 }
 
-/// The wrong density: rays off rough metal are drawn by its tiny mirrors, and divided by the density of the cosine.
+/// The wrong pdf: rays off rough metal are sampled by its microfacets, and divided by the cosine-weighted pdf.
 pub fn metal_counted_as_matte() -> Stage {
     let spoil = |materials: Res<Shared<MaterialTable>>, mut tiles: Query<(&Surfaces, &mut Scattered)>| {
         for (surfaces, mut scattered) in &mut tiles {
@@ -88,10 +88,10 @@ pub fn metal_counted_as_matte() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget how metal was drawn", TileSystems::Roulette, spoil)).when(metal_evidence)
+    spoils(Stage::new("Forget how metal was sampled", TileSystems::Roulette, spoil)).when(metal_evidence)
 }
 
-/// A beam that enters glass narrows, and its radiance is divided by η² on the way back to the camera; here it is not
+/// A beam that enters glass becomes narrower, and its radiance is divided by η² on the path back to the camera; here it is not
 /// multiplied again where it leaves.
 pub fn glass_that_keeps_beams_narrow() -> Stage {
     let spoil = |glass: Res<Shared<GlassTable>>,
@@ -110,10 +110,10 @@ pub fn glass_that_keeps_beams_narrow() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget the way out of glass", TileSystems::Roulette, spoil)).when(glass_evidence)
+    spoils(Stage::new("Forget where rays leave glass", TileSystems::Roulette, spoil)).when(glass_evidence)
 }
 
-/// The missing cosine: rays to the sky go in all directions alike, and each counts the same; in the place of all that aim.
+/// The missing cosine: rays to the sky are sampled uniformly, and each counts the same; in place of all stages that sample lights.
 pub fn sky_in_all_directions_alike() -> Stage {
     let aim = |sampling: Res<Shared<SamplingTable>>,
                integrator: Res<Shared<IntegratorTable>>,
@@ -121,37 +121,37 @@ pub fn sky_in_all_directions_alike() -> Stage {
                tiles: Query<SkyView>| {
         sample_sky_with(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
-    Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)
+    Stage::new("Sample the open sky uniformly", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
         .appends::<LightRays>()
         .when(occlusion_evidence)
 }
 
-/// Light that was aimed at counts in full, though chance finds it too; in the place of all that weigh.
-pub fn aimed_light_counted_in_full() -> Stage {
-    Stage::new("Count aimed light in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
+/// Light samples count in full, though BSDF sampling finds the same light; in place of all stages that compute MIS weights.
+pub fn light_samples_counted_in_full() -> Stage {
+    Stage::new("Count light samples in full", TileSystems::MisWeights, |_: Query<&mut LightRays>| ())
         .kind(StageKind::Alternative)
         .when(mis_evidence)
 }
 
-/// How far a ray's end may lie from a light's plane, as a share of its length, and count as on it.
+/// How far a ray's end may lie from a light's plane, as a fraction of its length, and count as on it.
 const ON_LIGHT: f64 = 1e-5;
 
-/// The light's own cosine forgotten in the density of its area.
+/// The light's own cosine forgotten in the pdf of its area.
 pub fn light_without_cosine() -> Stage {
     spoils_light_sampling("Forget the light's cosine", |lights, mut tiles| {
         tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, pdf_without_cosine));
     })
 }
 
-/// The Jacobian forgotten: the density of an area taken for one of directions.
+/// The Jacobian forgotten: the pdf per area taken for one per solid angle.
 pub fn light_without_jacobian() -> Stage {
     spoils_light_sampling("Forget the Jacobian", |lights, mut tiles| {
         tiles.iter_mut().for_each(|mut rays| reweigh(&lights, &mut rays, |_, area| pdf_without_jacobian(area)));
     })
 }
 
-/// After the rays to lights, before what is in their way.
+/// After the rays to lights, before what blocks them.
 fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTable>>, Query<&mut LightRays>)) -> Stage {
     Stage::new(name, TileSystems::SampleLights, forget)
         .kind(StageKind::Alternative)
@@ -159,15 +159,15 @@ fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTabl
         .when(|scene| (area_light_stage().when)(scene))
 }
 
-/// Multiplies what each ray to a rectangle brings by the right density of a point of its area over another: on average
-/// that is what points of the area would bring, weighed by that other.
+/// Multiplies what each ray to a rectangle brings by the right pdf of a point of its area over another: on average
+/// that is what points of the area would bring, weighted by that other.
 fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, f64) -> f64) {
     for ray in 0..rays.rows() {
         let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
-        let (direction, reach) = (rays.direction_of(ray), f64::from(rays.t_max[ray]));
-        let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / reach - 1.0).abs() < ON_LIGHT;
+        let (direction, distance) = (rays.direction_of(ray), f64::from(rays.t_max[ray]));
+        let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / distance - 1.0).abs() < ON_LIGHT;
         let Some(Emitter::Rectangle(planar)) = lights.emitter.iter().find(ends_on) else { continue };
-        let to = direction * reach;
+        let to = direction * distance;
         let factor = (parallelogram_area_pdf(planar, to) / naive(to, planar.area())) as f32;
         for part in [&mut rays.r, &mut rays.g, &mut rays.b] {
             part[ray] *= factor;
@@ -175,7 +175,7 @@ fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, 
     }
 }
 
-/// The stage that draws points on the lens, by another way of filling it.
+/// The stage that samples points on the lens, with another mapping to its disk.
 pub fn opening_filled_by(point: fn(DVec2) -> DVec2) -> Stage {
     let fill = move |lens: Res<Shared<LensTable>>, mut tiles: Query<(&RasterPoints, &mut LensPoints)>| {
         for (raster, mut points) in &mut tiles {

@@ -1,7 +1,7 @@
-//! Shares of the image's width as first programs compute them.
+//! Fractions of the image's width as first programs compute them.
 
 // ANCHOR: naive_ndc_to_last_pixel
-/// A pixel's share of the way from the first pixel to the last, in f32: 0 at the first, 1 at the last.
+/// A pixel's fraction of the distance from the first pixel to the last, in f32: 0 at the first, 1 at the last.
 ///
 /// It takes pixels for points: each end of the picture is half a pixel off, and where there is one pixel only, nothing
 /// lies between the first and the last, and 0 / 0 is not a number.
@@ -12,7 +12,7 @@ pub fn to_last_pixel(pixel: u32, width: u32) -> f32 {
 // ANCHOR_END: naive_ndc_to_last_pixel
 
 // ANCHOR: naive_ndc_by_steps
-/// The left edges of all pixels as shares of the width, each a step to the right of the last, in f32.
+/// The left edges of all pixels as fractions of the width, each a step to the right of the last, in f32.
 ///
 /// The step is rounded once and each sum again, so unless 1 / `width` is a binary fraction the errors gather.
 pub fn by_steps(width: u32) -> impl Iterator<Item = f32> {

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 // ANCHOR: uniform_direction
-/// A direction about +z, all alike: the height is as likely anywhere (Archimedes).
+/// A direction about +z, uniform over the hemisphere: the height is uniform (Archimedes).
 #[must_use]
 pub fn uniform_direction([u, v]: [f64; 2]) -> [f64; 3] {
     let radius = (u * (2.0 - u)).sqrt();
@@ -11,20 +11,20 @@ pub fn uniform_direction([u, v]: [f64; 2]) -> [f64; 3] {
 }
 // ANCHOR_END: uniform_direction
 
-/// The share of the light from a direction of this cosine that a surface of this albedo sends on, over the density of
-/// directions that are all alike.
+/// The weight of a uniformly sampled direction of this cosine at a matte surface of this albedo: BRDF times cosine over
+/// the uniform pdf.
 #[must_use]
 pub fn uniform_weight(albedo: f64, cosine: f64) -> f64 {
     albedo * FRAC_1_PI * cosine * TAU
 }
 
-/// The same without the cosine: each direction counts as if it came squarely.
+/// The same without the cosine: each direction counts as if it were at normal incidence.
 #[must_use]
 pub fn weight_without_cosine(albedo: f64) -> f64 {
     albedo * FRAC_1_PI * TAU
 }
 
-/// The share over the density of the cosine, with the albedo for what the surface sends each way: π is forgotten.
+/// The weight of a cosine-sampled direction with the albedo in place of the BRDF: π is forgotten.
 #[must_use]
 pub fn weight_without_pi(albedo: f64) -> f64 {
     albedo / FRAC_1_PI
@@ -39,13 +39,13 @@ pub fn power_heuristic_f32(own: f32, other: f32) -> f32 {
 // ANCHOR_END: power_heuristic_f32
 
 // ANCHOR: light_of_capped_path
-/// What a way brings in a closed room whose walls shine with 1 and send on this share, cut off after so many legs.
+/// The radiance that a path carries in a closed room whose walls emit 1 and have this albedo, cut off at this depth.
 #[must_use]
 pub fn light_of_capped_path(albedo: f64, max_depth: u32) -> f64 {
-    let (mut light, mut share) = (0.0, 1.0);
+    let (mut light, mut throughput) = (0.0, 1.0);
     for _ in 0..max_depth {
-        light += share;
-        share *= albedo;
+        light += throughput;
+        throughput *= albedo;
     }
     light
 }

@@ -4,7 +4,7 @@ use super::plane::hit_f32 as hit_plane_f32;
 use glam::Vec3;
 
 // ANCHOR: naive_hit_disk_f32
-/// The t where the ray meets a disk, in f32: the textbook's plane, then the hit point's distance from the centre.
+/// The t where the ray hits a disk, in f32: the textbook's plane, then the hit point's distance from the centre.
 ///
 /// The hit point is off by the rounding of its coordinates, which grow with the distance while the disk does not; and a
 /// floor keeps the plane's two constants.
@@ -15,7 +15,7 @@ pub fn hit_disk_f32(origin: Vec3, direction: Vec3, centre: Vec3, normal: Vec3, a
 }
 // ANCHOR_END: naive_hit_disk_f32
 
-/// The t where the ray meets a rectangle, in f32, the same way.
+/// The t where the ray hits a rectangle, in f32, the same way.
 #[must_use]
 pub fn hit_rectangle_f32(origin: Vec3, direction: Vec3, centre: Vec3, normal: Vec3, along: [Vec3; 2]) -> Option<f32> {
     let (t, [x, z]) = crossing_f32(origin, direction, centre, normal, along)?;

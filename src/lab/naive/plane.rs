@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 // ANCHOR: naive_hit_plane_f32
-/// The t where the ray meets the plane normal · x = offset, in f32, with two constants of the
+/// The t where the ray intersects the plane normal · x = offset, in f32, with two constants of the
 /// textbooks: a ray is called parallel when |normal · direction| is at most 1e-6, and a hit too
 /// near when t is at most 1e-3.
 ///
@@ -45,7 +45,7 @@ mod tests {
             naive.is_some() != plane_hit(ray.origin, ray.direction, plane).is_some()
         };
         let wrong = (0..RAYS).filter(|index| wrong(*index)).count();
-        eprintln!("{RAYS} rays at planes of any offset, {wrong} misjudged by the textbook in f32");
+        eprintln!("{RAYS} rays at planes of any offset, {wrong} misclassified by the textbook in f32");
         assert!(wrong > 0, "the textbook is expected to break");
     }
 }

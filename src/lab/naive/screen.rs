@@ -1,4 +1,4 @@
-//! NDC to screen as it is often written, each with one slip.
+//! NDC to screen as it is often written, each with one mistake.
 //!
 //! Reads and writes f64: these are wrong in principle, not by rounding.
 
@@ -29,7 +29,7 @@ mod tests {
     use super::*;
     use pinhole::rays::screen_from_ndc;
 
-    /// The share of points of the image that a function puts elsewhere than the kit does.
+    /// The fraction of points of the image that a function puts elsewhere than pinhole does.
     fn elsewhere(naive: fn(DVec2, f64) -> DVec2, aspect: f64) -> f64 {
         let points: Vec<DVec2> = (0..64)
             .flat_map(|y| (0..64).map(move |x| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) / 64.0))

@@ -47,15 +47,15 @@ pub fn start_off_surface(position: Vec3, normal: Vec3) -> ShadowStart {
 // ANCHOR: naive_reach
 /// How far a shadow ray looks: without end.
 ///
-/// The wall behind a lamp then keeps its light away from everything before the wall.
+/// The wall behind a light then keeps its light away from everything before the wall.
 #[must_use]
-pub fn reach_without_end(_distance: f64) -> f32 {
+pub fn t_max_without_end(_distance: f64) -> f32 {
     f32::INFINITY
 }
 
 /// How far a shadow ray looks: to the light, at this distance.
 ///
-/// The distance and the direction are rounded, so a lamp that hangs close before a wall is half the time found to be
+/// The distance and the direction are rounded, so a light that hangs close before a wall is half the time found to be
 /// behind it.
 #[must_use]
 pub fn t_max_to_light(distance: f64) -> f32 {

@@ -3,12 +3,12 @@
 use glam::{DVec3, Vec3};
 
 // ANCHOR: naive_hit_sphere_f32
-/// The nearest t > 0 where the ray meets the sphere: the quadratic formula, straight from school,
+/// The nearest t > 0 where the ray hits the sphere: the quadratic formula, straight from school,
 /// in f32.
 ///
 /// Most first ray tracers hold this function. Far away b² and 4ac are both huge and nearly equal, so
 /// their difference is made of rounding errors: from a thousand radii on, a ray within a few
-/// rounding steps of the silhouette is judged no better than by a coin.
+/// rounding steps of the silhouette is decided no better than by a coin.
 #[must_use]
 pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Option<f32> {
     let from_centre = origin - centre;
@@ -28,7 +28,7 @@ pub fn hit_f32(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Opti
 /// The same formula, halved, in f64 on f32 rays: the usual first repair.
 ///
 /// It moves the failure away rather than removing it: b² and ac still agree in all but their last
-/// digits when the sphere is far, so at 10^7 radii some silhouette rays are misjudged, and close
+/// digits when the sphere is far, so at 10^7 radii some silhouette rays are misclassified, and close
 /// above a large sphere the near root loses its digits.
 #[must_use]
 pub fn hit_f64_plain(origin: Vec3, direction: Vec3, centre: DVec3, radius: f64) -> Option<f64> {
@@ -110,21 +110,21 @@ mod tests {
         for (direction, t) in [(Vec3::NEG_Z, Some(2.0)), (Vec3::Z, None), (Vec3::X, None)] {
             assert_eq!(hit_f32(Vec3::ZERO, direction, centre, radius), t);
             assert_eq!(hit_haines_f32(Vec3::ZERO, direction, centre, radius), t);
-            let double_double = hit_f64_plain(Vec3::ZERO, direction, centre.as_dvec3(), f64::from(radius));
-            assert_eq!(double_double, t.map(f64::from));
+            let in_f64 = hit_f64_plain(Vec3::ZERO, direction, centre.as_dvec3(), f64::from(radius));
+            assert_eq!(in_f64, t.map(f64::from));
         }
     }
 
     #[test]
-    fn one_root_that_is_no_number_stays() {
+    fn one_root_that_is_nan_stays() {
         let spheres = [(Vec3::new(0.0, 0.0, -3.0), 1.0), (Vec3::new(0.0, 0.0, -9.0), 1.0)];
         assert_eq!(nearest_unless_farther(Vec3::ZERO, Vec3::NEG_Z, &spheres), 2.0);
         assert!(nearest_unless_farther(Vec3::ZERO, Vec3::ZERO, &spheres).is_nan());
         assert_eq!(point_f32(Vec3::X, Vec3::NEG_Z, 2.0), Vec3::new(1.0, 0.0, -2.0));
     }
 
-    /// How many silhouette rays a method judges otherwise than the oracle, both on an f32 sphere.
-    fn misjudged(rays: u64, distance: f64, hits: impl Fn(AimedRay, Vec3, f32) -> bool) -> usize {
+    /// How many silhouette rays a method classifies otherwise than the oracle, both on an f32 sphere.
+    fn misclassified(rays: u64, distance: f64, hits: impl Fn(AimedRay, Vec3, f32) -> bool) -> usize {
         let wrong = |(ray, sphere): (AimedRay, Sphere)| {
             let sphere = sphere.rounded_to_f32();
             let (centre, radius) = (sphere.centre.as_vec3(), sphere.radius as f32);
@@ -139,22 +139,22 @@ mod tests {
     fn all_three_break_at_the_silhouette() {
         const RAYS: u64 = 4000;
         for distance in [1e3, 1e5, 1e7] {
-            let plain = misjudged(RAYS, distance, |ray, centre, radius| {
+            let plain = misclassified(RAYS, distance, |ray, centre, radius| {
                 hit_f32(ray.origin, ray.direction, centre, radius).is_some()
             });
-            let haines = misjudged(RAYS, distance, |ray, centre, radius| {
+            let haines = misclassified(RAYS, distance, |ray, centre, radius| {
                 hit_haines_f32(ray.origin, ray.direction, centre, radius).is_some()
             });
-            let double_double = misjudged(RAYS, distance, |ray, centre, radius| {
+            let in_f64 = misclassified(RAYS, distance, |ray, centre, radius| {
                 let (centre, radius) = (centre.as_dvec3(), f64::from(radius));
                 hit_f64_plain(ray.origin, ray.direction, centre, radius).is_some()
             });
             eprintln!(
-                "{RAYS} silhouette rays at {distance:e} radii, misjudged: \
-                 {plain} f32, {haines} f32 perpendicular, {double_double} f64"
+                "{RAYS} silhouette rays at {distance:e} radii, misclassified: \
+                 {plain} f32, {haines} f32 perpendicular, {in_f64} f64"
             );
             assert!(plain > 0, "the textbook is expected to break");
-            assert!(distance < 1e7 || double_double > 0, "f64 is expected to break");
+            assert!(distance < 1e7 || in_f64 > 0, "f64 is expected to break");
         }
     }
 }

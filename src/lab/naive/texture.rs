@@ -4,7 +4,7 @@ use glam::{DVec2, Vec3};
 use pinhole::extract::Texels;
 
 // ANCHOR: naive_checker
-/// A checker's colour at the one point that the ray met, in f32: 1 for the first, 0 for the second.
+/// A checker's colour at the one point that the ray hit, in f32: 1 for the first, 0 for the second.
 ///
 /// Where a pixel covers many cells, the one cell stands for all of them; and on a plane through cell borders rounding
 /// decides between two layers.
@@ -24,7 +24,7 @@ pub fn wave_mean_f32(x: f32, width: f32) -> f32 {
     (area(x + 0.5 * width) - area(x - 0.5 * width)) / width
 }
 
-/// What a pixel covers of a plane, as the way from its own hit to its neighbour's, in f32; none where the neighbour's ray
+/// What a pixel covers of a plane, as the offset from its own hit to its neighbour's, in f32; none where the neighbour's ray
 /// passes above the horizon.
 #[must_use]
 pub fn step_to_neighbour(direction: Vec3, neighbour: Vec3, normal: Vec3, offset: f32) -> Option<Vec3> {
@@ -47,10 +47,11 @@ pub fn bilinear_to_the_edge(image: &Texels, at: DVec2) -> [f64; 3] {
         let y = y.clamp(0.0, image.height as f64 - 1.0) as usize;
         image.rgb[y * image.width + x].map(f64::from)
     };
-    let (corner, share) = (point.floor(), point - point.floor());
-    let blend = |a: [f64; 3], b: [f64; 3], share: f64| [0, 1, 2].map(|part| a[part] * (1.0 - share) + b[part] * share);
-    let row = |y: f64| blend(texel(corner.x, y), texel(corner.x + 1.0, y), share.x);
-    blend(row(corner.y), row(corner.y + 1.0), share.y)
+    let (corner, fraction) = (point.floor(), point - point.floor());
+    let blend =
+        |a: [f64; 3], b: [f64; 3], fraction: f64| [0, 1, 2].map(|part| a[part] * (1.0 - fraction) + b[part] * fraction);
+    let row = |y: f64| blend(texel(corner.x, y), texel(corner.x + 1.0, y), fraction.x);
+    blend(row(corner.y), row(corner.y + 1.0), fraction.y)
 }
 
 /// The image at half the size, each texel the mean of four; the last row or column of an odd side falls away.

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 // ANCHOR: naive_moller_trumbore
-/// The t where the ray meets a triangle (Möller and Trumbore 1997), in f32, with the constant of their paper.
+/// The t where the ray hits a triangle (Möller and Trumbore 1997), in f32, with the constant of their paper.
 ///
 /// Each triangle solves for its own two coordinates, with its own rounding: along an edge that two triangles share, both
 /// may find the ray outside, and light leaks through.
@@ -42,10 +42,10 @@ pub fn hit_woop_f32(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option
         Vec3::new(from[x] - shear_x * from[z], from[y] - shear_y * from[z], shear_z * from[z])
     });
     let edge = |a: Vec3, b: Vec3| a.x * b.y - a.y * b.x;
-    let double_double = |a: Vec3, b: Vec3| (f64::from(a.x) * f64::from(b.y) - f64::from(a.y) * f64::from(b.x)) as f32;
+    let in_f64 = |a: Vec3, b: Vec3| (f64::from(a.x) * f64::from(b.y) - f64::from(a.y) * f64::from(b.x)) as f32;
     let (mut u, mut v, mut w) = (edge(b, c), edge(c, a), edge(a, b));
     if u == 0.0 || v == 0.0 || w == 0.0 {
-        (u, v, w) = (double_double(b, c), double_double(c, a), double_double(a, b));
+        (u, v, w) = (in_f64(b, c), in_f64(c, a), in_f64(a, b));
     }
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let whole = u + v + w;

@@ -1,10 +1,10 @@
 //! Whether two ways to render have one mean image: a test a block of pixels and colour, all of them together at one level.
 
-use super::distribution::student_share;
+use super::distribution::student_cdf;
 use super::interval::joined;
 use crate::measure::image_error::Numbers;
 
-/// How likely it is that any test says that two equal means differ.
+/// The probability that any test says that two equal means differ.
 pub const FAMILY: f64 = 0.01;
 
 /// What the tests of two sets of images say.
@@ -51,7 +51,7 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
             continue;
         }
         let t = difference.abs() / variance.sqrt();
-        let likely = if variance > 0.0 { 2.0 * student_share(-t, freedom) } else { 0.0 };
+        let likely = if variance > 0.0 { 2.0 * student_cdf(-t, freedom) } else { 0.0 };
         least = least.min(likely);
         apart += usize::from(likely < limit);
         errors += variance.sqrt();

@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// A line a run, under one that names the columns.
 pub fn csv(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs, measured: &[Measured]) -> String {
     let mut text = String::from(
-        "variant,samples,seed,mse,mse_less_v_ref,rel_mse,trimmed_rel_mse,mae,largest,tail_share,nan,plus_infinite,\
+        "variant,samples,seed,mse,mse_less_v_ref,rel_mse,trimmed_rel_mse,mae,largest,tail_fraction,nan,plus_infinite,\
          minus_infinite,negative,rejected,wall_s,cpu_s,build_s,render_cpu_s\n",
     );
     for (own, (variant, measured)) in variants.iter().zip(measured).enumerate() {
@@ -30,7 +30,7 @@ pub fn csv(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs, measured: &[M
                     each.trimmed_rel_mse,
                     each.mae,
                     each.largest,
-                    each.tail_share,
+                    each.tail_fraction,
                     times.wall,
                     times.cpu,
                     times.build,

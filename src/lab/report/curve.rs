@@ -25,18 +25,18 @@ pub struct Curve {
     pub levels: Vec<Level>,
     /// Seeds a level.
     pub seeds: usize,
-    /// Pieces of the reference.
-    pub pieces: usize,
-    /// Samples a pixel of the reference, all pieces together.
+    /// Batches of the reference.
+    pub batches: usize,
+    /// Samples a pixel of the reference, all batches together.
     pub reference_samples: u64,
 }
 
-/// A weight for each run, and the piece of the reference that is left out.
+/// A weight for each run, and the batch of the reference that is left out.
 type Drawn<'a> = (&'a [f64], Option<usize>);
 
 impl Level {
-    fn mse(&self, (weights, piece): Drawn<'_>) -> Option<f64> {
-        self.ensemble.mse_without(weights, piece).filter(|mse| *mse > 0.0)
+    fn mse(&self, (weights, batch): Drawn<'_>) -> Option<f64> {
+        self.ensemble.mse_without(weights, batch).filter(|mse| *mse > 0.0)
     }
 
     fn time(&self, weights: &[f64]) -> Option<f64> {
@@ -54,7 +54,7 @@ impl Level {
     pub fn told_mse(&self, level: f64) -> Result<Estimate, Refused> {
         let seeds = self.seconds.len();
         let mse = self.ensemble.mse().ok_or(Refused::TooFewSeeds { seeds })?;
-        let (variance, freedom) = self.ensemble.reference_share().unwrap_or((0.0, 1.0));
+        let (variance, freedom) = self.ensemble.reference_part().unwrap_or((0.0, 1.0));
         let least = 0.5 * width(Estimate { value: 0.0, variance, freedom }.interval(level));
         if mse.value < least {
             return Err(Refused::BelowReference { samples: self.samples, mse: mse.value, least });
@@ -64,46 +64,46 @@ impl Level {
 }
 
 impl Curve {
-    /// A statistic by leaving out one run at a time, then one piece of the reference at a time.
+    /// A statistic by leaving out one run at a time, then one batch of the reference at a time.
     ///
-    /// What runs and pieces vary together shows in both, so what leaving out one of each shows beyond is taken away.
+    /// What runs and batches vary together shows in both, so what leaving out one of each shows beyond is taken away.
     fn estimate(&self, statistic: impl Fn(Drawn<'_>) -> Option<f64>) -> Option<Estimate> {
         let runs = jackknife(self.seeds, |weights| statistic((weights, None)))?;
-        let Some((variance, freedom)) = self.piece_share(&statistic) else { return Some(runs) };
-        let (r, m) = (self.seeds as f64, self.pieces as f64);
+        let Some((variance, freedom)) = self.batch_part(&statistic) else { return Some(runs) };
+        let (r, m) = (self.seeds as f64, self.batches as f64);
         let shared = (-self.shared(runs.value, &statistic)?, (r - 1.0) * (m - 1.0));
         let (variance, freedom) = joined(&[(runs.variance, runs.freedom), (variance, freedom), shared]);
         Some(Estimate { value: runs.value, variance, freedom })
     }
 
     /// The variance of a statistic that comes from the reference.
-    fn piece_share(&self, statistic: &impl Fn(Drawn<'_>) -> Option<f64>) -> Option<(f64, f64)> {
-        if self.pieces < FEWEST {
+    fn batch_part(&self, statistic: &impl Fn(Drawn<'_>) -> Option<f64>) -> Option<(f64, f64)> {
+        if self.batches < FEWEST {
             return None;
         }
         let all = vec![1.0; self.seeds];
-        let others: Option<Vec<f64>> = (0..self.pieces).map(|piece| statistic((&all, Some(piece)))).collect();
-        let (others, m) = (others?, self.pieces as f64);
+        let others: Option<Vec<f64>> = (0..self.batches).map(|batch| statistic((&all, Some(batch)))).collect();
+        let (others, m) = (others?, self.batches as f64);
         let mean = others.iter().sum::<f64>() / m;
         let squares: f64 = others.iter().map(|other| (other - mean) * (other - mean)).sum();
         Some((squares * (m - 1.0) / m, m - 1.0))
     }
 
-    /// The variance of a statistic that runs and pieces have only together.
+    /// The variance of a statistic that runs and batches have only together.
     fn shared(&self, value: f64, statistic: &impl Fn(Drawn<'_>) -> Option<f64>) -> Option<f64> {
         let all = vec![1.0; self.seeds];
-        let pieces: Option<Vec<f64>> = (0..self.pieces).map(|piece| statistic((&all, Some(piece)))).collect();
-        let (pieces, mut weights, mut squares) = (pieces?, all, 0.0);
+        let batches: Option<Vec<f64>> = (0..self.batches).map(|batch| statistic((&all, Some(batch)))).collect();
+        let (batches, mut weights, mut squares) = (batches?, all, 0.0);
         for run in 0..self.seeds {
             weights[run] = 0.0;
             let without = statistic((&weights, None))?;
-            for (piece, of_piece) in pieces.iter().enumerate() {
-                let both = statistic((&weights, Some(piece)))?;
-                squares += (both - without - of_piece + value) * (both - without - of_piece + value);
+            for (batch, of_batch) in batches.iter().enumerate() {
+                let both = statistic((&weights, Some(batch)))?;
+                squares += (both - without - of_batch + value) * (both - without - of_batch + value);
             }
             weights[run] = 1.0;
         }
-        let (r, m) = (self.seeds as f64, self.pieces as f64);
+        let (r, m) = (self.seeds as f64, self.batches as f64);
         Some(squares * (r - 1.0) * (m - 1.0) / (r * m))
     }
 
@@ -113,7 +113,7 @@ impl Curve {
         if self.levels.len() < 2 {
             return Err(Refused::TooFewLevels);
         }
-        if self.pieces < 2 && longest as f64 > MOST_OF_REFERENCE * self.reference_samples as f64 {
+        if self.batches < 2 && longest as f64 > MOST_OF_REFERENCE * self.reference_samples as f64 {
             return Err(Refused::ReferenceTooShort { longest, reference: self.reference_samples });
         }
         for rung in &self.levels {
@@ -138,8 +138,8 @@ impl Curve {
         let short = Refused::TooFewSeeds { seeds: self.seeds };
         self.carried(level)?;
         let drawn = bca(self.seeds, level, |weights| self.slope_of((weights, None))).ok_or(short)?;
-        let share = self.piece_share(&|drawn: Drawn<'_>| self.slope_of(drawn));
-        let (variance, freedom) = share.unwrap_or((0.0, 1.0));
+        let from_batches = self.batch_part(&|drawn: Drawn<'_>| self.slope_of(drawn));
+        let (variance, freedom) = from_batches.unwrap_or((0.0, 1.0));
         let half = 0.5 * width(Estimate { value: 0.0, variance, freedom }.interval(level));
         let widened = |end: f64| libm::hypot(end - drawn.value, half);
         Ok(Interval {
@@ -162,7 +162,7 @@ impl Curve {
 
     /// ln of how many times this curve's efficiency at a level is another's.
     ///
-    /// Runs are paired by their number, as they were interleaved; so are the pieces of the reference.
+    /// Runs are paired by their number, as they were interleaved; so are the batches of the reference.
     pub fn log_efficiency_ratio(&self, other: &Self, level: usize) -> Option<Estimate> {
         self.estimate(|drawn| {
             Some(self.levels.get(level)?.log_efficiency(drawn)? - other.levels.get(level)?.log_efficiency(drawn)?)

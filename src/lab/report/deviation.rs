@@ -1,9 +1,9 @@
-//! How far one image is from the reference: means, tails, and what is no number.
+//! How far one image is from the reference: means, tails, and what is not finite.
 
 use crate::measure::image_error::{ImageError, Numbers, Oddities, RELATIVE_FLOOR, image_error};
 use serde::{Deserialize, Serialize};
 
-/// The share of pixels that counts as the tail.
+/// The fraction of pixels that counts as the tail.
 pub const TAIL: f64 = 0.001;
 
 /// The formula of relMSE, as every report prints it.
@@ -22,8 +22,8 @@ pub struct Deviation {
     pub mae: f64,
     /// The largest |x − r|.
     pub largest: f64,
-    /// The share of the MSE that comes from the 0.1 % of pixels that add most to it.
-    pub tail_share: f64,
+    /// The fraction of the MSE that comes from the 0.1 % of pixels that add most to it.
+    pub tail_fraction: f64,
     /// Pixels that the means are taken over.
     pub compared: u64,
     /// Numbers of the image that are NaN, +∞, −∞, negative.
@@ -55,7 +55,7 @@ pub fn deviation(reference: &Numbers, image: &Numbers) -> Result<Deviation, Stri
         trimmed_rel_mse: if rest > 0.0 { (relative_all - relative_tail).max(0.0) / (3.0 * rest) } else { 0.0 },
         mae: means.mae,
         largest: means.largest,
-        tail_share: if all > 0.0 { tail / all } else { 0.0 },
+        tail_fraction: if all > 0.0 { tail / all } else { 0.0 },
         compared,
         odd: [nan, plus_infinite, minus_infinite, negative],
     })
@@ -95,12 +95,12 @@ mod tests {
         assert!((found.rel_mse - 6.0 / 1.01 / 2000.0).abs() < 1e-17);
         assert_eq!((found.largest, found.compared, found.odd), (2.0, 2000, [0; 4]));
         // The tail is two pixels: the one that is off by 2, and one of those that are off by 1.
-        assert!((found.tail_share - 5.0 / 6.0).abs() < 1e-15);
+        assert!((found.tail_fraction - 5.0 / 6.0).abs() < 1e-15);
         assert!((found.trimmed_rel_mse - 1.0 / 1.01 / 1998.0).abs() < 1e-17);
     }
 
     #[test]
-    fn what_is_no_number_joins_no_mean_and_is_counted() {
+    fn what_is_not_finite_joins_no_mean_and_is_counted() {
         let reference = image(vec![[1.0; 3]; 4]);
         let mut wrong = reference.clone();
         wrong.pixels[0] = [f64::NAN, 1.0, 1.0];

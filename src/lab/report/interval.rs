@@ -1,6 +1,6 @@
 //! Estimates and the intervals about them.
 
-use super::distribution::{normal_point, normal_share, student_point};
+use super::distribution::{normal_cdf, normal_point, student_point};
 use crate::measure::ray_aim::Draws;
 
 /// The level of an interval that stands alone.
@@ -151,13 +151,13 @@ pub fn bca(count: usize, level: f64, statistic: impl Fn(&[f64]) -> Option<f64>) 
     drawn.sort_by(f64::total_cmp);
     let below = drawn.partition_point(|other| *other < value) as f64;
     let ties = drawn.partition_point(|other| *other <= value) as f64 - below;
-    let share =
+    let below_value =
         ((below + 0.5 * ties) / drawn.len() as f64).clamp(0.5 / drawn.len() as f64, 1.0 - 0.5 / drawn.len() as f64);
-    let (shift, acceleration) = (normal_point(share), acceleration(count, &statistic)?);
-    let end = |share: f64| {
-        let z = shift + normal_point(share);
-        let share = normal_share(shift + z / (1.0 - acceleration * z));
-        drawn[((share * drawn.len() as f64) as usize).min(drawn.len() - 1)]
+    let (shift, acceleration) = (normal_point(below_value), acceleration(count, &statistic)?);
+    let end = |tail: f64| {
+        let z = shift + normal_point(tail);
+        let quantile = normal_cdf(shift + z / (1.0 - acceleration * z));
+        drawn[((quantile * drawn.len() as f64) as usize).min(drawn.len() - 1)]
     };
     let tail = 0.5 * (1.0 - level);
     Some(Interval { low: end(tail), value, high: end(1.0 - tail) })
@@ -212,13 +212,13 @@ mod tests {
     #[test]
     fn leaving_one_out_gives_the_variance_of_a_mean() {
         let values = [0.3, -1.0, 4.5, 2.0];
-        let weighed = |weights: &[f64]| {
+        let weighted = |weights: &[f64]| {
             let sum: f64 = weights.iter().zip(&values).map(|(weight, value)| weight * value).sum();
             Some(sum / weights.iter().sum::<f64>())
         };
-        let (one, other) = (jackknife(4, weighed).expect("four"), mean_of(&values).expect("four"));
+        let (one, other) = (jackknife(4, weighted).expect("four"), mean_of(&values).expect("four"));
         assert!((one.variance - other.variance).abs() < 1e-14 && one.freedom == 3.0);
-        let drawn = bca(4, LEVEL, weighed).expect("four");
+        let drawn = bca(4, LEVEL, weighted).expect("four");
         assert!(drawn.low < other.value && other.value < drawn.high);
     }
 

@@ -1,4 +1,4 @@
-//! Which runs a report makes: sample counts, seeds, and the pieces of the reference.
+//! Which runs a report makes: sample counts, seeds, and the batches of the reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,10 +12,10 @@ pub struct Ladder {
     pub samples: Vec<u32>,
     /// Seeds a sample count.
     pub seeds: u32,
-    /// Pieces of each reference, of disjoint seeds.
-    pub pieces: u32,
-    /// Samples a pixel of each piece.
-    pub piece_samples: u32,
+    /// Batches of each reference, of disjoint seeds.
+    pub batches: u32,
+    /// Samples a pixel of each batch.
+    pub batch_samples: u32,
 }
 
 impl Ladder {
@@ -26,7 +26,7 @@ impl Ladder {
         let levels = if quick { 4 } else { 5 };
         let samples: Vec<u32> = (0..levels).map(|power| 1 << (2 * power)).collect();
         let longest = 1 << (2 * (levels - 1));
-        Self { samples, seeds: if quick { 8 } else { 16 }, pieces: 8, piece_samples: 4 * longest }
+        Self { samples, seeds: if quick { 8 } else { 16 }, batches: 8, batch_samples: 4 * longest }
     }
 
     /// The seed of a run: another one for each level, so that levels are independent of each other.
@@ -39,14 +39,14 @@ impl Ladder {
         (0..self.samples.len()).flat_map(|level| (0..self.seeds).map(move |run| self.seed(level, run))).collect()
     }
 
-    /// The seeds of the reference's pieces.
+    /// The seeds of the reference's batches.
     pub fn reference_seeds(&self) -> Vec<u64> {
-        (0..u64::from(self.pieces)).map(|piece| REFERENCE_SEEDS + piece).collect()
+        (0..u64::from(self.batches)).map(|batch| REFERENCE_SEEDS + batch).collect()
     }
 
     /// Samples a pixel of a whole reference.
     pub fn reference_samples(&self) -> u64 {
-        u64::from(self.pieces) * u64::from(self.piece_samples)
+        u64::from(self.batches) * u64::from(self.batch_samples)
     }
 
     /// Samples a pixel that one variant's runs take together.

@@ -3,7 +3,7 @@
 use super::deviation::RELATIVE_MSE;
 use super::pictures::Shown;
 use super::plot::{Against, plot};
-use super::summary::{LevelSummary, Report, Told, VariantSummary};
+use super::summary::{LevelSummary, Report, Statistic, VariantSummary};
 use super::table::{at_words, short, slope_words, with_ends, with_half, with_percent};
 use crate::review::escape;
 use std::fmt::Write;
@@ -114,14 +114,14 @@ fn levels(body: &mut String, variant: &VariantSummary) {
         let numbers = [level.rel_mse, level.trimmed_rel_mse, level.mae, level.largest];
         let mut row = vec![level.samples.to_string()];
         row.extend(numbers.map(short));
-        row.push(format!("{:.1} %", 100.0 * level.tail_share));
+        row.push(format!("{:.1} %", 100.0 * level.tail_fraction));
         row.extend(level.odd.map(|count| count.to_string()));
         row.push(level.rejected.to_string());
         row
     };
     table(body, "", &head, &variant.levels.iter().map(row).collect::<Vec<_>>());
     for level in &variant.levels {
-        if let Told::Refused(what) = &level.mse {
+        if let Statistic::Refused(what) = &level.mse {
             let _ = writeln!(body, "<p class=\"flag\">Refused: {}.</p>", escape(what));
         }
     }
@@ -171,11 +171,11 @@ fn stages(body: &mut String, variant: &VariantSummary) {
     let all: f64 = variant.stages.iter().map(|stage| stage.milliseconds).sum();
     let row = |stage: &super::summary::StageSummary| {
         let each = if stage.rows > 0 { short(1e6 * stage.milliseconds / stage.rows as f64) } else { "–".into() };
-        let share = if all > 0.0 { 100.0 * stage.milliseconds / all } else { 0.0 };
-        vec![stage.stage.clone(), stage.rows.to_string(), short(stage.milliseconds), each, format!("{share:.1} %")]
+        let percent = if all > 0.0 { 100.0 * stage.milliseconds / all } else { 0.0 };
+        vec![stage.stage.clone(), stage.rows.to_string(), short(stage.milliseconds), each, format!("{percent:.1} %")]
     };
     let rows: Vec<Vec<String>> = variant.stages.iter().map(row).collect();
-    table(body, "", &["stage", "rows", "ms", "ns a row", "share"], &rows);
+    table(body, "", &["stage", "rows", "ms", "ns a row", "of all"], &rows);
     let [camera, shadow] = variant.rays;
     let _ = writeln!(
         body,
@@ -197,14 +197,14 @@ fn reference(body: &mut String, report: &Report) {
     });
     let _ = writeln!(
         body,
-        "<h2>The reference, and what is subtracted</h2>\n<p class=\"note\">{} independent samples a pixel in {} pieces, \
+        "<h2>The reference, and what is subtracted</h2>\n<p class=\"note\">{} independent samples a pixel in {} batches, \
          of seeds {}; runs have seeds {}. The longest run has {:.1} % of its samples. Its own variance V_ref is known from \
-         its pieces and subtracted from every MSE, which is the mean over pairs of pieces A, B of (X − A)(X − B). \
-         bias² is the mean of (Xᵢ − A)(Xⱼ − B) over pairs of runs and of pieces, so it can come out negative. \
+         its batches and subtracted from every MSE, which is the mean over pairs of batches A, B of (X − A)(X − B). \
+         bias² is the mean of (Xᵢ − A)(Xⱼ − B) over pairs of runs and of batches, so it can come out negative. \
          {}, V_ref's part subtracted; MAE as measured. Trimmed: without the 0.1 % of pixels that add most. A variant of \
          another filter or scene has a reference of its own, as it converges to another image.</p>",
         ladder.reference_samples(),
-        ladder.pieces,
+        ladder.batches,
         seeds[1],
         seeds[0],
         100.0 * f64::from(longest) / ladder.reference_samples() as f64,
@@ -219,7 +219,7 @@ fn reference(body: &mut String, report: &Report) {
 fn provenance(body: &mut String, report: &Report) {
     let provenance = &report.provenance;
     let load = provenance.load.map(|load| load.map_or_else(|| "unknown".into(), |load| format!("{load:.2}")));
-    let timers = report.timers.map_or_else(|| "not measured".into(), |timers| with_ends(&Told::Value(timers)));
+    let timers = report.timers.map_or_else(|| "not measured".into(), |timers| with_ends(&Statistic::Value(timers)));
     let rows = [
         ("command", provenance.command.clone()),
         ("commit", provenance.commit.clone()),

@@ -11,8 +11,8 @@ use pinhole::film::Curve;
 /// Pictures side by side.
 pub type Shown = Strip;
 
-/// The share of an error picture's numbers that its white leaves room for.
-const SHOWN_SHARE: f64 = 0.995;
+/// The fraction of an error picture's numbers that its white leaves room for.
+const SHOWN_FRACTION: f64 = 0.995;
 
 /// The last level of each variant that is done in the time that all of them have, then every level of the first.
 pub fn pictures(report: &Report, variants: &[Variant<'_>], runs: &Runs, measured: &[Measured]) -> Vec<Shown> {
@@ -67,7 +67,7 @@ fn error(runs: &Runs, measured: &[Measured], own: usize, level: usize) -> Number
 fn white(error: Option<&Numbers>) -> f64 {
     let mut values: Vec<f64> = error.iter().flat_map(|error| error.pixels.iter().flatten().copied()).collect();
     values.sort_by(f64::total_cmp);
-    let at = (SHOWN_SHARE * values.len() as f64) as usize;
+    let at = (SHOWN_FRACTION * values.len() as f64) as usize;
     values.get(at.min(values.len().saturating_sub(1))).copied().filter(|white| *white > 0.0).unwrap_or(1.0)
 }
 

@@ -16,9 +16,9 @@ use std::fmt;
 const LADDER: [u32; 4] = [1, 4, 16, 64];
 /// Seeds of each.
 const SEEDS: u64 = 8;
-/// Pieces of the reference, and the samples of each.
-const PIECES: u64 = 8;
-const PIECE_SAMPLES: u32 = 128;
+/// Batches of the reference, and the samples of each.
+const BATCHES: u64 = 8;
+const BATCH_SAMPLES: u32 = 128;
 /// How bright the spark is that is put into one pixel.
 const SPARK: f64 = 100.0;
 
@@ -49,7 +49,7 @@ pub enum Given {
     MseTimes(f64),
     /// A number with its interval.
     Interval(Interval),
-    /// No number, and why.
+    /// No value, and why.
     Refused(String),
 }
 
@@ -86,8 +86,8 @@ pub fn pitfalls(variant: &Variant<'_>) -> Result<Vec<Pitfall>> {
     let render = |samples: u32, seed: u64| -> Result<Numbers> {
         image_of(variant, Sampling { samples, seed, sampler: Sampler::Independent, ..variant.sampling })
     };
-    let pieces = (0..PIECES).map(|piece| render(PIECE_SAMPLES, 1_000_000 + piece)).collect::<Result<Vec<_>>>()?;
-    let reference = Reference::of(&pieces).ok_or_else(|| Error::Usage("the reference has no pieces".into()))?;
+    let batches = (0..BATCHES).map(|batch| render(BATCH_SAMPLES, 1_000_000 + batch)).collect::<Result<Vec<_>>>()?;
+    let reference = Reference::of(&batches).ok_or_else(|| Error::Usage("the reference has no batches".into()))?;
     let mut levels = Vec::new();
     let mut images = Vec::new();
     for (level, &samples) in LADDER.iter().enumerate() {
@@ -97,7 +97,8 @@ pub fn pitfalls(variant: &Variant<'_>) -> Result<Vec<Pitfall>> {
         images.push(runs);
     }
     let seeds = SEEDS as usize;
-    let curve = Curve { levels, seeds, pieces: PIECES as usize, reference_samples: PIECES * u64::from(PIECE_SAMPLES) };
+    let curve =
+        Curve { levels, seeds, batches: BATCHES as usize, reference_samples: BATCHES * u64::from(BATCH_SAMPLES) };
     let right = |level: usize| curve.levels[level].told_mse(LEVEL).map(|mse| mse.interval(LEVEL));
     let mut rows = Vec::new();
     let mut row = |measurement, gives, right| rows.push(Pitfall { measurement, gives, right });

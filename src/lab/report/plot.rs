@@ -68,9 +68,9 @@ pub fn plot(report: &Report, against: Against) -> Drawing {
     let ys = range(all().flat_map(|(_, mse)| [mse[0].max(0.3 * mse[1]), mse[1], mse[2]]));
     let [left, top, right, bottom] = FRAME;
     let at = |x: f64, y: f64| {
-        let share =
+        let fraction =
             |value: f64, [low, high]: [f64; 2]| ((libm::log10(value.max(1e-300)) - low) / (high - low)).clamp(0.0, 1.0);
-        DVec2::new(left + (right - left) * share(x, xs), bottom - (bottom - top) * share(y, ys))
+        DVec2::new(left + (right - left) * fraction(x, xs), bottom - (bottom - top) * fraction(y, ys))
     };
     let mut svg = Svg::new(&format!("report-{}-{against:?}", report.name), HEIGHT);
     axes(&mut svg, xs, ys, against);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The largest share of the reference's samples that a run may have where the reference's variance is not subtracted.
+/// The largest fraction of the reference's samples that a run may have where the reference's variance is not subtracted.
 pub const MOST_OF_REFERENCE: f64 = 0.01;
 
 /// A number that a report refuses, in one sentence each.
@@ -55,8 +55,8 @@ impl fmt::Display for Refused {
             ),
             Self::ReferenceTooShort { longest, reference } => write!(
                 f,
-                "no slope: the longest run has {longest} samples a pixel and the reference {reference} in one piece, \
-                 whose variance is unknown; it needs {} in one piece, or two pieces of disjoint seeds",
+                "no slope: the longest run has {longest} samples a pixel and the reference {reference} in one batch, \
+                 whose variance is unknown; it needs {} in one batch, or two batches of disjoint seeds",
                 longest * 100
             ),
             Self::BelowReference { samples, mse, least } => write!(

@@ -28,13 +28,13 @@ pub struct Variant<'a> {
     pub stages: Vec<Stage>,
     /// Its scene, at the report's size.
     pub scene: Box<dyn Fn() -> World + 'a>,
-    /// The variant whose reference it shares: of the same scene and filter, or its own.
+    /// The variant whose reference it uses: one of the same scene and filter, or its own.
     pub reference: usize,
 }
 
 /// All that was run.
 pub struct Runs {
-    /// The pieces of each variant's reference; empty where it shares another's.
+    /// The batches of each variant's reference; empty where it uses another's.
     pub references: Vec<Vec<Run>>,
     /// The runs of each variant, by level.
     pub levels: Vec<Vec<Vec<Run>>>,
@@ -145,7 +145,7 @@ fn check_images_fit(variants: &[Variant<'_>], ladder: &Ladder) -> Result {
     let ImageFrame { width, height } = ImageFrame::extract(&Census::of(&variant.world(variant.sampling)?))?;
     let references = variants.iter().enumerate().filter(|(own, variant)| variant.reference == *own).count();
     let runs = variants.len() as u64 * ladder.samples.len() as u64 * u64::from(ladder.seeds);
-    let images = references as u64 * u64::from(ladder.pieces) + runs;
+    let images = references as u64 * u64::from(ladder.batches) + runs;
     let pixels = u64::from(width) * u64::from(height);
     check_memory(images * pixels * size_of::<[f64; 3]>() as u64).map_err(|too_little| {
         let what = format!("its {images} images of {width} × {height} pixels");
@@ -153,7 +153,7 @@ fn check_images_fit(variants: &[Variant<'_>], ladder: &Ladder) -> Result {
     })
 }
 
-/// The pieces of a variant's reference: the same scene and filter with independent samples, on all cores.
+/// The batches of a variant's reference: the same scene and filter with independent samples, on all cores.
 ///
 /// Independent, so that a bias of another sampler shows.
 fn reference(
@@ -164,15 +164,15 @@ fn reference(
     watch: &dyn Progress,
 ) -> Result<Vec<Run>> {
     let variant = &variants[own];
-    let mut pieces = Vec::new();
+    let mut batches = Vec::new();
     for seed in ladder.reference_seeds() {
         let sampling =
-            Sampling { samples: ladder.piece_samples, seed, sampler: Sampler::Independent, ..variant.sampling };
+            Sampling { samples: ladder.batch_samples, seed, sampler: Sampler::Independent, ..variant.sampling };
         let name = format!("reference-{own}-seed-{seed}");
-        pieces.push(kept(shelf, &name, || variant.run(sampling, &Execution::default(), watch))?);
-        watch.run_done(ladder.piece_samples.into());
+        batches.push(kept(shelf, &name, || variant.run(sampling, &Execution::default(), watch))?);
+        watch.run_done(ladder.batch_samples.into());
     }
-    Ok(pieces)
+    Ok(batches)
 }
 
 fn kept(shelf: &Shelf, name: &str, make: impl FnOnce() -> Result<Run>) -> Result<Run> {

@@ -9,7 +9,7 @@ use super::ladder::Ladder;
 use super::refused::{Refused, disjoint};
 use super::run::{Run, Times};
 use super::runner::{Runs, Variant};
-use super::summary::{At, Comparison, LevelSummary, Report, Spread, StageSummary, Told, VariantSummary};
+use super::summary::{At, Comparison, LevelSummary, Report, Spread, StageSummary, Statistic, VariantSummary};
 use crate::measure::image_error::Numbers;
 use pinhole::plan::{Stage, TileSystems};
 use pinhole::rays::{place_samples_stage, world_stage};
@@ -19,7 +19,7 @@ use pinhole::{Error, Result};
 const TIMES: usize = 5;
 /// The largest standard deviation of times over their mean that is not flagged.
 const STEADY: f64 = 0.05;
-/// The largest share of wall time that a run may wait without a flag.
+/// The largest fraction of wall time that a run may wait without a flag.
 const WAITING: f64 = 0.1;
 
 /// A variant's curve, each run's deviation, and the reference.
@@ -34,12 +34,12 @@ pub struct Measured {
 
 /// Measures every variant's runs against its reference.
 ///
-/// Errors: a seed that runs and reference share, or images without a common finite pixel.
+/// Errors: a seed that both a run and the reference have, or images without a common finite pixel.
 pub fn measure(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs) -> Result<Vec<Measured>> {
     disjoint(&ladder.seeds(), &ladder.reference_seeds()).map_err(|refused| Error::Usage(refused.to_string()))?;
     let measured = variants.iter().enumerate().map(|(own, variant)| {
-        let pieces: Vec<Numbers> = runs.references[variant.reference].iter().map(|run| run.image.clone()).collect();
-        let reference = Reference::of(&pieces).ok_or_else(|| Error::Usage("the reference has no pieces".into()))?;
+        let batches: Vec<Numbers> = runs.references[variant.reference].iter().map(|run| run.image.clone()).collect();
+        let reference = Reference::of(&batches).ok_or_else(|| Error::Usage("the reference has no batches".into()))?;
         let mut levels = Vec::new();
         let mut deviations = Vec::new();
         for (&samples, runs) in ladder.samples.iter().zip(&runs.levels[own]) {
@@ -52,8 +52,8 @@ pub fn measure(variants: &[Variant<'_>], ladder: &Ladder, runs: &Runs) -> Result
                 seconds: runs.iter().map(|run| run.times.render()).collect(),
             });
         }
-        let (seeds, pieces) = (ladder.seeds as usize, ladder.pieces as usize);
-        let curve = Curve { levels, seeds, pieces, reference_samples: ladder.reference_samples() };
+        let (seeds, batches) = (ladder.seeds as usize, ladder.batches as usize);
+        let curve = Curve { levels, seeds, batches, reference_samples: ladder.reference_samples() };
         Ok(Measured { curve, deviations, reference })
     });
     measured.collect()
@@ -102,7 +102,7 @@ fn summary(
         levels: levels
             .map(|(at, ((level, each), runs))| level_summary(curve, at, level, each, runs, reference))
             .collect(),
-        slope: Told::of(curve.slope(LEVEL).map(|slope| slope.interval(LEVEL))),
+        slope: Statistic::of(curve.slope(LEVEL).map(|slope| slope.interval(LEVEL))),
         reference_variance: curve.levels.first().and_then(|level| level.ensemble.reference_variance()).unwrap_or(0.0),
         scene: scene.0,
         rays: rays.map(|rays| rays / samples),
@@ -127,7 +127,7 @@ fn level_summary(
     reference: &Reference,
 ) -> LevelSummary {
     let few = || Refused::TooFewSeeds { seeds: runs.len() };
-    let interval = |estimate: Option<Estimate>| Told::of(estimate.map(|it| it.interval(LEVEL)).ok_or_else(few));
+    let interval = |estimate: Option<Estimate>| Statistic::of(estimate.map(|it| it.interval(LEVEL)).ok_or_else(few));
     let mean = |of: &dyn Fn(&Deviation) -> f64| each.iter().map(of).sum::<f64>() / each.len().max(1) as f64;
     let times = |of: fn(&Times) -> f64| runs.iter().map(|run| of(&run.times)).collect::<Vec<f64>>();
     let no_error = || "no efficiency: there is no error to divide by".to_string();
@@ -136,15 +136,15 @@ fn level_summary(
     LevelSummary {
         samples: level.samples as u32,
         efficiency: match &mse {
-            Ok(_) => Told::of(efficiency),
-            Err(refused) => Told::Refused(refused.to_string()),
+            Ok(_) => Statistic::of(efficiency),
+            Err(refused) => Statistic::Refused(refused.to_string()),
         },
-        mse: Told::of(mse),
+        mse: Statistic::of(mse),
         rel_mse: mean(&|it| it.rel_mse) - reference.relative_variance(),
         trimmed_rel_mse: mean(&|it| it.trimmed_rel_mse) - reference.relative_variance(),
         mae: mean(&|it| it.mae),
         largest: each.iter().map(|it| it.largest).fold(0.0, f64::max),
-        tail_share: median(&each.iter().map(|it| it.tail_share).collect::<Vec<_>>()).unwrap_or(0.0),
+        tail_fraction: median(&each.iter().map(|it| it.tail_fraction).collect::<Vec<_>>()).unwrap_or(0.0),
         variance: interval(level.ensemble.variance()),
         bias_squared: interval(level.ensemble.bias_squared()),
         render: spread(&times(Times::render)),
@@ -157,13 +157,13 @@ fn level_summary(
 
 fn spread(times: &[f64]) -> Spread {
     let value = median(times).unwrap_or(0.0);
-    let weighed = |weights: &[f64]| {
+    let weighted = |weights: &[f64]| {
         let drawn = times.iter().zip(weights).flat_map(|(time, &weight)| std::iter::repeat_n(*time, weight as usize));
         median(&drawn.collect::<Vec<_>>())
     };
     let deviation = mean_of(times).map_or(0.0, |mean| libm::sqrt(mean.variance * times.len() as f64) / mean.value);
     Spread {
-        median: bca(times.len(), LEVEL, weighed).unwrap_or(Interval { low: value, value, high: value }),
+        median: bca(times.len(), LEVEL, weighted).unwrap_or(Interval { low: value, value, high: value }),
         mad: mad(times).unwrap_or(0.0),
         variation: if deviation.is_finite() { deviation } else { 0.0 },
     }
@@ -173,7 +173,7 @@ fn compare(report: &mut Report, name: &str, curve: &Curve, first: &Curve) {
     let level = report.family_level;
     let ratio = |log: Option<Estimate>| {
         let none = || "one of the two has no error that its reference can tell".to_string();
-        Told::of(log.map(|log| log.interval(level).of_logarithm()).ok_or_else(none))
+        Statistic::of(log.map(|log| log.interval(level).of_logarithm()).ok_or_else(none))
     };
     for (at, &samples) in report.ladder.samples.iter().enumerate() {
         report.comparisons.push(Comparison {
@@ -188,7 +188,7 @@ fn compare(report: &mut Report, name: &str, curve: &Curve, first: &Curve) {
         report.comparisons.push(Comparison {
             variant: name.into(),
             at: At::Seconds(seconds),
-            mse: Told::of(log.map(|log| log.interval(level).of_logarithm())),
+            mse: Statistic::of(log.map(|log| log.interval(level).of_logarithm())),
             efficiency: None,
         });
     }
@@ -216,7 +216,7 @@ fn flags(report: &Report) -> Vec<String> {
     let cores = report.provenance.cores as f64;
     let load = report.provenance.load.iter().flatten().copied().fold(0.0, f64::max);
     if report.provenance.profile != "release" {
-        flags.push("built without --release: these times say nothing about the kit".into());
+        flags.push("built without --release: these times say nothing about pinhole".into());
     }
     if load > 0.5 * cores {
         flags.push(format!("the machine was busy: load {load:.2} on {cores} cores"));

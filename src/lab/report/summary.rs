@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 /// A number with its interval, or the sentence by which it is refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Told {
+pub enum Statistic {
     /// It is told.
     Value(Interval),
     /// It is not, and why.
     Refused(String),
 }
 
-impl Told {
+impl Statistic {
     /// The number, where it is told.
     pub fn value(&self) -> Option<Interval> {
         match self {
@@ -29,7 +29,7 @@ impl Told {
         match told {
             Ok(interval) if <[f64; 3]>::from(interval).iter().all(|end| end.is_finite()) => Self::Value(interval),
             Ok(interval) => {
-                Self::Refused(format!("no number: {} is so uncertain that its interval has no end", interval.value))
+                Self::Refused(format!("no value: {} is so uncertain that its interval has no end", interval.value))
             }
             Err(refused) => Self::Refused(refused.to_string()),
         }
@@ -53,7 +53,7 @@ pub struct LevelSummary {
     /// Samples a pixel.
     pub samples: u32,
     /// Mean of (x − r)², the reference's variance subtracted.
-    pub mse: Told,
+    pub mse: Statistic,
     /// Mean of (x − r)² / (r² + 0.01), the reference's part subtracted.
     pub rel_mse: f64,
     /// The same without the tail.
@@ -62,14 +62,14 @@ pub struct LevelSummary {
     pub mae: f64,
     /// The largest |x − r| of any run.
     pub largest: f64,
-    /// The share of the MSE that comes from the 0.1 % of pixels that add most to it: the median over runs.
-    pub tail_share: f64,
+    /// The fraction of the MSE that comes from the 0.1 % of pixels that add most to it: the median over runs.
+    pub tail_fraction: f64,
     /// Variance from seed to seed.
-    pub variance: Told,
+    pub variance: Statistic,
     /// bias².
-    pub bias_squared: Told,
+    pub bias_squared: Statistic,
     /// 1 / (MSE · T).
-    pub efficiency: Told,
+    pub efficiency: Statistic,
     /// CPU time of the render alone.
     pub render: Spread,
     /// CPU time of plan, tables and render.
@@ -103,12 +103,12 @@ pub struct VariantSummary {
     /// By sample count.
     pub levels: Vec<LevelSummary>,
     /// The slope of ln MSE over ln samples.
-    pub slope: Told,
+    pub slope: Statistic,
     /// The variance of its reference's mean, V_ref.
     pub reference_variance: f64,
     /// Fingerprint of its scene.
     pub scene: String,
-    /// Camera and shadow rays a sample; a camera ray's path has one leg.
+    /// Camera and shadow rays a sample; a camera ray's path has one segment.
     pub rays: [f64; 2],
     /// Shapes that each ray is tested against: all, for there is no hierarchy.
     #[serde(default)]
@@ -125,9 +125,9 @@ pub struct Comparison {
     /// At what: so many samples, or so many seconds.
     pub at: At,
     /// Its MSE over the first one's: below 1 it is the better.
-    pub mse: Told,
+    pub mse: Statistic,
     /// Its efficiency over the first one's, at equal samples: above 1 it is the better.
-    pub efficiency: Option<Told>,
+    pub efficiency: Option<Statistic>,
 }
 
 /// What two variants have alike where they are compared.

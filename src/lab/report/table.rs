@@ -2,7 +2,7 @@
 
 use super::deviation::RELATIVE_MSE;
 use super::interval::Interval;
-use super::summary::{At, Report, Told};
+use super::summary::{At, Report, Statistic};
 use std::fmt;
 
 /// A number in four digits.
@@ -19,7 +19,7 @@ pub fn short(value: f64) -> String {
 }
 
 /// A number with half the width of its interval in percent, or a dash where it is refused.
-pub fn with_percent(told: &Told) -> String {
+pub fn with_percent(told: &Statistic) -> String {
     match told.value() {
         Some(Interval { low, value, high }) if value != 0.0 => {
             format!("{} ±{:.0}%", short(value), 50.0 * (high - low) / value.abs())
@@ -30,7 +30,7 @@ pub fn with_percent(told: &Told) -> String {
 }
 
 /// A number that may be near 0, with half the width of its interval.
-pub fn with_half(told: &Told) -> String {
+pub fn with_half(told: &Statistic) -> String {
     match told.value() {
         Some(Interval { low, value, high }) => format!("{} ±{}", short(value), short(0.5 * (high - low))),
         None => "refused".into(),
@@ -38,21 +38,21 @@ pub fn with_half(told: &Told) -> String {
 }
 
 /// A number with the ends of its interval.
-pub fn with_ends(told: &Told) -> String {
+pub fn with_ends(told: &Statistic) -> String {
     match told {
-        Told::Value(Interval { low, value, high }) => {
+        Statistic::Value(Interval { low, value, high }) => {
             format!("{} ({} to {})", short(*value), short(*low), short(*high))
         }
-        Told::Refused(what) => what.clone(),
+        Statistic::Refused(what) => what.clone(),
     }
 }
 
 /// The slope, or that there is none and why.
-pub fn slope_words(slope: &Told) -> String {
+pub fn slope_words(slope: &Statistic) -> String {
     match slope {
-        Told::Value(_) => format!("slope {}", with_ends(slope)),
-        Told::Refused(what) if what.starts_with("no slope") => what.clone(),
-        Told::Refused(what) => format!("no slope: {what}"),
+        Statistic::Value(_) => format!("slope {}", with_ends(slope)),
+        Statistic::Refused(what) if what.starts_with("no slope") => what.clone(),
+        Statistic::Refused(what) => format!("no slope: {what}"),
     }
 }
 
@@ -69,11 +69,11 @@ impl fmt::Display for Report {
         let ([width, height], ladder) = (self.size, &self.ladder);
         writeln!(
             f,
-            "{}: {width} x {height} pixels, {} seeds a level; reference of {} samples in {} pieces",
+            "{}: {width} x {height} pixels, {} seeds a level; reference of {} samples in {} batches",
             self.name,
             ladder.seeds,
             ladder.reference_samples(),
-            ladder.pieces
+            ladder.batches
         )?;
         for variant in &self.variants {
             writeln!(f, "\n{}", variant.name)?;
@@ -93,7 +93,7 @@ impl fmt::Display for Report {
                     short(level.rel_mse),
                     short(1e3 * level.render.median.value),
                     with_percent(&level.efficiency),
-                    100.0 * level.tail_share
+                    100.0 * level.tail_fraction
                 )?;
             }
             writeln!(f, "{}", slope_words(&variant.slope))?;
@@ -126,18 +126,18 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(short(value), text);
         }
-        assert_eq!(with_percent(&Told::Value(Interval { low: 1.0, value: 2.0, high: 3.0 })), "2.000 ±50%");
-        assert_eq!(with_percent(&Told::Refused("no".into())), "refused");
+        assert_eq!(with_percent(&Statistic::Value(Interval { low: 1.0, value: 2.0, high: 3.0 })), "2.000 ±50%");
+        assert_eq!(with_percent(&Statistic::Refused("no".into())), "refused");
     }
 
     #[test]
     fn a_slope_that_is_refused_is_not_told_as_a_slope() {
         assert_eq!(
-            slope_words(&Told::Value(Interval { low: -1.5, value: -1.0, high: -0.5 })),
+            slope_words(&Statistic::Value(Interval { low: -1.5, value: -1.0, high: -0.5 })),
             "slope -1.000 (-1.500 to -0.5000)"
         );
         for what in ["no slope: 0 has no logarithm", "0 has no logarithm"] {
-            assert_eq!(slope_words(&Told::Refused(what.into())), "no slope: 0 has no logarithm");
+            assert_eq!(slope_words(&Statistic::Refused(what.into())), "no slope: 0 has no logarithm");
         }
     }
 }

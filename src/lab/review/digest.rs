@@ -36,7 +36,7 @@ struct DigestTable {
 /// The digests are taken after the stage and not at the end, so that a column that several stages write still tells
 /// which of them was the first to write something else.
 /// The text does not depend on the side of the tiles, where [`BLOCK_SIDE`] divides it.
-/// Of later legs of light's way, whose rows are no pixels, it holds what they brought, and no more.
+/// Of later bounces, whose rows are not pixels, it holds what they brought, and no more.
 ///
 /// Errors: what a render would be refused for.
 pub fn digests(scene: &World, offer: &[Stage]) -> Result<String> {
@@ -88,7 +88,7 @@ impl DigestTable {
 
     /// Adds a tile's rows in order, each to the block of the pixel whose path it belongs to.
     ///
-    /// The lane that names the path counts as the pixel, so that the digest does not depend on how the image is cut.
+    /// The component that names the path counts as the pixel, so that the digest does not depend on how the image is cut.
     fn add(&mut self, column: ColumnKind, tile: &EntityRef<'_>) {
         let Some(place) = tile.get::<Tile>() else { return };
         let components = (column.components)(tile);

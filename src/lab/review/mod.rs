@@ -1,6 +1,6 @@
 //! Snapshots: what a chapter's picture was made of, as text and pixels that a later run is compared with.
 //!
-//! Reads: a scene and the stages on offer, run by the kit's own renderer; what an earlier run left.
+//! Reads: a scene and the stages on offer, run by pinhole's own renderer; what an earlier run left.
 //! Writes: text, the bytes of a PNG, where two runs part, a page that shows it; and, where a reader accepts or rejects
 //! what waits, the files that insta would.
 //!

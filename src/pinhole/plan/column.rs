@@ -52,7 +52,7 @@ impl ComponentValues<'_> {
     }
 
     /// Bytes of this component per row.
-    pub fn bytes_a_row(&self) -> usize {
+    pub fn bytes_per_row(&self) -> usize {
         match self {
             Self::F64(_) => 8,
             Self::F32(_) | Self::U32(_) => 4,
@@ -296,12 +296,12 @@ impl ColumnKind {
     }
 
     /// Bytes of the column per row, for all components together.
-    pub fn bytes_a_row(&self) -> usize {
+    pub fn bytes_per_row(&self) -> usize {
         let mut world = World::new();
         let mut tile = world.spawn_empty();
         (self.insert)(&mut tile);
         let entity = tile.id();
-        (self.components)(&world.entity(entity)).iter().map(|component| component.values.bytes_a_row()).sum()
+        (self.components)(&world.entity(entity)).iter().map(|component| component.values.bytes_per_row()).sum()
     }
 
     /// The rows that belong to a path: those that name it in the component `path`, or else the row of its number.

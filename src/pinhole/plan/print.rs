@@ -15,8 +15,8 @@ impl fmt::Display for Plan {
             writeln!(f, "  {word:<8} {:<32} {}", row.stage, row.reason)?;
         }
         let columns: Vec<String> =
-            self.columns.iter().map(|column| format!("{} {} B", column.name, column.bytes_a_row())).collect();
-        let bytes: usize = self.columns.iter().map(|column| column.bytes_a_row()).sum();
+            self.columns.iter().map(|column| format!("{} {} B", column.name, column.bytes_per_row())).collect();
+        let bytes: usize = self.columns.iter().map(|column| column.bytes_per_row()).sum();
         writeln!(f, "columns, bytes per row: {} (together {bytes})", columns.join(", "))?;
         let tables: Vec<&str> = self.tables.iter().map(|table| table.name).collect();
         writeln!(f, "tables: {}", tables.join(", "))?;

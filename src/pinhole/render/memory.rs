@@ -14,7 +14,7 @@ pub fn peak_memory() -> Option<u64> {
 }
 
 /// Bytes that a render of a scene takes per pixel of its film, including the layers of a file written at its end.
-pub fn film_bytes_a_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
+pub fn film_bytes_per_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
     let mut film = THREE + COUNT;
@@ -48,7 +48,7 @@ pub fn film_bytes_a_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneE
 pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError> {
     let image = scene.table::<ImageFrame>()?;
     let (width, height) = (image.width, image.height);
-    let a_pixel = film_bytes_a_pixel(scene, plan)?;
+    let a_pixel = film_bytes_per_pixel(scene, plan)?;
     let pixels = u64::from(width) * u64::from(height);
     check_memory(pixels * a_pixel).map_err(|too_little| {
         let who = crate::extract::camera_entity(scene)

@@ -28,7 +28,7 @@ pub use inspect::{
     Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
 };
 pub use key::film_key;
-pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};
+pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
 pub use passes::{Limits, Outcome, render_in_passes};
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use rendered::Rendered;

@@ -19,7 +19,7 @@ pub(super) fn tile_side(scene: &Census<'_>, plan: &Plan, most: u32) -> u32 {
     let of_light =
         |column: &&ColumnKind| column.is::<LightRays>() || column.is::<LightPdfs>() || column.is::<ShadowHits>();
     let columns = plan.columns.iter().filter(of_light);
-    let bytes: usize = columns.map(|column| column.bytes_a_row()).sum();
+    let bytes: usize = columns.map(|column| column.bytes_per_row()).sum();
     let lights = if bytes > 0 { point_evidence(scene).count.max(1) } else { 1 } as f64;
     let shapes = shape_entities(scene).len().max(1) as f64;
     let mut side = most;

@@ -30,7 +30,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         scene: |world| room(world, 0.99, PATHS),
     },
     ClosedForm {
-        name: "furnace, albedo 0.99, 64 legs at most",
+        name: "furnace, albedo 0.99, at most 64 segments",
         formula: "(1 − a⁶⁴) / (1 − a)",
         truth: || (1.0 - libm::pow(0.99, 64.0)) / (1.0 - 0.99),
         few: 1 << 11,
@@ -41,7 +41,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
     },
 ];
 
-/// Ways that end by chance alone.
+/// Paths that end by Russian roulette alone.
 const PATHS: Integrator = Integrator::Path { max_depth: 1 << 20, lights: LightStrategy::Bsdf, roulette: 2 };
 
 /// The camera stands off the middle of a hollow ball.

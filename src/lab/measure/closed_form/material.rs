@@ -10,14 +10,14 @@ use pinhole::scene::{
 };
 use std::f64::consts::{FRAC_PI_3, LN_2};
 
-/// Ways without an end by chance, so that where both media and all angles are known nothing is left to chance either.
+/// Paths without Russian roulette, so that where both media and all angles are known nothing is random.
 const PATHS: Integrator = Integrator::Path { max_depth: 1 << 16, lights: LightStrategy::Bsdf, roulette: 0 };
 
-/// Metal that loses nothing where light meets it once.
+/// Metal that loses nothing at a single reflection.
 const BRIGHT: Metal = Metal { colour: Rgb::grey(1.0), roughness: 0.0, multiple_scattering: false };
 
-/// The share that glass of index 1.5 reflects of light that falls squarely.
-const SQUARELY: f64 = 0.04;
+/// The reflectance of glass of index 1.5 at normal incidence.
+const NORMAL_INCIDENCE: f64 = 0.04;
 
 pub(super) const FORMS: &[ClosedForm] = &[
     ClosedForm {
@@ -29,9 +29,9 @@ pub(super) const FORMS: &[ClosedForm] = &[
         scene: |world| {
             // The first turns the view upward, the second sends it to the side, and upward still.
             view(world, 20.0 * DVec3::Z, 0.1);
-            let slanted = |normal: DVec3, colour| (Plane { normal }, Mirror { colour: Rgb::grey(colour) });
-            world.spawn(slanted(DVec3::new(0.0, 1.0, 1.0), 0.9));
-            world.spawn((slanted(DVec3::new(3.0, -1.0, 0.0), 0.8), Placement::at(0.0, 40.0, 0.0)));
+            let tilted = |normal: DVec3, colour| (Plane { normal }, Mirror { colour: Rgb::grey(colour) });
+            world.spawn(tilted(DVec3::new(0.0, 1.0, 1.0), 0.9));
+            world.spawn((tilted(DVec3::new(3.0, -1.0, 0.0), 0.8), Placement::at(0.0, 40.0, 0.0)));
         },
     },
     ClosedForm {
@@ -76,7 +76,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         name: "an absorbing pane, half of the light lost",
         formula: "R + (1 − R)² t (1 + R t) / (1 − R² t²)",
         truth: || {
-            let (r, t) = (SQUARELY, 0.5);
+            let (r, t) = (NORMAL_INCIDENCE, 0.5);
             r + (1.0 - r) * (1.0 - r) * t * (1.0 + r * t) / (1.0 - r * r * t * t)
         },
         few: 1 << 16,
@@ -95,7 +95,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         component: GREEN,
         scene: |world| {
             // From near by: a ray starts off its surface by the bound, which grows with the distance from the eye, and
-            // so much of its way is not counted.
+            // that much of its path is not counted.
             view(world, 1.5 * DVec3::Z, 1.0);
             let drink = |absorption, priority| Glass { ior: 1.0, absorption: Rgb::grey(absorption), priority };
             pane(world, drink(0.2, 1), [-1.0, 1.0]);
@@ -117,7 +117,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         },
     },
     ClosedForm {
-        name: "rough metal, α = 1, seen squarely",
+        name: "rough metal, α = 1, seen along its normal",
         formula: "1 − ln 2",
         truth: || 1.0 - LN_2,
         few: 1 << 17,
@@ -128,7 +128,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         },
     },
     ClosedForm {
-        name: "rough metal, α = 1, several tiny mirrors",
+        name: "rough metal, α = 1, multiple scattering",
         formula: "1",
         truth: || 1.0,
         few: 1 << 17,
@@ -143,7 +143,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
 /// What comes back from a wall of glass before a drink in which all light is lost: off the outer face, and off the inner
 /// one after any number of turns within the wall.
 fn layers() -> f64 {
-    let (outer, inner) = (SQUARELY, fresnel(1.0, 1.3 / 1.5));
+    let (outer, inner) = (NORMAL_INCIDENCE, fresnel(1.0, 1.3 / 1.5));
     outer + (1.0 - outer) * (1.0 - outer) * inner / (1.0 - outer * inner)
 }
 

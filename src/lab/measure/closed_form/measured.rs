@@ -25,24 +25,24 @@ pub struct ClosedForm {
 /// Where light is grey it is measured in green.
 pub(super) const GREEN: usize = 1;
 
-/// A mean, and how far chance may have moved it.
+/// A mean and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// The mean of all samples.
     pub mean: f64,
-    /// Its standard error, from how two halves of the samples differ pixel by pixel; 0 where nothing is left to chance.
+    /// Its standard error, from how two halves of the samples differ pixel by pixel; 0 where nothing is random.
     pub standard_error: f64,
     /// Samples.
     pub count: u64,
 }
 
-/// How far rounding may move a mean, as a share of it.
+/// How far rounding may move a mean, as a fraction of it.
 ///
-/// Every leg starts off its surface by up to 4u of its coordinates, and a way has a few legs.
+/// Every path segment starts off its surface by up to 4u of its coordinates, and a path has a few segments.
 pub const ROUNDING: f64 = 1.0 / (1_u64 << 16) as f64;
 
 impl Measured {
-    /// Whether chance moves it by less than rounding may; then it is held to rounding instead.
+    /// Whether its noise is below what rounding may do; then it is held to rounding instead.
     pub fn is_exact(&self, truth: f64) -> bool {
         self.standard_error < ROUNDING * truth.abs()
     }
@@ -59,7 +59,7 @@ const SIDE: u32 = 32;
 impl ClosedForm {
     /// Renders the scene twice with at least half as many samples, and takes the mean of one channel over all pixels.
     ///
-    /// A pixel's own mean differs between the two renders by chance alone, whatever the picture shows there.
+    /// A pixel's own mean differs between the two renders by noise alone, whatever the picture shows there.
     /// Errors: a refused scene.
     pub fn measure(&self, samples: u32, seed: u64) -> Result<Measured> {
         self.measure_by(&every_stage(), samples, seed)

@@ -20,8 +20,8 @@ pub use measured::{ClosedForm, Measured, every_stage};
 pub const CLOSED_FORMS: &[&[ClosedForm]] = &[
     furnace::FORMS,
     sky::FORMS,
-    receiver::LAMPS,
-    receiver::FAR_LAMPS,
+    receiver::LIGHTS,
+    receiver::FAR_LIGHTS,
     form_factor::FORMS,
     material::FORMS,
     pane::FORMS,

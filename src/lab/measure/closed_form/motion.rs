@@ -20,7 +20,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
     },
     ClosedForm {
         name: "an edge comes to a point and stays",
-        formula: "1 − way / (v T)",
+        formula: "1 − distance / (v T)",
         truth: || 0.65,
         few: 1 << 15,
         component: GREEN,

@@ -14,7 +14,7 @@ const INK: f64 = 1.0;
 
 pub(super) const FORMS: &[ClosedForm] = &[
     ClosedForm {
-        name: "light through a pane, squarely",
+        name: "light through a pane, normal incidence",
         formula: "(1 − R) / (1 + R)",
         truth: || through(0.04),
         few: 1 << 12,
@@ -124,9 +124,9 @@ pub(super) const FORMS: &[ClosedForm] = &[
     },
 ];
 
-/// What two faces let through that each reflect this share, with all turns between them: (1 − R)² (1 + R² + R⁴ + …).
+/// The transmittance of two faces of this reflectance, with all turns between them: (1 − R)² (1 + R² + R⁴ + …).
 ///
-/// Light is taken to swing both ways alike at each face, as the kit has it; in truth it leaves the first one polarised.
+/// Light is taken to swing both ways alike at each face, as pinhole has it; in truth it leaves the first one polarised.
 fn through(reflected: f64) -> f64 {
     (1.0 - reflected) / (1.0 + reflected)
 }
@@ -148,8 +148,8 @@ fn coloured(world: &mut World) {
 fn look(world: &mut World, angle: f64, view_height: f64, max_depth: u32) {
     let (sin, cos) = libm::sincos(angle);
     let look = LookAt { eye: 10.0 * DVec3::new(sin, 0.0, cos), target: DVec3::ZERO, ..LookAt::default() };
-    let ways = Integrator::Path { max_depth, lights: LightStrategy::Bsdf, roulette: 0 };
-    world.spawn((OrthographicCamera { view_height }, look, ways));
+    let paths = Integrator::Path { max_depth, lights: LightStrategy::Bsdf, roulette: 0 };
+    world.spawn((OrthographicCamera { view_height }, look, paths));
 }
 
 /// A pane from z = −1 to z = 1.

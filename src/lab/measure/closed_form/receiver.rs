@@ -8,12 +8,12 @@ use pinhole::scene::{
     Sphere, Triangle,
 };
 
-/// A light in the three ways in which its light is found.
-macro_rules! found_in_three_ways {
+/// A light by the three strategies that find it.
+macro_rules! by_three_strategies {
     ($($name:literal, $formula:literal, $truth:expr, $few:expr, $light:expr;)+) => {
         &[$(
             ClosedForm {
-                name: concat!($name, ", met by chance"),
+                name: concat!($name, ", BSDF sampling"),
                 formula: $formula,
                 truth: $truth,
                 few: $few,
@@ -29,7 +29,7 @@ macro_rules! found_in_three_ways {
                 scene: |world| lit(world, LightStrategy::Light, $light),
             },
             ClosedForm {
-                name: concat!($name, ", weighed"),
+                name: concat!($name, ", MIS"),
                 formula: $formula,
                 truth: $truth,
                 few: $few,
@@ -40,7 +40,7 @@ macro_rules! found_in_three_ways {
     };
 }
 
-pub(super) const LAMPS: &[ClosedForm] = found_in_three_ways![
+pub(super) const LIGHTS: &[ClosedForm] = by_three_strategies![
     "ball light overhead", "L (r / h)²", || 0.25, 1 << 16, |world| {
         world.spawn((Sphere { radius: 0.5 }, Placement::at(0.0, 1.0, 0.0), shining()));
     };
@@ -59,9 +59,9 @@ pub(super) const LAMPS: &[ClosedForm] = found_in_three_ways![
 ];
 
 /// From nearer than this, lights are aimed at by the solid angle that they fill.
-pub(super) const FAR_LAMPS: &[ClosedForm] = &[
+pub(super) const FAR_LIGHTS: &[ClosedForm] = &[
     ClosedForm {
-        name: "small square light, aimed at by area",
+        name: "small square light, light sampling by area",
         formula: "(4/π) (a/√(1+a²)) atan(a/√(1+a²)) L",
         truth: || square(0.1),
         few: 1 << 11,
@@ -73,7 +73,7 @@ pub(super) const FAR_LAMPS: &[ClosedForm] = &[
         },
     },
     ClosedForm {
-        name: "small disk light, aimed at by area",
+        name: "small disk light, light sampling by area",
         formula: "L r² / (r² + h²)",
         truth: || 0.01 / 1.01,
         few: 1 << 11,
@@ -86,7 +86,7 @@ pub(super) const FAR_LAMPS: &[ClosedForm] = &[
     },
 ];
 
-/// A lamp's corners, not evenly about the zenith.
+/// A light's corners, not evenly about the zenith.
 const PENTAGON: [[f64; 3]; 5] =
     [[-1.0, 1.0, -0.6], [0.2, 1.0, -1.0], [1.0, 1.0, 0.1], [0.4, 1.0, 0.9], [-0.7, 1.0, 0.8]];
 

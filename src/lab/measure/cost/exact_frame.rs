@@ -19,7 +19,7 @@ pub(super) struct Exact {
     pub camera: ExactCamera,
     /// Half the height of an orthographic camera's rectangle.
     pub half_height: Option<f64>,
-    /// None where some move: each ray meets those elsewhere, so no hit is compared.
+    /// None where some move: each ray hits those elsewhere, so no hit is compared.
     pub shapes: Vec<ExactShape>,
 }
 

@@ -78,7 +78,7 @@ struct Worst {
 #[derive(Clone, Copy, Default)]
 struct OfKind {
     probes: u32,
-    misjudged: u32,
+    misclassified: u32,
     worst: f64,
 }
 
@@ -213,7 +213,7 @@ fn probe_hit(rays: &WorldRays, hits: &Hits, row: usize, exact: &Exact, worst: &m
             let t = t.to_f64();
             of_kind.worst = of_kind.worst.max((hits.t[row] - t).abs() / t / U);
         }
-        _ => of_kind.misjudged += 1,
+        _ => of_kind.misclassified += 1,
     }
 }
 
@@ -281,8 +281,8 @@ impl Worst {
             intersect::triangle_stage(),
         ]
         .map(|stage| stage.name);
-        for (stage, OfKind { probes, misjudged, worst }) in hit_stages.into_iter().zip(self.hits) {
-            let error = format!("{worst:.0e} u of t, {misjudged} of {probes} wrong");
+        for (stage, OfKind { probes, misclassified, worst }) in hit_stages.into_iter().zip(self.hits) {
+            let error = format!("{worst:.0e} u of t, {misclassified} of {probes} wrong");
             words.extend((probes > 0).then_some((stage, error)));
         }
         let surface_stages = [

@@ -1,4 +1,4 @@
-//! The kit's own stages, run on rows that no camera made.
+//! Pinhole's own stages, run on rows that no camera made.
 
 use crate::measure::oracle_plane::Plane;
 use crate::measure::oracle_sphere::Sphere;
@@ -37,7 +37,7 @@ impl Bench {
     }
 
     /// Puts a table where the stages look for it.
-    pub fn share<T: Table>(&mut self, table: T) {
+    pub fn insert<T: Table>(&mut self, table: T) {
         self.world.insert_resource(Shared::new(table));
     }
 

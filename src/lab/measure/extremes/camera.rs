@@ -20,15 +20,15 @@ pub(super) const ANGLE_BOUND: f64 = 1.2e-7;
 
 /// The rows of every case of cameras.
 pub(super) const METHODS: [Method; 10] = [
-    Method::kit("kit, refused if and only if too fine", "", 0.0),
-    Method::kit("kit, axes where it looks", "rad", 4e-15),
-    Method::kit("kit, raster", "px", 0.0),
-    Method::kit("kit, ndc", "px", STAGE_BOUND),
-    Method::kit("kit, screen", "px", STAGE_BOUND),
-    Method::kit("kit, camera", "px", STAGE_BOUND),
-    Method::kit("kit, world, pixels from 4e-6 rad", "px", WORLD_BOUND),
-    Method::kit("kit, world, all pixels", "rad", ANGLE_BOUND),
-    Method::kit("kit, length of R less 1", "u", 4.0),
+    Method::pinhole("pinhole, refused if and only if too fine", "", 0.0),
+    Method::pinhole("pinhole, axes where it looks", "rad", 4e-15),
+    Method::pinhole("pinhole, raster", "px", 0.0),
+    Method::pinhole("pinhole, ndc", "px", STAGE_BOUND),
+    Method::pinhole("pinhole, screen", "px", STAGE_BOUND),
+    Method::pinhole("pinhole, camera", "px", STAGE_BOUND),
+    Method::pinhole("pinhole, world, pixels from 4e-6 rad", "px", WORLD_BOUND),
+    Method::pinhole("pinhole, world, all pixels", "rad", ANGLE_BOUND),
+    Method::pinhole("pinhole, length of R less 1", "u", 4.0),
     Method::naive("naive viewport of world points, f32", "px", WORLD_BOUND),
 ];
 

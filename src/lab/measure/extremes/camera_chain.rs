@@ -1,4 +1,4 @@
-//! One camera's chain raster → NDC → screen → camera → world through the kit's tables and stages, a pixel at a time.
+//! One camera's chain raster → NDC → screen → camera → world through pinhole's tables and stages, a pixel at a time.
 
 use super::Score;
 use super::bench::Bench;
@@ -96,14 +96,14 @@ impl CameraChain {
         };
         let census = &Census::of(&self.scene);
         let axes = CameraAxes::extract(census)?;
-        self.bench.share(ImageFrame::extract(census)?);
-        self.bench.share(PerspectiveProjection::extract(census)?);
-        self.bench.share(axes);
+        self.bench.insert(ImageFrame::extract(census)?);
+        self.bench.insert(PerspectiveProjection::extract(census)?);
+        self.bench.insert(axes);
         self.set = Some((asked, axes.world_from_camera));
         Ok(axes.world_from_camera)
     }
 
-    /// The judge of what was asked, with these axes; its tangent is kept for the next that asks the same.
+    /// The oracle of what was asked, with these axes; its tangent is kept for the next that asks the same.
     pub fn check(&mut self, asked: CameraCase, rotation: DMat3) -> CameraOracle {
         let same = |kept: &CameraCase| (kept.size, kept.fov, kept.axis) == (asked.size, asked.fov, asked.axis);
         if let Some((_, check)) = self.check.as_ref().filter(|(kept, _)| same(kept)) {
@@ -143,7 +143,7 @@ pub fn check_stages(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, s
 }
 
 /// How wide a pixel is where it is narrowest, seen from the eye, in radians: towards the edge of a wide image its plane
-/// is both farther and slanted.
+/// is both farther and oblique.
 pub fn seen_width(check: &CameraOracle, wrote: &PixelChain) -> f64 {
     check.pixel_pitch() * wrote.camera.z * wrote.camera.z
 }
@@ -158,7 +158,7 @@ pub fn check_world(check: &CameraOracle, pixel: [u32; 2], wrote: &PixelChain, sc
     scores[2].measure(length_error_in_u(wrote.world).abs());
 }
 
-/// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and the kit's axes, rounded to
+/// How far the naive ray of a pixel is off, in pixels; it gets the exact vertical angle and pinhole's axes, rounded to
 /// f32.
 pub fn viewport_error(check: &CameraOracle, eye: DVec3, pixel: [u32; 2]) -> f64 {
     let vertical = 2.0 * libm::atan(check.tan_half_vertical()).to_degrees();

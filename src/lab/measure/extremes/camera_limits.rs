@@ -23,8 +23,8 @@ pub fn trials() -> Vec<Trial> {
 /// One over a power of two is exact in f32, and so are its multiples up to 1; one over the width beside it is not.
 fn every_pixel(width: u32) -> Trial {
     const ROWS: [Method; 4] = [
-        Method::kit("kit, raster and ndc in their pixel", "", 0.0),
-        Method::kit("kit, ndc off the centre", "px", 1e-3),
+        Method::pinhole("pinhole, raster and ndc in their pixel", "", 0.0),
+        Method::pinhole("pinhole, ndc off the centre", "px", 1e-3),
         Method::naive("naive, x + jitter in f32", "", 0.0),
         Method::naive("naive, x += 1 / width in f32", "px", 1e-3),
     ];
@@ -51,7 +51,7 @@ fn every_pixel(width: u32) -> Trial {
 fn wide_tangents() -> Trial {
     const BOUND: f64 = 8.0 / (1_u64 << 29) as f64;
     const ROWS: [Method; 2] =
-        [Method::kit("kit, tan of half the angle", "u", BOUND), Method::naive("naive, tan in f32", "u", 4.0)];
+        [Method::pinhole("pinhole, tan of half the angle", "u", BOUND), Method::naive("naive, tan in f32", "u", 4.0)];
     one_by_one("90 to 179.99 degrees, the tangent", &ROWS, |_, index, tally| {
         let fov = f64::from((180.0 - Draws::new(122, index).power_of_ten(-2.0, 1.954)) as f32);
         let exact = CameraOracle::new(1, 1, fov, FovAxis::Vertical, DMat3::IDENTITY).tan_half_vertical();
@@ -63,9 +63,11 @@ fn wide_tangents() -> Trial {
 
 /// Angles that no pinhole has are refused by name; the tangent takes them.
 fn no_angle() -> Trial {
-    const ROWS: [Method; 2] =
-        [Method::kit("kit, refused: fov", "", 0.0), Method::naive("naive, tan in f32: image upside down", "", 0.0)];
-    one_by_one("180 degrees and more, 0 and less, no number", &ROWS, |chain, index, tally| {
+    const ROWS: [Method; 2] = [
+        Method::pinhole("pinhole, refused: fov", "", 0.0),
+        Method::naive("naive, tan in f32: image upside down", "", 0.0),
+    ];
+    one_by_one("180 degrees and more, 0 and less, NaN", &ROWS, |chain, index, tally| {
         let size = Draws::new(123, index).power_of_ten(-12.0, 3.0);
         let fov = [180.0, 180.0 + size, -size, 0.0, f64::NAN, f64::INFINITY][index as usize % 6];
         let scene_error = chain.set(turned([64, 64], fov, DQuat::IDENTITY)).err();
@@ -79,7 +81,7 @@ fn no_angle() -> Trial {
 /// Nothing to look at, or no way up: refused by name; the textbook answers axes that are no numbers.
 fn no_axes() -> Trial {
     const ROWS: [Method; 2] =
-        [Method::kit("kit, refused: target or up", "", 0.0), Method::naive("naive look-at, f32", "", 0.0)];
+        [Method::pinhole("pinhole, refused: target or up", "", 0.0), Method::naive("naive look-at, f32", "", 0.0)];
     one_by_one("the eye at its target, up along the view, up 0", &ROWS, |chain, index, tally| {
         let mut draws = Draws::new(124, index);
         let eye = (draws.unit_vector() * draws.power_of_ten(-2.0, 4.0)).as_vec3().as_dvec3();
@@ -100,7 +102,7 @@ fn no_axes() -> Trial {
 /// A target at any distance, also where its square is too small or too large for f32.
 fn any_distance() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, axes where it looks", "rad", 4e-15),
+        Method::pinhole("pinhole, axes where it looks", "rad", 4e-15),
         Method::naive("naive look-at, f32", "rad", super::camera::ANGLE_BOUND * 4.0),
     ];
     one_by_one("a target 1e-30 to 1e30 away", &ROWS, |chain, index, tally| {

@@ -1,4 +1,4 @@
-//! Raster → NDC at the widest and the smallest image, beside three ways that first programs take.
+//! Raster → NDC at the widest and the smallest image, beside three formulas that first programs use.
 
 use super::camera::STAGE_BOUND;
 use super::camera_chain::{CameraCase, CameraChain, Pose};
@@ -18,10 +18,10 @@ pub fn trials() -> Vec<Trial> {
     vec![of_all_pixels("ndc, 1 x 1", 1), of_all_pixels("ndc, 65535 x 1, every pixel", WIDEST - 1), of_samples()]
 }
 
-/// Every pixel of one line: the kit's stage, the division by W − 1 and the running sum, against exact quotients.
+/// Every pixel of one line: pinhole's stage, the division by W − 1 and the running sum, against exact quotients.
 fn of_all_pixels(name: &'static str, width: u32) -> Trial {
     let methods = [
-        Method::kit("kit, ndc", "px", STAGE_BOUND),
+        Method::pinhole("pinhole, ndc", "px", STAGE_BOUND),
         Method::naive("naive division by W - 1, f32", "px", STAGE_BOUND),
         Method::naive("naive sum of steps 1 / W, f32", "px", STAGE_BOUND),
     ];
@@ -56,8 +56,10 @@ fn of_all_pixels(name: &'static str, width: u32) -> Trial {
 
 /// A random point within a pixel must stay within it.
 fn of_samples() -> Trial {
-    const ROWS: [Method; 2] =
-        [Method::kit("kit, ndc of pixel + jitter, f64", "", 0.0), Method::naive("naive pixel + jitter, f32", "", 0.0)];
+    const ROWS: [Method; 2] = [
+        Method::pinhole("pinhole, ndc of pixel + jitter, f64", "", 0.0),
+        Method::naive("naive pixel + jitter, f32", "", 0.0),
+    ];
     Trial::new(Group::Camera, "ndc, 65536 x 1, points within their pixels", &ROWS, |range| {
         let mut tally = Tally::new(ROWS.len());
         for index in range {

@@ -44,7 +44,7 @@ fn far_eye(index: u64, distance: f64) -> CameraCase {
     CameraCase { size: [1024, 768], fov: 40.0, axis: FovAxis::Vertical, pose: any_pose_at(eye, &mut draws) }
 }
 
-/// A case whose inputs are judged one by one, right or wrong.
+/// A case whose inputs are checked one by one, right or wrong.
 pub(super) fn one_by_one(
     name: &str,
     methods: &[Method],
@@ -65,7 +65,7 @@ pub(super) fn turned(size: [u32; 2], fov: f64, turn: DQuat) -> CameraCase {
 /// A lens that f32 world rays cannot serve is refused by name; the naive viewport draws it all the same.
 fn too_narrow() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, refused: fov, 4e-6 rad", "", 0.0),
+        Method::pinhole("pinhole, refused: fov, 4e-6 rad", "", 0.0),
         Method::naive(METHODS[METHODS.len() - 1].name, "px", WORLD_BOUND),
     ];
     one_by_one("1e-4 degrees, 1024 x 1024", &ROWS, |chain, index, tally| {
@@ -84,7 +84,7 @@ fn too_narrow() -> Trial {
 /// The one pixel of an image looks straight ahead, to the last bit.
 fn one_pixel() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, straight ahead to the last bit", "", 0.0),
+        Method::pinhole("pinhole, straight ahead to the last bit", "", 0.0),
         Method::naive("naive, pixel / (width - 1)", "", 0.0),
     ];
     one_by_one("1 x 1, any angle", &ROWS, |chain, index, tally| {
@@ -101,7 +101,7 @@ fn one_pixel() -> Trial {
 
 /// From pixel to pixel rays turn to the right, also where f32 hardly tells them apart.
 fn monotone() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, each to the right of the last", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, each to the right of the last", "", 0.0)];
     one_by_one("179.99 degrees, 65536 x 16384, neighbours", &ROWS, |chain, index, tally| {
         let mut draws = Draws::new(77, index);
         let asked = turned([65_536, 16_384], 179.99, DQuat::IDENTITY);
@@ -116,7 +116,7 @@ fn monotone() -> Trial {
 
 /// An up that nearly lies along the view gives orthonormal axes, or is refused by name.
 fn nearly_upright() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, orthonormal, or up refused", "u", 4.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, orthonormal, or up refused", "u", 4.0)];
     one_by_one("up from 1e-10 to 1 rad off the view", &ROWS, |chain, index, tally| {
         let mut draws = Draws::new(78, index);
         let back = draws.unit_vector();

@@ -6,15 +6,15 @@ use pinhole::render::Watch;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Inputs judged in one go by one thread; a number of its own so that no result depends on threads.
+/// Inputs checked in one go by one thread; a number of its own so that no result depends on threads.
 const CHUNK: u64 = 512;
 
-/// One way of doing it, and what would be good enough.
+/// A method, and what would be good enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     /// What the table calls it.
     pub name: &'static str,
-    /// Whether it is the kit's own; otherwise it is one of the [naive](crate::naive) ones.
+    /// Whether it is pinhole's own; otherwise it is one of the [naive](crate::naive) ones.
     pub of_pinhole: bool,
     /// The unit of its worst error; empty where right and wrong is all there is.
     pub unit: &'static str,
@@ -23,8 +23,8 @@ pub struct Method {
 }
 
 impl Method {
-    /// The kit's method, which has to keep the bound.
-    pub const fn kit(name: &'static str, unit: &'static str, bound: f64) -> Self {
+    /// Pinhole's method, which has to keep the bound.
+    pub const fn pinhole(name: &'static str, unit: &'static str, bound: f64) -> Self {
         Self { name, of_pinhole: true, unit, bound }
     }
 
@@ -37,7 +37,7 @@ impl Method {
 /// How a method did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Score {
-    /// How often it was plainly wrong: misjudged, a self-hit, a failure.
+    /// How often it was plainly wrong: misclassified, a self-hit, a failure.
     pub wrong: u64,
     /// Its worst error where it was right.
     pub worst: f64,
@@ -67,7 +67,7 @@ impl Score {
         }
     }
 
-    /// Judges a distance by the exact one, rounded to f64; its error is relative, in u = 2⁻²⁴.
+    /// Checks a distance against the exact one, rounded to f64; its error is relative, in u = 2⁻²⁴.
     pub fn check_t(&mut self, t: Option<f64>, exact: Option<f64>) {
         self.said = Some([t, exact]);
         match (t, exact) {
@@ -76,7 +76,7 @@ impl Score {
         }
     }
 
-    /// Judges a number above 0 by the exact one, rounded to f64; its error is relative, in u.
+    /// Checks a number above 0 against the exact one, rounded to f64; its error is relative, in u.
     pub fn check_value(&mut self, value: f64, exact: f64) {
         self.check_t(Some(value), Some(exact));
     }
@@ -111,7 +111,7 @@ impl Score {
 pub struct Tally {
     /// Inputs tried.
     pub rays: u64,
-    /// Those that had something to judge: hits, starts, accepted cameras.
+    /// Those that had something to check: hits, starts, accepted cameras.
     pub hits: u64,
     /// One a method.
     pub scores: Vec<Score>,
@@ -123,7 +123,7 @@ impl Tally {
         Self { rays: 0, hits: 0, scores: vec![Score::default(); methods] }
     }
 
-    /// Counts an input; what is judged from here on is judged of it.
+    /// Counts an input; what is checked from here on is checked of it.
     pub fn count(&mut self, hit: bool) {
         self.scores.iter_mut().for_each(|score| score.input = self.rays);
         self.rays += 1;
@@ -158,7 +158,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// A case by its judge, which tallies the inputs of a range, a score a method.
+    /// A case by its check, which tallies the inputs of a range, a score a method.
     pub fn new(
         group: Group,
         name: impl Into<String>,
@@ -194,10 +194,10 @@ impl Trial {
         let naive = |outcome: &Outcome| !outcome.method.of_pinhole && !outcome.passes();
         let method = outcomes.iter().position(naive)?;
         let input = outcomes[method].score.worst_input();
-        // The only input has just been judged.
+        // The only input has just been checked.
         let alone = || (self.check)(input..input + 1).scores;
         let scores = if self.most == 1 { outcomes.iter().map(|outcome| outcome.score).collect() } else { alone() };
-        // A judge that takes several inputs together may say something else of one alone.
+        // A check that takes several inputs together may say something else of one alone.
         (scores[method].wrong > 0 || scores[method].worst > 0.0).then_some(Worst { method, input, scores })
     }
 }
@@ -238,7 +238,7 @@ pub struct Case {
     pub name: String,
     /// How many were tried.
     pub rays: u64,
-    /// How many of them had something to judge.
+    /// How many of them had something to check.
     pub hits: u64,
     /// The methods.
     pub outcomes: Vec<Outcome>,
@@ -247,7 +247,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// Whether the kit passes in every row.
+    /// Whether pinhole passes in every row.
     pub fn held(&self) -> bool {
         self.outcomes.iter().filter(|outcome| outcome.method.of_pinhole).all(Outcome::passes)
     }

@@ -20,16 +20,16 @@ const AMONG: usize = 32;
 
 /// Rows of a case of hits, and of a case of starts.
 const HITS: [Method; 6] = [
-    Method::kit("kit, one cuboid and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 cuboids and 32 rays", "u of t", T_BOUND),
-    Method::kit("kit, the face that is met", "", 0.0),
+    Method::pinhole("pinhole, one cuboid and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 cuboids and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, the face that is hit", "", 0.0),
     Method::naive("naive, slabs by min and max, f32", "u of t", T_BOUND),
     Method::naive("naive, far side widened, f32", "u of t", T_BOUND),
     Method::naive("naive, the face within 1e-4", "", 0.0),
 ];
 const STARTS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
-    Method::kit("kit, past it, outside one 4e-5 smaller", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, past it, outside one 4e-5 smaller", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
@@ -121,7 +121,7 @@ fn check(view: View, range: Range<u64>) -> Tally {
 
 /// One ray and one cuboid through the stage: no neighbour can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, slabs: &Slabs, exact: Option<f64>, score: &mut Score) {
-    bench.share(table(vec![*slabs]));
+    bench.insert(table(vec![*slabs]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -129,9 +129,9 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, slabs: &Slabs, exact: Option<f6
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every cuboid by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every cuboid by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(f64, usize)>], score: &mut Score) {
-    bench.share(table(shots.iter().map(|(_, slabs)| *slabs).collect()));
+    bench.insert(table(shots.iter().map(|(_, slabs)| *slabs).collect()));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
     bench.run();
@@ -145,7 +145,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Slabs)], exact: &[Option<(
     }
 }
 
-/// The naive methods, judged on the cuboid that f32 can hold.
+/// The naive methods, checked on the cuboid that f32 can hold.
 fn check_naive(ray: AimedRay, slabs: &Slabs, scores: &mut [Score]) {
     let (centre, half) = (slabs.centre.as_vec3(), slabs.half.map(|half| half as f32));
     let rounded = Slabs { centre: centre.as_dvec3(), half: half.map(f64::from), ..*slabs };
@@ -161,7 +161,7 @@ fn check_naive(ray: AimedRay, slabs: &Slabs, scores: &mut [Score]) {
     }
 }
 
-/// A start is right when it lies strictly on the side of the ray; from outside its shadow ray never meets the cuboid again.
+/// A start is right when it lies strictly on the side of the ray; from outside its shadow ray never hits the cuboid again.
 fn check_starts(view: View, range: Range<u64>) -> Tally {
     let (mut tally, mut stages) = (Tally::new(STARTS.len()), ShadowStages::of_cuboids());
     for index in range {
@@ -182,8 +182,8 @@ fn check_starts(view: View, range: Range<u64>) -> Tally {
         tally.count(left.is_some());
         let Some((surface, shadow)) = left else { continue };
         let again = AimedRay { origin: shadow.origin, direction: shadow.direction };
-        let meets = by_function(again, &slabs).is_finite();
-        let never_again = side < 0 || (!meets && shadow.blocked.is_none());
+        let hits = by_function(again, &slabs).is_finite();
+        let never_again = side < 0 || (!hits && shadow.blocked.is_none());
         tally.scores[0].check(side_of_cuboid(shadow.origin.as_dvec3(), &slabs) == side && never_again);
         let smaller = Slabs { half: slabs.half.map(|half| half * (1.0 - 4e-5)), ..slabs };
         let gap = 4e-5 * thinnest;

@@ -1,7 +1,7 @@
-//! Lights with an area: seen tiny, near, touching, at a slant, and by numbers at their ends.
+//! Lights with an area: seen tiny, near, touching, obliquely, and by numbers at their ends.
 //!
-//! A small square is judged by the light that its middle alone would send, a rectangle by its polygon's closed form, a
-//! sphere by πL(r/d)² cos θ; none of these asks for a direction chosen by chance.
+//! A small square is checked by the light that its middle alone would send, a rectangle by its polygon's closed form, a
+//! sphere by πL(r/d)² cos θ; none of these needs a random direction.
 
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
@@ -18,26 +18,26 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 const TINY: [Method; 3] = [
-    Method::kit("kit, s² / (1 + √(1 − s²))", "of itself", 1e-15),
+    Method::pinhole("pinhole, s² / (1 + √(1 − s²))", "of itself", 1e-15),
     Method::naive("naive, 1 − √(1 − s²)", "of itself", 1e-15),
     Method::naive("naive, the same in f32", "of itself", 1e-15),
 ];
-const SLANT: [Method; 3] = [
-    Method::kit("kit, by the solid angle", "of the truth", 1e-3),
+const OBLIQUE: [Method; 3] = [
+    Method::pinhole("pinhole, by the solid angle", "of the truth", 1e-3),
     Method::naive("naive, without the light's cosine", "of the truth", 1e-3),
     Method::naive("naive, without distance and cosine", "of the truth", 1e-3),
 ];
 const NEAR: [Method; 2] = [
-    Method::kit("kit, evenly over the solid angle", "of the mean", 1.0),
+    Method::pinhole("pinhole, evenly over the solid angle", "of the mean", 1.0),
     Method::naive("naive, evenly over the area", "of the mean", 1.0),
 ];
 const TOUCHING: [Method; 2] = [
-    Method::kit("kit, evenly over the cone", "of the truth", 1e-3),
+    Method::pinhole("pinhole, evenly over the cone", "of the truth", 1e-3),
     Method::naive("naive, evenly over the sphere", "of the truth", 1e-3),
 ];
-const ENDS: [Method; 1] = [Method::kit("kit, every kind of light", "", 0.0)];
+const ENDS: [Method; 1] = [Method::pinhole("pinhole, every kind of light", "", 0.0)];
 const OWN: [Method; 2] = [
-    Method::kit("kit, to where the rounded ray ends", "", 0.0),
+    Method::pinhole("pinhole, to where the rounded ray ends", "", 0.0),
     Method::naive("naive, as far as the point was", "", 0.0),
 ];
 
@@ -48,7 +48,7 @@ const SIDE: u32 = 24;
 pub fn trials() -> Vec<Trial> {
     vec![
         Trial::new(Group::Emitter, "spheres of 1e-9 to 1 of their distance", &TINY, check_tiny),
-        Trial::new(Group::Emitter, "small squares at any slant", &SLANT, check_slants),
+        Trial::new(Group::Emitter, "small squares at any angle", &OBLIQUE, check_oblique),
         Trial::new(Group::Emitter, "spread of rectangles 1e-4 to 1 above a surface", &NEAR, check_near),
         Trial::new(Group::Emitter, "spheres that touch a surface, or nearly", &TOUCHING, check_touching),
         Trial::new(Group::Emitter, "numbers 0, 2^-24, 1/2 and 1 - 2^-24", &ENDS, check_ends),
@@ -56,7 +56,7 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-/// The half angle's own formula is the judge: 1 − cos θ = 2 sin²(θ/2).
+/// The half angle's own formula is the oracle: 1 − cos θ = 2 sin²(θ/2).
 fn check_tiny(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(TINY.len());
     for index in range {
@@ -77,24 +77,24 @@ fn check_tiny(range: Range<u64>) -> Tally {
 }
 
 /// Squares so small that one direction tells all: cos θ cos θₗ A / d².
-fn check_slants(range: Range<u64>) -> Tally {
-    let mut tally = Tally::new(SLANT.len());
+fn check_oblique(range: Range<u64>) -> Tally {
+    let mut tally = Tally::new(OBLIQUE.len());
     for index in range {
         let mut draws = Draws::new(2102, index);
-        let (normal, way) = (DVec3::Y, draws.unit_vector());
+        let (normal, direction) = (DVec3::Y, draws.unit_vector());
         let distance = draws.power_of_ten(-3.0, 3.0);
-        let facing = (draws.unit_vector_across(way) * draws.between(0.0, 3.0) - way).normalize();
+        let facing = (draws.unit_vector_across(direction) * draws.between(0.0, 3.0) - direction).normalize();
         let x = draws.unit_vector_across(facing);
         let half = 1e-5 * distance;
-        let centre = way * distance;
+        let centre = direction * distance;
         let square = Parallelogram::new(centre, [x * half, facing.cross(x) * half], facing);
         let point = point_on(&Emitter::Rectangle(square), DVec3::ZERO, [draws.unit(), draws.unit()]);
-        let cosine = normal.dot(way);
+        let cosine = normal.dot(direction);
         tally.count(cosine > 0.01);
         if cosine <= 0.01 {
             continue;
         }
-        let truth = cosine * facing.dot(-way) * square.area() / (distance * distance);
+        let truth = cosine * facing.dot(-direction) * square.area() / (distance * distance);
         let naive = parallelogram_area_point(&square, DVec3::ZERO, [draws.unit(), draws.unit()]);
         let told = |point: LightPoint, pdf: f64| normal.dot(point.to / point.to.length()) / pdf;
         let answers = [
@@ -158,13 +158,13 @@ fn check_touching(range: Range<u64>) -> Tally {
         let truth = PI / ((1.0 + apart) * (1.0 + apart));
         tally.count(true);
         let sphere = Emitter::Sphere { centre: axis, radius };
-        let kit = grid().map(|u| {
+        let pinhole = grid().map(|u| {
             let point = point_on(&sphere, DVec3::ZERO, u);
             normal.dot(point.to / point.to.length()).max(0.0) / point.pdf
         });
         let naive = grid().map(|u| irradiance_by_whole_sphere(axis, radius, normal, u));
         let off = |sum: f64| (sum / f64::from(SIDE * SIDE) / truth - 1.0).abs();
-        tally.scores[0].measure(off(kit.sum()));
+        tally.scores[0].measure(off(pinhole.sum()));
         tally.scores[1].measure(off(naive.sum()));
     }
     tally
@@ -196,7 +196,7 @@ fn check_ends(range: Range<u64>) -> Tally {
     tally
 }
 
-/// Rays to rectangles from beside their planes: is the rectangle met before the reach?
+/// Rays to rectangles from beside their planes: is the rectangle hit before t_max?
 fn check_own(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(OWN.len());
     for index in range {
@@ -206,16 +206,16 @@ fn check_own(range: Range<u64>) -> Tally {
         let half_edges = [x, facing.cross(x) * draws.power_of_ten(-1.0, 1.0)];
         let Some(planar) = Planar::new(draws.unit_vector() * 3.0, facing, half_edges) else { continue };
         let light = Emitter::Rectangle(Parallelogram::new(planar.centre, planar.half_edges(), planar.normal));
-        let [along, aside] = [x, facing.cross(x)].map(|way| way * draws.between(-9.0, 9.0));
+        let [along, aside] = [x, facing.cross(x)].map(|direction| direction * draws.between(-9.0, 9.0));
         let from = (planar.centre + along + aside + facing * draws.power_of_ten(-4.0, 0.5)).as_vec3();
         let point = point_on(&light, from.as_dvec3(), [draws.unit(), draws.unit()]);
         let length = point.to.length();
         let direction = (point.to / length).as_vec3();
-        let met = rectangle_t(from.as_dvec3(), direction.as_dvec3(), &planar);
+        let t = rectangle_t(from.as_dvec3(), direction.as_dvec3(), &planar);
         let end = distance_to(&light, from.as_dvec3(), direction.as_dvec3());
-        tally.count(met.is_finite());
-        tally.scores[0].check(met >= f64::from(shadow_t_max(end)));
-        tally.scores[1].check(met >= f64::from(shadow_t_max(length)));
+        tally.count(t.is_finite());
+        tally.scores[0].check(t >= f64::from(shadow_t_max(end)));
+        tally.scores[1].check(t >= f64::from(shadow_t_max(length)));
     }
     tally
 }

@@ -35,7 +35,7 @@ const fn mean_bound(samples: u64) -> f64 {
 /// The rows of a case of means.
 const fn means(samples: u64) -> [Method; 3] {
     [
-        Method::kit("kit, f64 sums", "u", mean_bound(samples)),
+        Method::pinhole("pinhole, f64 sums", "u", mean_bound(samples)),
         Method::naive("naive, sum in f32", "u", mean_bound(samples)),
         Method::naive("naive, running mean in f32", "u", mean_bound(samples)),
     ]
@@ -106,7 +106,7 @@ fn check_few(range: Range<u64>) -> Tally {
 }
 
 const NO_LIGHT: [Method; 4] = [
-    Method::kit("kit, counted, named, kept out", "", 0.0),
+    Method::pinhole("pinhole, counted, named, kept out", "", 0.0),
     Method::naive("naive, added as it comes", "", 0.0),
     Method::naive("naive, NaN as u8", "", 0.0),
     Method::naive("naive, counted as black", "", 0.0),
@@ -179,11 +179,11 @@ fn is_only_light(film: &FilmTile, samples: &[Vec<f32>]) -> bool {
 }
 
 const THREADS: [Method; 2] = [
-    Method::kit("kit, every bit of the film", "", 0.0),
+    Method::pinhole("pinhole, every bit of the film", "", 0.0),
     Method::naive("naive, f32 sums a thread, then added", "", 0.0),
 ];
 
-/// A ball and a lamp before a camera of this number.
+/// A ball and a light before a camera of this number.
 fn scene(number: u64) -> World {
     let mut draws = Draws::new(104, number);
     let mut world = World::new();
@@ -199,7 +199,7 @@ fn scene(number: u64) -> World {
     world
 }
 
-/// Every stage up to the light of lamps.
+/// Every stage up to direct light.
 fn offer() -> Vec<Stage> {
     let rays = [stages::camera_rays(), stages::intersection(), stages::transforms(), stages::surfaces()].concat();
     [rays, stages::direct_light(), stages::film()].concat()

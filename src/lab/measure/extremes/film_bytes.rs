@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, least light of each byte", "", 0.0),
+    Method::pinhole("pinhole, least light of each byte", "", 0.0),
     Method::naive("naive, power 1 / 2.2", "", 0.0),
     Method::naive("naive, curve in f32, rounded", "", 0.0),
     Method::naive("naive, curve in f32, cut off", "", 0.0),
@@ -38,7 +38,7 @@ fn check(range: Range<u64>, light: fn(u64) -> f32) -> Tally {
         let light = light(index);
         tally.count(true);
         let bytes = bytes(light);
-        // One byte only is right, so that most often the exact judge is asked once.
+        // One byte only is right, so that most often the exact oracle is asked once.
         let pinhole_is_right = is_byte_of(bytes[0], light);
         for (score, byte) in tally.scores.iter_mut().zip(bytes) {
             score.check(if pinhole_is_right { byte == bytes[0] } else { byte != bytes[0] && is_byte_of(byte, light) });
@@ -91,7 +91,7 @@ fn is_byte_of(byte: u8, light: f32) -> bool {
 /// A light against the one where `byte` changes to the next, exactly.
 ///
 /// There the number sent is s = (2b + 1) / 510. On the straight part the light is s / 12.92; on the curve it is x^(12/5)
-/// with x = (s + 0.055) / 1.055 = (1000 (2b + 1) + 28050) / 538050, so fifth powers of light meet twelfth powers of x.
+/// with x = (s + 0.055) / 1.055 = (1000 (2b + 1) + 28050) / 538050, so fifth powers of light equal twelfth powers of x.
 /// 0.04045 lies between s of bytes 9 and 10.
 fn against_boundary(light: f32, byte: u8) -> Ordering {
     let (light, odd) = (Dyadic::of(light), 2 * i64::from(byte) + 1);

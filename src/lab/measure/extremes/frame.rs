@@ -22,7 +22,7 @@ const SIDE: u32 = 16;
 /// Rays of a frame.
 const RAYS: u64 = (SIDE * SIDE) as u64;
 
-const METHODS: [Method; 1] = [Method::kit("kit, frames of 16 x 16 through inspect", "u of t", T_BOUND)];
+const METHODS: [Method; 1] = [Method::pinhole("pinhole, frames of 16 x 16 through inspect", "u of t", T_BOUND)];
 
 /// The one case.
 pub fn trial() -> Trial {
@@ -72,7 +72,7 @@ fn scene(frame: u64) -> World {
     world
 }
 
-/// Judges the first rays of a frame; a scene that is refused is a failure.
+/// Checks the first rays of a frame; a scene that is refused is a failure.
 fn check_frame(scene: &World, rays: usize, tally: &mut Tally) {
     let (frame, table) = (inspect(scene, &offer(), SIDE), SphereTable::extract(&Census::of(scene)));
     let (Ok(frame), Ok(table)) = (frame, table) else {

@@ -1,4 +1,4 @@
-//! Lenses: do rays meet where the camera is focused, is the opening filled evenly, how wide is what is out of focus?
+//! Lenses: do rays converge where the camera is focused, is the opening filled evenly, how wide is what is out of focus?
 
 use super::{Group, Method, Tally, Trial};
 use crate::measure::exact::Dyadic;
@@ -10,27 +10,27 @@ use pinhole::rays::{camera_ray_lens, disk_point, polygon_point};
 use pinhole::scene::{Aperture, Degrees, Lens};
 use std::ops::Range;
 
-/// By how much the sum of |P| and 2|L| is rounded in f64: 4 roundings of 2⁻⁵³ each way.
+/// By how much the sum of |P| and 2|L| is rounded in f64: 4 roundings of 2⁻⁵³ in each direction.
 const FOCUS: f64 = 1e-15;
 const IN_FOCUS: [Method; 2] = [
-    Method::kit("kit, a plane across the axis", "of |P| + 2|L|", FOCUS),
+    Method::pinhole("pinhole, a plane across the axis", "of |P| + 2|L|", FOCUS),
     Method::naive("naive, so far along the ray", "of |P| + 2|L|", FOCUS),
 ];
-/// Points a shell; with n points a share p is off by 4 √(p (1 − p) / n) at most, in all but one of 16000 inputs.
+/// Points a shell; with n points a fraction p is off by 4 √(p (1 − p) / n) at most, in all but one of 16000 inputs.
 const POINTS: u32 = 4096;
 const SPREAD: f64 = 4.5 * 0.5 / 64.0;
 const EVENLY: [Method; 3] = [
-    Method::kit("kit, squares to circles", "of the area", SPREAD),
+    Method::pinhole("pinhole, squares to circles", "of the area", SPREAD),
     Method::naive("naive, a random radius", "of the area", SPREAD),
     Method::naive("naive, a square cut off", "of the area", SPREAD),
 ];
 const POLYGONS: [Method; 2] = [
-    Method::kit("kit, a triangle an edge", "of the area", SPREAD),
+    Method::pinhole("pinhole, a triangle an edge", "of the area", SPREAD),
     Method::naive("naive, the disk instead", "of the area", SPREAD),
 ];
 /// The edge of the circle, f64 and a quotient away.
 const CIRCLE: [Method; 2] = [
-    Method::kit("kit, a plane across the axis", "of the circle", 1e-9),
+    Method::pinhole("pinhole, a plane across the axis", "of the circle", 1e-9),
     Method::naive("naive, so far along the ray", "of the circle", 1e-9),
 ];
 
@@ -46,8 +46,8 @@ pub fn trials() -> Vec<Trial> {
         Trial::new(Group::Lens, "in focus, lens and focus 10^−6 to 10^6", &IN_FOCUS, |range| {
             check_in_focus(range, 2313, [20.0, 120.0], [-6.0, 6.0])
         }),
-        Trial::new(Group::Lens, "the share of a round opening", &EVENLY, check_disk).at_most(1024),
-        Trial::new(Group::Lens, "the share of an opening with edges", &POLYGONS, check_polygon).at_most(1024),
+        Trial::new(Group::Lens, "the area fraction of a round opening", &EVENLY, check_disk).at_most(1024),
+        Trial::new(Group::Lens, "the area fraction of an opening with edges", &POLYGONS, check_polygon).at_most(1024),
         Trial::new(Group::Lens, "the edge of what is out of focus", &CIRCLE, check_circle),
     ]
 }
@@ -90,22 +90,22 @@ fn points(seed: u64, index: u64) -> impl Iterator<Item = DVec2> {
     (0..POINTS).map(move |_| DVec2::new(draws.unit(), draws.unit()))
 }
 
-/// How far the share of points within a circle, and to one side of a line through the centre, is from that of the area.
+/// How far the fraction of points within a circle, and to one side of a line through the centre, is from that of the area.
 fn check_disk(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(EVENLY.len());
     for index in range {
         let mut draws = Draws::new(2314, index);
-        let (share, side) = (draws.between(0.1, 0.9), draws.unit() * std::f64::consts::TAU);
+        let (fraction, side) = (draws.between(0.1, 0.9), draws.unit() * std::f64::consts::TAU);
         let across = DVec2::new(libm::cos(side), libm::sin(side));
         tally.count(true);
         for (score, spread) in tally.scores.iter_mut().zip([disk_point, radius_at_random, square_onto_disk]) {
             let (mut within, mut beside) = (0, 0);
             for point in points(2315, index).map(spread) {
-                within += u32::from(point.length_squared() < share);
+                within += u32::from(point.length_squared() < fraction);
                 beside += u32::from(point.dot(across) > 0.0);
             }
-            let off = |count: u32, share: f64| (f64::from(count) / f64::from(POINTS) - share).abs();
-            score.measure(off(within, share).max(off(beside, 0.5)));
+            let off = |count: u32, fraction: f64| (f64::from(count) / f64::from(POINTS) - fraction).abs();
+            score.measure(off(within, fraction).max(off(beside, 0.5)));
         }
     }
     tally
@@ -116,31 +116,31 @@ fn check_polygon(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(POLYGONS.len());
     for index in range {
         let mut draws = Draws::new(2316, index);
-        let (share, blades) = (draws.between(0.1, 0.9), 3 + (index % 7) as u32);
+        let (fraction, blades) = (draws.between(0.1, 0.9), 3 + (index % 7) as u32);
         let aperture = Aperture::Radius { radius: 1.0 };
         let lens = Lens { aperture, blades, turn: Degrees(draws.between(0.0, 360.0)), ..Lens::default() };
         let Ok(opening) = LensTable::of(&lens, "") else { continue };
-        // Within a polygon √share as large: on the inner side of every edge of it.
+        // Within a polygon √fraction as large: on the inner side of every edge of it.
         let edges: Vec<(DVec2, f64)> = opening
             .corners
             .windows(2)
             .map(|pair| {
                 let outward = (pair[1] - pair[0]).perp() * -1.0;
-                (outward, outward.dot(pair[0]) * share.sqrt())
+                (outward, outward.dot(pair[0]) * fraction.sqrt())
             })
             .collect();
-        let within = |point: DVec2| edges.iter().all(|&(outward, reach)| outward.dot(point) < reach);
+        let within = |point: DVec2| edges.iter().all(|&(outward, distance)| outward.dot(point) < distance);
         tally.count(true);
         let spreads: [&dyn Fn(DVec2) -> DVec2; 2] = [&|u| polygon_point(u, &opening.corners), &disk_point];
         for (score, spread) in tally.scores.iter_mut().zip(spreads) {
             let count = points(2317, index).filter(|&u| within(spread(u))).count();
-            score.measure((count as f64 / f64::from(POINTS) - share).abs());
+            score.measure((count as f64 / f64::from(POINTS) - fraction).abs());
         }
     }
     tally
 }
 
-/// A point off the axis at depth z, seen through the lens's edge: where its ray has met the plane in focus.
+/// A point off the axis at depth z, seen through the lens's edge: where its ray has hit the plane in focus.
 fn check_circle(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(CIRCLE.len());
     for index in range {

@@ -1,11 +1,11 @@
-//! Light and matter: highlights at any exponent, cones of any width, suns over scenes of any size.
+//! Lights and materials: highlights at any exponent, cones of any width, suns over scenes of any size.
 
 use super::bench::Bench;
 use super::{Group, Method, Tally, Trial, light_albedo};
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::ray_aim::{Draws, rounded_ray};
 use crate::naive::light::{
-    highlight_f32, lit_f32, spot_falloff_by_cosine, spot_falloff_by_cosine_f32, sun_as_a_far_lamp,
+    highlight_f32, lit_f32, spot_falloff_by_cosine, spot_falloff_by_cosine_f32, sun_as_a_far_light,
 };
 use glam::{DVec3, Vec3};
 use pinhole::extract::{
@@ -17,16 +17,19 @@ use pinhole::scene::Degrees;
 use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_falloff, versine};
 use std::ops::Range;
 
-const HIGHLIGHT: [Method; 2] =
-    [Method::kit("kit, Phong in f64", "of its doubt", 1.0), Method::naive("naive, in f32", "of its doubt", 1.0)];
+const HIGHLIGHT: [Method; 2] = [
+    Method::pinhole("pinhole, Phong in f64", "of its doubt", 1.0),
+    Method::naive("naive, in f32", "of its doubt", 1.0),
+];
 const SPOT: [Method; 3] = [
-    Method::kit("kit, by 1 - cos", "of the whole", 1e-8),
+    Method::pinhole("pinhole, by 1 - cos", "of the whole", 1e-8),
     Method::naive("naive, by cosines", "of the whole", 1e-8),
     Method::naive("naive, by cosines in f32", "of the whole", 1e-8),
 ];
 const SUN: [Method; 2] =
-    [Method::kit("kit, parallel rays", "u", 4.0), Method::naive("naive, a lamp 1e6 away", "u", 4.0)];
-const LIGHT: [Method; 2] = [Method::kit("kit, all its stages", "", 0.0), Method::naive("naive, in f32", "", 0.0)];
+    [Method::pinhole("pinhole, parallel rays", "u", 4.0), Method::naive("naive, a light 1e6 away", "u", 4.0)];
+const LIGHT: [Method; 2] =
+    [Method::pinhole("pinhole, all its stages", "", 0.0), Method::naive("naive, in f32", "", 0.0)];
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
@@ -54,8 +57,8 @@ fn check_highlights(range: Range<u64>) -> Tally {
         let mirrored = 2.0 * normal.dot(away) * normal - away;
         let off = draws.unit_vector_across(mirrored) * (draws.between(0.0, 4.0) / libm::sqrt(exponent));
         let [normal, to_light, to_eye] =
-            [normal, away, mirrored + off].map(|way| rounded_ray(Vec3::ZERO, way).direction);
-        let [n, l, v] = [normal, to_light, to_eye].map(|way| way.as_dvec3().normalize());
+            [normal, away, mirrored + off].map(|direction| rounded_ray(Vec3::ZERO, direction).direction);
+        let [n, l, v] = [normal, to_light, to_eye].map(|direction| direction.as_dvec3().normalize());
         let lobe = 2.0 * n.dot(l) * n - l;
         let sine_squared = lobe.cross(v).length_squared() / (lobe.length_squared() * v.length_squared());
         let ahead = lobe.dot(v) > 0.0 && sine_squared < 1.0;
@@ -63,15 +66,15 @@ fn check_highlights(range: Range<u64>) -> Tally {
         tally.count(ahead);
         let doubt = exponent * libm::ldexp(1.0, -48) + libm::ldexp(1.0, -46);
         let [n, l, v] = [normal, to_light, to_eye].map(Vec3::as_dvec3);
-        let kit = highlight(phong_peak(exponent), exponent, mirror_cosine(n, l, v)) / phong_peak(exponent);
-        tally.scores[0].measure((kit - exact).abs() / doubt);
+        let pinhole = highlight(phong_peak(exponent), exponent, mirror_cosine(n, l, v)) / phong_peak(exponent);
+        tally.scores[0].measure((pinhole - exact).abs() / doubt);
         let naive = highlight_f32(1.0, exponent as f32, normal, to_light, to_eye);
         tally.scores[1].measure((f64::from(naive) - exact).abs() / doubt);
     }
     tally
 }
 
-/// Directions about the edges of cones; the angle by its tangent, |a × b| / a·b, is the judge.
+/// Directions about the edges of cones; the angle by its tangent, |a × b| / a·b, is the oracle.
 fn check_spots(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(SPOT.len());
     for index in range {
@@ -91,7 +94,7 @@ fn check_spots(range: Range<u64>) -> Tally {
         tally.count(exact > 0.0 && exact < 1.0);
         // Where the two cones are nearly one, a direction's own rounding decides; what it can do is taken off.
         let doubt = 8.0 * f64::EPSILON * libm::sin(true_angle).max(f64::EPSILON) / (versine_outer - versine_inner);
-        let off = |share: f64| ((share - exact).abs() - doubt).max(0.0);
+        let off = |falloff: f64| ((falloff - exact).abs() - doubt).max(0.0);
         tally.scores[0].measure(off(spot_falloff(versine(along, axis), versine_inner, versine_outer)));
         let cosines = [axis.dot(along), libm::cos(inner * std::f64::consts::PI / 360.0), libm::cos(edge_of(outer))];
         tally.scores[1].measure(off(spot_falloff_by_cosine(cosines[0], cosines[1], cosines[2])));
@@ -106,7 +109,7 @@ fn edge_of(degrees: f64) -> f64 {
     degrees * std::f64::consts::PI / 360.0
 }
 
-/// Irradiance from a sun by the kit's stage, against E cos θ.
+/// Irradiance from a sun by pinhole's stage, against E cos θ.
 fn check_suns(range: Range<u64>) -> Tally {
     let (mut tally, mut bench) =
         (Tally::new(SUN.len()), Bench::new(&[shade::start_light_stage(), shade::directional_light_stage()]));
@@ -127,24 +130,24 @@ fn check_suns(range: Range<u64>) -> Tally {
             bound: offset_bound(position.as_dvec3(), DVec3::ZERO, 0.0),
             material: 0,
         }));
-        bench.share(DirectionalLightTable {
+        bench.insert(DirectionalLightTable {
             to_light: vec![to_light],
             irradiance: vec![[1.0; 3]],
             casts_shadows: vec![true],
         });
         bench.run();
         let rays = bench.column::<LightRays>();
-        let (kit, reach) =
-            rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &reach)| (r, reach));
-        tally.scores[0].check(reach == f32::INFINITY);
-        tally.scores[0].measure((f64::from(kit) - exact).abs() / U);
-        let naive = sun_as_a_far_lamp(1.0, to_light.as_vec3(), position, normal);
+        let (pinhole, t_max) =
+            rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &t_max)| (r, t_max));
+        tally.scores[0].check(t_max == f32::INFINITY);
+        tally.scores[0].measure((f64::from(pinhole) - exact).abs() / U);
+        let naive = sun_as_a_far_light(1.0, to_light.as_vec3(), position, normal);
         tally.scores[1].measure((f64::from(naive.max(0.0)) - exact).abs() / U);
     }
     tally
 }
 
-/// Lamps, suns and spots of any strength at any distance on surfaces of every kind, by all stages together.
+/// Point lights, suns and spots of any strength at any distance on surfaces of every kind, by all stages together.
 fn check_numbers(range: Range<u64>) -> Tally {
     let stages = [
         shade::start_light_stage(),
@@ -191,10 +194,10 @@ fn check_numbers(range: Range<u64>) -> Tally {
         let brought = rays.r.iter().chain(&rays.g).chain(&rays.b);
         tally.scores[0].check(brought.copied().all(|part| sound(part) && part.is_finite()));
         tally.scores[0].check([radiance.r[0], radiance.g[0], radiance.b[0]].into_iter().all(sound));
-        let way = (light - position.as_dvec3()).as_vec3();
+        let direction = (light - position.as_dvec3()).as_vec3();
         let height =
             highlight_f32(phong_peak(exponent) as f32, exponent as f32, normal, away.as_vec3(), -eye.direction);
-        tally.scores[1].check(intensity.iter().all(|&part| sound(lit_f32(part as f32, way, normal, height))));
+        tally.scores[1].check(intensity.iter().all(|&part| sound(lit_f32(part as f32, direction, normal, height))));
     }
     tally
 }
@@ -202,25 +205,25 @@ fn check_numbers(range: Range<u64>) -> Tally {
 /// A matte, a Phong and a Blinn–Phong material of these numbers.
 fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64; 3]) {
     let kind = vec![MaterialKind::Matte, MaterialKind::Phong, MaterialKind::BlinnPhong];
-    bench.share(MaterialTable { kind, row: vec![0; 3], colour: vec![colour; 3] });
+    bench.insert(MaterialTable { kind, row: vec![0; 3], colour: vec![colour; 3] });
     let (specular, exponents) = (vec![specular], vec![exponent]);
     let peak = vec![phong_peak(exponent)];
-    bench.share(PhongTable { specular: specular.clone(), exponent: exponents.clone(), peak });
-    bench.share(BlinnPhongTable { specular, exponent: exponents, peak: vec![blinn_phong_peak(exponent)] });
+    bench.insert(PhongTable { specular: specular.clone(), exponent: exponents.clone(), peak });
+    bench.insert(BlinnPhongTable { specular, exponent: exponents, peak: vec![blinn_phong_peak(exponent)] });
 }
 
 /// One light of each kind, the spot's edge at the surface.
 fn lights(bench: &mut Bench, position: DVec3, to_light: DVec3, strength: [f64; 3]) {
     let casts_shadows = vec![false];
-    bench.share(PointLightTable {
+    bench.insert(PointLightTable {
         position: vec![position],
         intensity: vec![strength],
         casts_shadows: casts_shadows.clone(),
     });
     let (inner, outer) = (vec![0.0], vec![1.0]);
     let (position, axis, intensity) = (vec![position], vec![-to_light], vec![strength]);
-    bench.share(SpotLightTable { position, axis, intensity, inner, outer, casts_shadows: casts_shadows.clone() });
-    bench.share(DirectionalLightTable { to_light: vec![to_light], irradiance: vec![strength], casts_shadows });
+    bench.insert(SpotLightTable { position, axis, intensity, inner, outer, casts_shadows: casts_shadows.clone() });
+    bench.insert(DirectionalLightTable { to_light: vec![to_light], irradiance: vec![strength], casts_shadows });
 }
 
 fn surfaces(surface: Surface) -> Surfaces {

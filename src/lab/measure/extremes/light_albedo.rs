@@ -13,15 +13,15 @@ use std::ops::Range;
 const OFF: f64 = 1e-9;
 
 const SQUARE: [Method; 4] = [
-    Method::kit("kit, Phong", "off 1", OFF),
-    Method::kit("kit, Blinn-Phong", "off 1", OFF),
+    Method::pinhole("pinhole, Phong", "off 1", OFF),
+    Method::pinhole("pinhole, Blinn-Phong", "off 1", OFF),
     Method::naive("naive, Phong without a factor", "off 1", OFF),
     Method::naive("naive, Blinn-Phong, (n + 8) / 8 pi", "off 1", OFF),
 ];
-const SLANT: [Method; 4] = [
-    Method::kit("kit, Phong", "over 1", OFF),
-    Method::kit("kit, Blinn-Phong", "over 1", OFF),
-    Method::naive("naive, Phong, slant forgotten", "over 1", OFF),
+const ANY_ANGLE: [Method; 4] = [
+    Method::pinhole("pinhole, Phong", "over 1", OFF),
+    Method::pinhole("pinhole, Blinn-Phong", "over 1", OFF),
+    Method::naive("naive, Phong, cosine forgotten", "over 1", OFF),
     Method::naive("naive, Blinn-Phong, (n + 8) / 8 pi", "over 1", OFF),
 ];
 
@@ -31,14 +31,14 @@ pub fn trials() -> Vec<Trial> {
         Trial::new(Group::Light, name, &SQUARE, move |range| check_square(exponent, range)).at_most(1)
     };
     let exponents = [
-        ("albedo of a highlight lit squarely, n = 1", 1.0),
-        ("albedo of a highlight lit squarely, n = 10", 10.0),
-        ("albedo of a highlight lit squarely, n = 100", 100.0),
-        ("albedo of a highlight lit squarely, n = 1e6", 1e6),
+        ("albedo of a highlight lit along the normal, n = 1", 1.0),
+        ("albedo of a highlight lit along the normal, n = 10", 10.0),
+        ("albedo of a highlight lit along the normal, n = 100", 100.0),
+        ("albedo of a highlight lit along the normal, n = 1e6", 1e6),
     ];
-    let slant = "albedo of a highlight lit at any slant, n = 0.1 to 1e6";
+    let any_angle = "albedo of a highlight lit obliquely, n = 0.1 to 1e6";
     let mut trials: Vec<Trial> = exponents.into_iter().map(square).collect();
-    trials.push(Trial::new(Group::Light, slant, &SLANT, check_slant).at_most(100));
+    trials.push(Trial::new(Group::Light, any_angle, &ANY_ANGLE, check_any_angle).at_most(100));
     trials
 }
 
@@ -73,8 +73,8 @@ fn check_square(exponent: f64, range: Range<u64>) -> Tally {
     tally
 }
 
-fn check_slant(range: Range<u64>) -> Tally {
-    let (mut tally, quadrature) = (Tally::new(SLANT.len()), Quadrature::default());
+fn check_any_angle(range: Range<u64>) -> Tally {
+    let (mut tally, quadrature) = (Tally::new(ANY_ANGLE.len()), Quadrature::default());
     for index in range {
         let mut draws = Draws::new(405, index);
         let exponent = draws.power_of_ten(-1.0, 6.0);
@@ -84,7 +84,7 @@ fn check_slant(range: Range<u64>) -> Tally {
         let albedos = [
             of_phong,
             quadrature.albedo(angle, width(exponent), blinn_phong(blinn_phong_peak(exponent), exponent)),
-            // Sent on of the light that would fall on it squarely, over what does fall on it.
+            // Sent on of the light that would fall on it at normal incidence, over what does fall on it.
             of_phong / libm::cos(angle),
             quadrature.albedo(angle, width(exponent), blinn_phong(short_blinn_phong_peak(exponent), exponent)),
         ];

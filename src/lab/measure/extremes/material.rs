@@ -17,51 +17,54 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
 
 const FACING: [Method; 2] = [
-    Method::kit("kit, a sum of squares", "of itself", 1e-6),
+    Method::pinhole("pinhole, a sum of squares", "of itself", 1e-6),
     Method::naive("naive, textbook in f32", "of itself", 1e-6),
 ];
 const DENSER: [Method; 3] = [
-    Method::kit("kit, by g", "of all", 3e-7),
+    Method::pinhole("pinhole, by g", "of all", 3e-7),
     Method::naive("naive, by sines in f32", "of all", 3e-7),
     Method::naive("naive, Schlick", "of all", 3e-7),
 ];
 const THINNER: [Method; 3] = [
-    Method::kit("kit, by g", "of all", 5e-6),
+    Method::pinhole("pinhole, by g", "of all", 5e-6),
     Method::naive("naive, by sines in f32", "of all", 5e-6),
     Method::naive("naive, Schlick", "of all", 5e-6),
 ];
 const CRITICAL: [Method; 2] =
-    [Method::kit("kit, by g", "of all", 3e-4), Method::naive("naive, by sines in f32", "of all", 3e-4)];
+    [Method::pinhole("pinhole, by g", "of all", 3e-4), Method::naive("naive, by sines in f32", "of all", 3e-4)];
 const BENT: [Method; 2] =
-    [Method::kit("kit", "of the sine", 1e-12), Method::naive("naive, root unchecked", "of the sine", 1e-12)];
+    [Method::pinhole("pinhole", "of the sine", 1e-12), Method::naive("naive, root unchecked", "of the sine", 1e-12)];
 const FRAME: [Method; 2] =
-    [Method::kit("kit, Duff and others", "u", 4.0), Method::naive("naive, Frisvad in f32", "u", 4.0)];
-const SQUARELY: [Method; 2] =
-    [Method::kit("kit", "off 1 - ln 2", 1e-6), Method::naive("naive, no masking", "off 1 - ln 2", 1e-6)];
-const OVER: [Method; 2] = [Method::kit("kit", "over 1", 1e-6), Method::naive("naive, no masking", "over 1", 1e-6)];
-const WHOLE: [Method; 2] =
-    [Method::kit("kit, several tiny mirrors", "off 1", 1e-2), Method::naive("naive, one tiny mirror", "off 1", 1e-2)];
-const NUMBERS: [Method; 1] = [Method::kit("kit", "", 0.0)];
+    [Method::pinhole("pinhole, Duff and others", "u", 4.0), Method::naive("naive, Frisvad in f32", "u", 4.0)];
+const NORMAL_INCIDENCE: [Method; 2] =
+    [Method::pinhole("pinhole", "off 1 - ln 2", 1e-6), Method::naive("naive, no masking", "off 1 - ln 2", 1e-6)];
+const OVER: [Method; 2] =
+    [Method::pinhole("pinhole", "over 1", 1e-6), Method::naive("naive, no masking", "over 1", 1e-6)];
+const WHOLE: [Method; 2] = [
+    Method::pinhole("pinhole, multiple scattering", "off 1", 1e-2),
+    Method::naive("naive, single scattering", "off 1", 1e-2),
+];
+const NUMBERS: [Method; 1] = [Method::pinhole("pinhole", "", 0.0)];
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     let one =
-        |name, methods: &[Method], check: fn(Range<u64>) -> Tally| Trial::new(Group::Matter, name, methods, check);
+        |name, methods: &[Method], check: fn(Range<u64>) -> Tally| Trial::new(Group::Material, name, methods, check);
     vec![
-        one("facing of tiny mirrors, alpha 1e-4 to 1", &FACING, check_facing),
+        one("facing of microfacets, alpha 1e-4 to 1", &FACING, check_facing),
         one("fresnel, a medium denser by 1e-7 to 30", &DENSER, |range| check_fresnel(range, false)),
         one("fresnel, a thinner medium off the critical angle", &THINNER, |range| check_fresnel(range, true)),
         one("fresnel within 200 steps of f32 of the critical angle", &CRITICAL, check_critical),
         one("refraction at any angle, into denser and thinner", &BENT, check_bent),
         one("frames about normals near -z", &FRAME, check_frames),
-        one("furnace, rough metal lit squarely, alpha 1", &SQUARELY, check_squarely).at_most(1),
-        one("furnace, rough metal at any slant, alpha 0.05 to 1", &OVER, check_slant).at_most(60),
-        one("furnace, several tiny mirrors at any slant, alpha 0.05 to 1", &WHOLE, check_several).at_most(40),
+        one("furnace, rough metal at normal incidence, alpha 1", &NORMAL_INCIDENCE, check_normal_incidence).at_most(1),
+        one("furnace, rough metal at any angle, alpha 0.05 to 1", &OVER, check_any_angle).at_most(60),
+        one("furnace, multiple scattering at any angle, alpha 0.05 to 1", &WHOLE, check_several).at_most(40),
         one("directions by numbers at their ends", &NUMBERS, check_numbers),
     ]
 }
 
-/// Facings of f32: x and y are what they are, and z follows, exactly for the judge.
+/// Facings of f32: x and y are what they are, and z follows, exactly for the oracle.
 fn check_facing(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(FACING.len());
     for index in range {
@@ -86,7 +89,7 @@ fn check_facing(range: Range<u64>) -> Tally {
     tally
 }
 
-/// The reflected share in exact arithmetic but for roots and quotients below 2⁻³⁰⁰: r_s = (c − g)/(c + g) and
+/// The Fresnel reflectance in exact arithmetic but for roots and quotients below 2⁻³⁰⁰: r_s = (c − g)/(c + g) and
 /// r_p = (η²c − g)/(η²c + g).
 fn exact_fresnel(cosine: f64, eta: f64) -> f64 {
     let [c, eta, one] = [cosine, eta, 1.0].map(Dyadic::of);
@@ -95,9 +98,9 @@ fn exact_fresnel(cosine: f64, eta: f64) -> f64 {
         return 1.0;
     }
     let g = squared.square_root();
-    let share =
+    let reflectance =
         |a: &Dyadic| if (a + &g).sign() == 0 { Dyadic::of(0.0) } else { (a - &g).divided_by(&(a + &g)).squared() };
-    (&share(&c) + &share(&(&eta.squared() * &c))).scaled(-1).to_f64()
+    (&reflectance(&c) + &reflectance(&(&eta.squared() * &c))).scaled(-1).to_f64()
 }
 
 /// Every fourth time the two media are one, where nothing is reflected.
@@ -123,8 +126,8 @@ fn check_fresnel(range: Range<u64>, thinner: bool) -> Tally {
         let exact = exact_fresnel(c, n);
         tally.scores[0].check(n != 1.0 || fresnel(c, n) == 0.0);
         let naive = [f64::from(fresnel_by_sines_f32(cosine, eta)), schlick(c, n)];
-        for (score, share) in tally.scores.iter_mut().zip([fresnel(c, n), naive[0], naive[1]]) {
-            score.measure((share - exact).abs());
+        for (score, reflectance) in tally.scores.iter_mut().zip([fresnel(c, n), naive[0], naive[1]]) {
+            score.measure((reflectance - exact).abs());
         }
     }
     tally
@@ -165,9 +168,9 @@ fn check_bent(range: Range<u64>) -> Tally {
         let (passes, uncertain) = (squared > 0.0, squared.abs() < 1e-14);
         tally.count(passes);
         let snell = |bent: DVec3| (bent.cross(normal) * eta - direction.cross(normal)).length();
-        let kit = refract(direction, normal, eta);
-        tally.scores[0].check(uncertain || kit.is_some() == passes);
-        if let Some(bent) = kit {
+        let pinhole = refract(direction, normal, eta);
+        tally.scores[0].check(uncertain || pinhole.is_some() == passes);
+        if let Some(bent) = pinhole {
             tally.scores[0].check(bent.is_finite() && bent.dot(normal) <= 0.0);
             tally.scores[0].measure(snell(bent));
         }
@@ -200,8 +203,8 @@ fn check_frames(range: Range<u64>) -> Tally {
     tally
 }
 
-fn check_squarely(range: Range<u64>) -> Tally {
-    let (mut tally, rule) = (Tally::new(SQUARELY.len()), Quadrature::default());
+fn check_normal_incidence(range: Range<u64>) -> Tally {
+    let (mut tally, rule) = (Tally::new(NORMAL_INCIDENCE.len()), Quadrature::default());
     for _ in range {
         tally.count(true);
         let albedos = [ggx_brdf, ggx_brdf_unmasked].map(|brdf| rule.albedo(0.0, 0.5, |l, v| brdf(l, v, 1.0)));
@@ -212,7 +215,7 @@ fn check_squarely(range: Range<u64>) -> Tally {
     tally
 }
 
-fn check_slant(range: Range<u64>) -> Tally {
+fn check_any_angle(range: Range<u64>) -> Tally {
     let (mut tally, rule) = (Tally::new(OVER.len()), Quadrature::default());
     for index in range {
         let mut draws = Draws::new(1906, index);
@@ -251,9 +254,9 @@ fn check_numbers(range: Range<u64>) -> Tally {
         let mut draws = Draws::new(1907, index);
         let numbers = [ends[index as usize % 4], ends[index as usize / 4 % 4]];
         let alpha = [1e-3, 0.01, 1.0, draws.power_of_ten(-3.0, 0.0)][index as usize / 16 % 4];
-        let slant = [draws.power_of_ten(-9.0, 0.0), 1.0, 0.0, -draws.unit()][index as usize / 64 % 4];
-        let eye =
-            (draws.unit_vector_across(DVec3::Z) * (1.0 - slant * slant).max(0.0).sqrt() + slant * DVec3::Z).normalize();
+        let height = [draws.power_of_ten(-9.0, 0.0), 1.0, 0.0, -draws.unit()][index as usize / 64 % 4];
+        let eye = (draws.unit_vector_across(DVec3::Z) * (1.0 - height * height).max(0.0).sqrt() + height * DVec3::Z)
+            .normalize();
         tally.count(true);
         let score = &mut tally.scores[0];
         score.check(cosine_direction(numbers).z > 0.0);

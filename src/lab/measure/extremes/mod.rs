@@ -1,7 +1,7 @@
-//! Extremes: the kit's own methods where numbers are hardest, beside the naive ones and the exact truth.
+//! Extremes: pinhole's own methods where numbers are hardest, beside the naive ones and the exact truth.
 //!
 //! Reads: aimed rays and cameras, each a function of (seed, index), so that every failure can be had again.
-//! Writes: [`Case`]s. Every case runs the kit's own functions and stages; nothing is copied here.
+//! Writes: [`Case`]s. Every case runs pinhole's own functions and stages; nothing is copied here.
 //! Zero failures in N rays bound the rate at 3/N (with 95 % confidence), so every case says its N.
 
 mod bench;
@@ -16,7 +16,6 @@ mod emitter;
 mod film;
 mod film_bytes;
 mod frame;
-mod lamp;
 mod lens;
 mod light;
 mod light_albedo;
@@ -27,6 +26,7 @@ mod print;
 mod sampling;
 mod shadow;
 mod shadow_stages;
+mod shadow_t_max;
 mod sphere;
 mod sphere_limits;
 mod texture;
@@ -79,12 +79,12 @@ pub enum Group {
     /// Highlights, cones, suns: how much light there is.
     Light,
     /// Mirrors, glass and rough metal.
-    Matter,
-    /// Lights with an area: points on them, and how likely each was.
+    Material,
+    /// Lights with an area: points on them, and the pdf of each.
     Emitter,
-    /// Lenses: where rays meet, where they start, how wide what is out of focus is.
+    /// Lenses: where rays converge, where they start, how wide what is out of focus is.
     Lens,
-    /// Ways of light: what they bring, how they end, what they count for.
+    /// Light paths: what they carry, how they end, what they count for.
     Transport,
 }
 
@@ -104,7 +104,7 @@ impl Group {
         Self::Cuboid,
         Self::Texture,
         Self::Light,
-        Self::Matter,
+        Self::Material,
         Self::Emitter,
         Self::Lens,
         Self::Transport,
@@ -115,7 +115,7 @@ impl Group {
         match self {
             Self::Sphere => [sphere::trials(), sphere_limits::trials()].into_iter().flatten().collect(),
             Self::Plane => plane::trials(),
-            Self::Shadow => [shadow::trials(), lamp::trials()].into_iter().flatten().collect(),
+            Self::Shadow => [shadow::trials(), shadow_t_max::trials()].into_iter().flatten().collect(),
             Self::Camera => [camera::trials(), camera_table::trials(), camera_limits::trials(), camera_ndc::trials()]
                 .into_iter()
                 .flatten()
@@ -129,7 +129,7 @@ impl Group {
             Self::Rectangle => planar::trials(planar::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
             Self::Light => light::trials(),
-            Self::Matter => material::trials(),
+            Self::Material => material::trials(),
             Self::Emitter => emitter::trials(),
             Self::Lens => lens::trials(),
             Self::Transport => transport::trials(),
@@ -153,7 +153,7 @@ impl fmt::Display for Group {
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
             Self::Light => "light",
-            Self::Matter => "matter",
+            Self::Material => "material",
             Self::Emitter => "emitter",
             Self::Lens => "lens",
             Self::Transport => "transport",

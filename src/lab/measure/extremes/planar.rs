@@ -15,18 +15,18 @@ use pinhole::intersect::{Hits, disk_stage, disk_t, offset_origin, rectangle_stag
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Pieces and rays that the stage gets at once.
+/// Shapes and rays that the stage gets at once.
 const AMONG: usize = 32;
 
 /// Rows of a case of hits, and of a case of starts.
 const HITS: [Method; 3] = [
-    Method::kit("kit, one piece and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 pieces and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, one shape and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 shapes and 32 rays", "u of t", T_BOUND),
     Method::naive("naive, f32 hit point, then inside", "u of t", T_BOUND),
 ];
 const STARTS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
-    Method::kit("kit, past it, short of one 4e-5 behind", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, past it, short of one 4e-5 behind", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
@@ -48,7 +48,7 @@ impl Kind {
         }
     }
 
-    /// Where its cut is hard to judge.
+    /// Where its cut is hard to check.
     fn edge(self) -> At {
         match self {
             Self::Disk => At::Rim,
@@ -63,11 +63,11 @@ impl Kind {
         }
     }
 
-    fn share(self, bench: &mut Bench, planar: Vec<Planar>) {
+    fn insert(self, bench: &mut Bench, planar: Vec<Planar>) {
         let shape = (0..planar.len() as u32).collect();
         match self {
-            Self::Disk => bench.share(DiskTable { planar, shape }),
-            Self::Rectangle => bench.share(RectangleTable { planar, shape }),
+            Self::Disk => bench.insert(DiskTable { planar, shape }),
+            Self::Rectangle => bench.insert(RectangleTable { planar, shape }),
         }
     }
 
@@ -79,7 +79,7 @@ impl Kind {
         }
     }
 
-    /// The distance by the kit's function of one ray and one piece.
+    /// The distance by pinhole's function of one ray and one shape.
     fn by_function(self, ray: AimedRay, planar: &Planar) -> f64 {
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         match self {
@@ -152,15 +152,15 @@ fn check(kind: Kind, range: Range<u64>, aim: impl Fn(u64) -> (AimedRay, Planar))
     tally
 }
 
-/// The piece that an f32 method sees.
+/// The shape that an f32 method sees.
 fn rounded_to_f32(planar: &Planar) -> Planar {
     let along = planar.along.map(|along| along.as_vec3().as_dvec3());
     Planar { centre: planar.centre.as_vec3().as_dvec3(), along, ..*planar }
 }
 
-/// One ray and one piece through the stage.
+/// One ray and one shape through the stage.
 fn check_alone(kind: Kind, bench: &mut Bench, ray: AimedRay, planar: &Planar, exact: Option<f64>, score: &mut Score) {
-    kind.share(bench, vec![*planar]);
+    kind.insert(bench, vec![*planar]);
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -168,9 +168,9 @@ fn check_alone(kind: Kind, bench: &mut Bench, ray: AimedRay, planar: &Planar, ex
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every piece by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every shape by pinhole's function, to the last bit.
 fn check_among(kind: Kind, bench: &mut Bench, shots: &[(AimedRay, Planar)], exact: &[Option<f64>], score: &mut Score) {
-    kind.share(bench, shots.iter().map(|(_, planar)| *planar).collect());
+    kind.insert(bench, shots.iter().map(|(_, planar)| *planar).collect());
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
     bench.run();
@@ -184,7 +184,7 @@ fn check_among(kind: Kind, bench: &mut Bench, shots: &[(AimedRay, Planar)], exac
     }
 }
 
-/// A start is right when it lies strictly on the side of the ray and its shadow ray never meets the piece again.
+/// A start is right when it lies strictly on the side of the ray and its shadow ray never hits the shape again.
 fn check_starts(kind: Kind, view: View, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(STARTS.len());
     let mut stages = match kind {
@@ -209,7 +209,7 @@ fn check_starts(kind: Kind, view: View, range: Range<u64>) -> Tally {
         let again = kind.by_function(AimedRay { origin: shadow.origin, direction: shadow.direction }, &planar);
         let on_its_side = side_of_planar(shadow.origin.as_dvec3(), &planar) == side;
         tally.scores[0].check(on_its_side && shadow.blocked.is_none() && !again.is_finite());
-        // Where numbers are fine enough for a second piece that near behind it.
+        // Where numbers are fine enough for a second shape that near behind it.
         let gap = 4e-5 * size;
         let beyond = offset_origin(surface.position, -surface.normal, surface.bound).as_dvec3();
         let outwards = surface.normal.as_dvec3();

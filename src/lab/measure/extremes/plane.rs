@@ -15,8 +15,8 @@ const AMONG: usize = 64;
 /// The rows of a case that asks for a distance good to `bound`.
 const fn methods(bound: f64) -> [Method; 3] {
     [
-        Method::kit("kit, a plane and a ray at a time", "u of t", bound),
-        Method::kit("kit, 64 planes and 64 rays", "u of t", bound),
+        Method::pinhole("pinhole, a plane and a ray at a time", "u of t", bound),
+        Method::pinhole("pinhole, 64 planes and 64 rays", "u of t", bound),
         Method::naive("naive, |n.d| > 1e-6, t > 1e-3, f32", "u of t", bound),
     ]
 }
@@ -93,13 +93,13 @@ fn exact(ray: AimedRay, plane: Plane) -> Option<f64> {
     oracle_plane::plane_t(ray.origin, ray.direction, plane)
 }
 
-/// The distance by the kit's function of one ray and one plane.
+/// The distance by pinhole's function of one ray and one plane.
 pub(super) fn by_function(ray: AimedRay, plane: Plane) -> f64 {
     plane_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), plane.normal, plane.offset)
 }
 
 fn check_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64>, score: &mut Score) {
-    bench.share(plane_table(&[plane]));
+    bench.insert(plane_table(&[plane]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -107,10 +107,10 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, plane: Plane, exact: Option<f64
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every plane by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every plane by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Plane)], score: &mut Score) {
     let (rays, planes): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
-    bench.share(plane_table(&planes));
+    bench.insert(plane_table(&planes));
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();

@@ -4,26 +4,26 @@ use super::{Case, Group, Outcome, Worst};
 use std::fmt;
 
 impl Group {
-    /// The words of its table: what is judged, what an input with something to judge is, what being wrong is.
+    /// The words of its table: what is checked, what an input with something to check is, what being wrong is.
     fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Sphere => ["rays against spheres", "hits", "misjudged"],
-            Self::Plane => ["rays against planes", "hits", "misjudged"],
+            Self::Sphere => ["rays against spheres", "hits", "misclassified"],
+            Self::Plane => ["rays against planes", "hits", "misclassified"],
             Self::Shadow => ["shadow rays", "starts", "wrong"],
             Self::Camera => ["rays of cameras", "taken", "wrong"],
-            Self::Transform => ["scaled spheres and placements", "to judge", "wrong"],
-            Self::Texture => ["textures and environments", "judged", "wrong"],
-            Self::Light => ["highlights and lights", "to judge", "wrong"],
-            Self::Matter => ["mirrors, glass and rough metal", "to judge", "wrong"],
-            Self::Emitter => ["lights with an area", "to judge", "wrong"],
-            Self::Transport => ["ways of light", "to judge", "wrong"],
-            Self::Triangle => ["rays against triangles", "met", "misjudged"],
-            Self::Lens => ["rays through lenses", "judged", "wrong"],
-            Self::Sampling => ["numbers and points of samples", "judged", "wrong"],
-            Self::Film => ["samples and bytes of films", "judged", "wrong"],
-            Self::Disk => ["disks", "to judge", "wrong"],
-            Self::Rectangle => ["rectangles", "to judge", "wrong"],
-            Self::Cuboid => ["cuboids", "to judge", "wrong"],
+            Self::Transform => ["scaled spheres and placements", "to check", "wrong"],
+            Self::Texture => ["textures and environments", "checked", "wrong"],
+            Self::Light => ["highlights and lights", "to check", "wrong"],
+            Self::Material => ["mirrors, glass and rough metal", "to check", "wrong"],
+            Self::Emitter => ["lights with an area", "to check", "wrong"],
+            Self::Transport => ["light paths", "to check", "wrong"],
+            Self::Triangle => ["rays against triangles", "hit", "misclassified"],
+            Self::Lens => ["rays through lenses", "checked", "wrong"],
+            Self::Sampling => ["numbers and points of samples", "checked", "wrong"],
+            Self::Film => ["samples and bytes of films", "checked", "wrong"],
+            Self::Disk => ["disks", "to check", "wrong"],
+            Self::Rectangle => ["rectangles", "to check", "wrong"],
+            Self::Cuboid => ["cuboids", "to check", "wrong"],
         }
     }
 
@@ -31,7 +31,7 @@ impl Group {
     pub fn heading(self) -> String {
         let [checked, _, wrong] = self.words();
         format!(
-            "{self}: {checked}, judged by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
+            "{self}: {checked}, checked by exact arithmetic; u = 2^-24\n{:<42}{wrong:>12}{:>21}   {:<8}{:>12}",
             "", "worst error", "", "asked"
         )
     }
@@ -55,15 +55,15 @@ impl Case {
     /// The input at which the first naive method that breaks is at its worst, and what is said of it.
     pub fn worst_lines(&self) -> Vec<String> {
         let Some(Worst { method: row, input, scores }) = &self.worst else { return Vec::new() };
-        let (naive, kit, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
+        let (naive, pinhole, method) = (&scores[*row], &scores[0], self.outcomes[*row].method);
         let word = if naive.wrong > 0 { "first wrong" } else { "at its worst" };
         let mut lines = vec![format!("{word} at input {input}: {}", method.name)];
-        if let (Some([naive, exact]), Some([kit, _])) = (naive.said, kit.said) {
-            let [naive, kit, exact] = [naive, kit, exact].map(said);
-            lines.push(format!("  naive {naive}, kit {kit}, exact {exact}"));
-        } else if naive.wrong == 0 && kit.wrong == 0 && method.unit == self.outcomes[0].method.unit {
-            let [naive, kit] = [naive, kit].map(|score| short(score.worst));
-            lines.push(format!("  naive off by {naive} {unit}, kit by {kit} {unit}", unit = method.unit));
+        if let (Some([naive, exact]), Some([pinhole, _])) = (naive.said, pinhole.said) {
+            let [naive, pinhole, exact] = [naive, pinhole, exact].map(said);
+            lines.push(format!("  naive {naive}, pinhole {pinhole}, exact {exact}"));
+        } else if naive.wrong == 0 && pinhole.wrong == 0 && method.unit == self.outcomes[0].method.unit {
+            let [naive, pinhole] = [naive, pinhole].map(|score| short(score.worst));
+            lines.push(format!("  naive off by {naive} {unit}, pinhole by {pinhole} {unit}", unit = method.unit));
         }
         lines
     }
@@ -77,7 +77,7 @@ pub struct Words {
     /// What is asked.
     pub asked: String,
     /// held, NOT HELD, breaks or passes.
-    pub intersection: &'static str,
+    pub result: &'static str,
     /// Whether a naive method passes.
     pub proves_nothing: bool,
 }
@@ -91,20 +91,20 @@ impl Outcome {
             unit if method.bound.is_infinite() => (format!("{} {unit}", short(score.worst)), "none wrong".into()),
             unit => (format!("{} {unit}", short(score.worst)), format!("<= {}", short(method.bound))),
         };
-        let intersection = match (method.of_pinhole, self.passes()) {
+        let result = match (method.of_pinhole, self.passes()) {
             (true, true) => "held",
             (true, false) => "NOT HELD",
             (false, true) => "passes",
             (false, false) => "breaks",
         };
-        Words { worst, asked, intersection, proves_nothing: intersection == "passes" }
+        Words { worst, asked, result, proves_nothing: result == "passes" }
     }
 }
 
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Words { worst, asked, intersection, .. } = self.words();
-        write!(f, "  {:<40}{:>12} {worst:>20}   {intersection:<8}{asked:>12}", self.method.name, self.score.wrong)
+        let Words { worst, asked, result, .. } = self.words();
+        write!(f, "  {:<40}{:>12} {worst:>20}   {result:<8}{asked:>12}", self.method.name, self.score.wrong)
     }
 }
 

@@ -15,23 +15,25 @@ const WIDTH: u32 = 65_536;
 /// Samples a pixel of the cases of stripes.
 const MANY: u32 = 64;
 
-const IN_PIXEL: [Method; 2] =
-    [Method::kit("kit, number and 24 bits in f64", "pixel", 0.0), Method::naive("naive, added in f32", "pixel", 0.0)];
+const IN_PIXEL: [Method; 2] = [
+    Method::pinhole("pinhole, number and 24 bits in f64", "pixel", 0.0),
+    Method::naive("naive, added in f32", "pixel", 0.0),
+];
 const BELOW_ONE: [Method; 2] =
-    [Method::kit("kit, the first 24 bits", "", 0.0), Method::naive("naive, all 32 bits in f32", "", 0.0)];
+    [Method::pinhole("pinhole, the first 24 bits", "", 0.0), Method::naive("naive, all 32 bits in f32", "", 0.0)];
 const NEIGHBOURS: [Method; 3] = [
-    Method::kit("kit, Sobol", "", 0.0),
-    Method::kit("kit, independent", "", 0.0),
+    Method::pinhole("pinhole, Sobol", "", 0.0),
+    Method::pinhole("pinhole, independent", "", 0.0),
     Method::naive("naive, one pattern for all", "", 0.0),
 ];
-/// An edge of a stripe can be misjudged by one of the 64 samples, and a pixel holds at most five.
+/// An edge of a stripe can be misclassified by one of the 64 samples, and a pixel holds at most five.
 const STRIPES: [Method; 3] = [
-    Method::kit("kit, Sobol, 64 samples", "of full", 5.0 / MANY as f64),
+    Method::pinhole("pinhole, Sobol, 64 samples", "of full", 5.0 / MANY as f64),
     Method::naive("naive, the centre alone", "of full", 5.0 / MANY as f64),
     Method::naive("naive, a grid of 8 × 8", "of full", 5.0 / MANY as f64),
 ];
 const CONSTANT: [Method; 2] = [
-    Method::kit("kit, by the sum of the weights", "of itself", 0.0),
+    Method::pinhole("pinhole, by the sum of the weights", "of itself", 0.0),
     Method::naive("naive, by the number of samples", "of itself", 0.0),
 ];
 
@@ -93,7 +95,7 @@ fn check_neighbours(range: Range<u64>) -> Tally {
     tally
 }
 
-/// How far the share of bright stripes in a pixel is from the exact one.
+/// How far the fraction of bright stripes in a pixel is from the exact one.
 fn check_stripes(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(STRIPES.len());
     for index in range {
@@ -103,7 +105,7 @@ fn check_stripes(range: Range<u64>) -> Tally {
         let key = PixelKey::new(5, [pixel, 1]);
         let places =
             |place: &dyn Fn(u32) -> f64| (0..MANY).filter(|&n| bright(place(n))).count() as f64 / f64::from(MANY);
-        let exact = bright_share(period, phase);
+        let exact = bright_fraction(period, phase);
         tally.count(true);
         tally.scores[0].measure((places(&|n| unit(Sobol::new(n, 0, Purpose::Pixel).two(key)[0])) - exact).abs());
         tally.scores[1].measure((f64::from(u8::from(bright(0.5))) - exact).abs());
@@ -112,8 +114,8 @@ fn check_stripes(range: Range<u64>) -> Tally {
     tally
 }
 
-/// The share of [0, 1] on which the stripes are bright.
-fn bright_share(period: f64, phase: f64) -> f64 {
+/// The fraction of [0, 1] on which the stripes are bright.
+fn bright_fraction(period: f64, phase: f64) -> f64 {
     // The integral of a stripe's brightness from 0, in periods.
     let upto = |s: f64| 0.5 * s.floor() + (s - s.floor()).min(0.5);
     (upto(1.0 / period + phase) - upto(phase)) * period

@@ -30,7 +30,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
@@ -101,7 +101,7 @@ fn check_spheres(scale: f64, aim: AimAtSphere, range: Range<u64>) -> Tally {
 }
 
 /// On which side the viewer is, what it hits, and the shadow ray from there; none where there is nothing to start from,
-/// or inside a sphere so small that no number lies between its walls.
+/// or inside a sphere so small that nothing representable lies between its walls.
 fn start_on_sphere(
     stages: &mut ShadowStages,
     ray: AimedRay,
@@ -118,14 +118,14 @@ fn start_on_sphere(
     Some((side, surface, leave(stages, surface, size, draws)?))
 }
 
-/// Whether the start lies strictly on the viewer's side, and the kit's kernels say of the ray what is exactly so:
-/// from outside a ray that leaves never comes back, from inside it meets the far side.
+/// Whether the start lies strictly on the viewer's side, and pinhole's kernels say of the ray what is exactly so:
+/// from outside a ray that leaves never comes back, from inside it hits the far side.
 fn sphere_is_left(side: Ordering, shadow: Shadow, sphere: Sphere) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;
-    let meets = sphere_by_function(AimedRay { origin, direction }, sphere).is_finite();
+    let hits = sphere_by_function(AimedRay { origin, direction }, sphere).is_finite();
     let exactly = sphere_t(origin, direction, sphere).is_some();
     let outside = side == Ordering::Greater;
-    side_of_sphere(origin.as_dvec3(), sphere) == side && meets == exactly && !(outside && (meets || blocked.is_some()))
+    side_of_sphere(origin.as_dvec3(), sphere) == side && hits == exactly && !(outside && (hits || blocked.is_some()))
 }
 
 fn check_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
@@ -152,23 +152,23 @@ fn check_planes(scale: f64, flattest: f64, range: Range<u64>) -> Tally {
     tally
 }
 
-/// Whether the start lies strictly on the viewer's side, and the plane is not met again.
+/// Whether the start lies strictly on the viewer's side, and the plane is not hit again.
 fn plane_is_left(side: Ordering, shadow: Shadow, plane: Plane) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;
-    let meets = plane_by_function(AimedRay { origin, direction }, plane).is_finite();
-    side_of_plane(origin.as_dvec3(), plane) == side && !meets && blocked.is_none()
+    let hits = plane_by_function(AimedRay { origin, direction }, plane).is_finite();
+    side_of_plane(origin.as_dvec3(), plane) == side && !hits && blocked.is_none()
 }
 
-/// Whether the naive starts shadow their own surface; their kernel is exact, so that only the start is judged.
+/// Whether the naive starts shadow their own surface; their kernel is exact, so that only the start is checked.
 fn check_naive(
     surface: Surface,
     direction: Vec3,
     scores: &mut [Score],
-    meets_itself: impl Fn(ShadowStart, Vec3) -> bool,
+    hits_itself: impl Fn(ShadowStart, Vec3) -> bool,
 ) {
     let Surface { position, normal, .. } = surface;
     let starts = [start_at_hit(position), start_after_constant(position), start_off_surface(position, normal)];
     for (score, start) in scores.iter_mut().zip(starts) {
-        score.check(!meets_itself(start, direction));
+        score.check(!hits_itself(start, direction));
     }
 }

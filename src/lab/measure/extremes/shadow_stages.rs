@@ -1,4 +1,4 @@
-//! From a ray to the shadow ray that leaves its hit, through the kit's stages.
+//! From a ray to the shadow ray that leaves its hit, through pinhole's stages.
 
 use super::bench::{Bench, plane_table, sphere_table};
 use crate::measure::oracle_plane::Plane;
@@ -13,7 +13,7 @@ use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use pinhole::plan::{Column, Stage};
 use pinhole::shade::{self, LightRays, ShadowHits};
 
-/// A shadow ray as the stages made it, and what they found on its way.
+/// A shadow ray as the stages made it, and what they found along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shadow {
     /// Where it starts.
@@ -21,8 +21,8 @@ pub struct Shadow {
     /// Where it goes.
     pub direction: Vec3,
     /// How far it looks.
-    pub reach: f32,
-    /// The number of the shape that it met within its reach.
+    pub t_max: f32,
+    /// The number of the shape that it hit before its t_max.
     pub blocked: Option<u32>,
 }
 
@@ -80,7 +80,7 @@ impl ShadowStages {
         let to_light =
             [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
-        stages.to_light.share(MaterialTable { kind: vec![MaterialKind::Matte], row: vec![0], colour: vec![[0.5; 3]] });
+        stages.to_light.insert(MaterialTable { kind: vec![MaterialKind::Matte], row: vec![0], colour: vec![[0.5; 3]] });
         let mut first = MaterialRows::default();
         first.slices_mut(1)[0] = 0;
         stages.to_light.put(first);
@@ -90,50 +90,50 @@ impl ShadowStages {
     /// The scene's spheres; a sphere's place is its number.
     pub fn spheres(&mut self, spheres: &[Sphere]) {
         self.shapes(ShapeKind::Sphere, spheres.len());
-        self.to_surface.share(sphere_table(spheres));
-        self.to_light.share(sphere_table(spheres));
+        self.to_surface.insert(sphere_table(spheres));
+        self.to_light.insert(sphere_table(spheres));
     }
 
     /// The scene's planes; a plane's place is its number.
     pub fn planes(&mut self, planes: &[Plane]) {
         self.shapes(ShapeKind::Plane, planes.len());
-        self.to_surface.share(plane_table(planes));
-        self.to_light.share(plane_table(planes));
+        self.to_surface.insert(plane_table(planes));
+        self.to_light.insert(plane_table(planes));
     }
 
     /// The scene's ellipsoids; an ellipsoid's place is its number.
     pub fn ellipsoids(&mut self, table: EllipsoidTable) {
         self.shapes(ShapeKind::Ellipsoid, table.shape.len());
-        self.to_surface.share(table.clone());
-        self.to_light.share(table);
+        self.to_surface.insert(table.clone());
+        self.to_light.insert(table);
     }
 
     /// The scene's disks; a disk's place is its number.
     pub fn disks(&mut self, table: DiskTable) {
         self.shapes(ShapeKind::Disk, table.shape.len());
-        self.to_surface.share(table.clone());
-        self.to_light.share(table);
+        self.to_surface.insert(table.clone());
+        self.to_light.insert(table);
     }
 
     /// The scene's rectangles; a rectangle's place is its number.
     pub fn rectangles(&mut self, table: RectangleTable) {
         self.shapes(ShapeKind::Rectangle, table.shape.len());
-        self.to_surface.share(table.clone());
-        self.to_light.share(table);
+        self.to_surface.insert(table.clone());
+        self.to_light.insert(table);
     }
 
     /// The scene's cuboids; a cuboid's place is its number.
     pub fn cuboids(&mut self, table: CuboidTable) {
         self.shapes(ShapeKind::Cuboid, table.shape.len());
-        self.to_surface.share(table.clone());
-        self.to_light.share(table);
+        self.to_surface.insert(table.clone());
+        self.to_light.insert(table);
     }
 
     /// The scene's triangles; a triangle's place is its number.
     pub fn triangles(&mut self, table: TriangleTable) {
         self.shapes(ShapeKind::Triangle, table.shape.len());
-        self.to_surface.share(table.clone());
-        self.to_light.share(table);
+        self.to_surface.insert(table.clone());
+        self.to_light.insert(table);
     }
 
     fn shapes(&mut self, kind: ShapeKind, count: usize) {
@@ -141,10 +141,10 @@ impl ShadowStages {
         let (material, emissive) = (vec![0; count], vec![NO_ROW; count]);
         let non_specular = vec![true; count];
         let table = ShapeTable { kind: vec![kind; count], row, material, non_specular, emissive };
-        self.to_surface.share(table);
+        self.to_surface.insert(table);
     }
 
-    /// The number of the shape that a ray meets first, and the surface there.
+    /// The number of the shape that a ray hits first, and the surface there.
     pub fn surface(&mut self, ray: AimedRay) -> Option<(u32, Surface)> {
         self.to_surface.aim(&[ray]);
         self.to_surface.run();
@@ -158,7 +158,7 @@ impl ShadowStages {
         surfaces.slices_mut(1);
         surfaces.set(0, surface);
         self.to_light.put(surfaces);
-        self.to_light.share(PointLightTable {
+        self.to_light.insert(PointLightTable {
             position: vec![light],
             intensity: vec![[1.0; 3]],
             casts_shadows: vec![true],
@@ -168,7 +168,7 @@ impl ShadowStages {
         (rays.rows() == 1).then(|| Shadow {
             origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
             direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),
-            reach: rays.t_max[0],
+            t_max: rays.t_max[0],
             blocked: Some(hits.shape[0]).filter(|&shape| shape != NO_SHAPE),
         })
     }

@@ -15,8 +15,8 @@ pub(super) const T_BOUND: f64 = 2.0;
 const AMONG: usize = 32;
 
 const METHODS: [Method; 5] = [
-    Method::kit("kit, a sphere and a ray at a time", "u of t", T_BOUND),
-    Method::kit("kit, 32 spheres and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, a sphere and a ray at a time", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 spheres and 32 rays", "u of t", T_BOUND),
     Method::naive("naive b2 - 4ac, f32", "u of t", T_BOUND),
     Method::naive("naive perpendicular form, f32", "u of t", T_BOUND),
     Method::naive("naive b2 - ac, f64", "u of t", T_BOUND),
@@ -68,14 +68,14 @@ pub(super) fn exact(ray: AimedRay, sphere: Sphere) -> Option<f64> {
     oracle_sphere::sphere_t(ray.origin, ray.direction, sphere)
 }
 
-/// The distance by the kit's function of one ray and one sphere.
+/// The distance by pinhole's function of one ray and one sphere.
 pub(super) fn by_function(ray: AimedRay, sphere: Sphere) -> f64 {
     sphere_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), sphere.centre, sphere.radius)
 }
 
 /// One ray and one sphere through the stage: no neighbour in the same block can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f64>, score: &mut Score) {
-    bench.share(sphere_table(&[sphere]));
+    bench.insert(sphere_table(&[sphere]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -83,11 +83,11 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, sphere: Sphere, exact: Option<f
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every sphere by the kit's function, to the last bit; whoever
-/// meets its own sphere is also judged by the exact distance.
+/// All at once through the stage, against every ray with every sphere by pinhole's function, to the last bit; whoever
+/// hits its own sphere is also checked by the exact distance.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<f64>], score: &mut Score) {
     let (rays, spheres): (Vec<_>, Vec<_>) = shots.iter().copied().unzip();
-    bench.share(sphere_table(&spheres));
+    bench.insert(sphere_table(&spheres));
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();
@@ -100,7 +100,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Sphere)], exact: &[Option<
     }
 }
 
-/// The naive methods, each judged on the sphere that it can hold: in f32 that is the sphere rounded to f32.
+/// The naive methods, each checked on the sphere that it can hold: in f32 that is the sphere rounded to f32.
 fn check_naive(ray: AimedRay, sphere: Sphere, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = sphere.rounded_to_f32();
     let exact_f32 = if rounded == sphere { exact_f64 } else { exact(ray, rounded) };

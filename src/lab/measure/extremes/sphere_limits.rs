@@ -22,7 +22,7 @@ pub fn trials() -> Vec<Trial> {
     vec![hit_points(), shells(), lengths_of_directions(), no_rays(), ends()]
 }
 
-/// A case whose inputs are judged one by one, each with what `make` makes for all.
+/// A case whose inputs are checked one by one, each with what `make` makes for all.
 fn one_by_one<Tool: 'static>(
     name: &str,
     methods: &[Method],
@@ -38,11 +38,13 @@ fn one_by_one<Tool: 'static>(
 }
 
 /// How far a hit point is off its sphere, over u (|c| + r), c from the eye: rounding it to f32 costs u|p|, and a third
-/// is left for the way there. The naive point is reckoned in the world, where the eye is at 10⁴.
+/// is left for the path there. The naive point is reckoned in the world, where the eye is at 10⁴.
 fn hit_points() -> Trial {
     const UNIT: &str = "u(|c|+r)";
-    const ROWS: [Method; 2] =
-        [Method::kit("kit, hit point from the eye", UNIT, 4.0), Method::naive("naive o + td in the world", UNIT, 4.0)];
+    const ROWS: [Method; 2] = [
+        Method::pinhole("pinhole, hit point from the eye", UNIT, 4.0),
+        Method::naive("naive o + td in the world", UNIT, 4.0),
+    ];
     one_by_one(
         "hit points before an eye at (1e4, 1e4, 1e4)",
         &ROWS,
@@ -63,10 +65,10 @@ fn hit_points() -> Trial {
     )
 }
 
-/// Two shells 4e-5 of their radius apart: what leaves the inner one outwards meets the outer one.
+/// Two shells 4e-5 of their radius apart: what leaves the inner one outwards hits the outer one.
 fn shells() -> Trial {
     const ROWS: [Method; 3] = [
-        Method::kit("kit, bound of the hit", "", 0.0),
+        Method::pinhole("pinhole, bound of the hit", "", 0.0),
         Method::naive("naive, t > 1e-3", "", 0.0),
         Method::naive("naive, hit + 1e-4 n", "", 0.0),
     ];
@@ -98,8 +100,8 @@ fn shells() -> Trial {
 /// A direction 2ᵏ times as long gives t / 2ᵏ, to the last bit, for spheres and planes.
 fn lengths_of_directions() -> Trial {
     const ROWS: [Method; 4] = [
-        Method::kit("kit, sphere, every bit of t", "", 0.0),
-        Method::kit("kit, plane, every bit of t", "", 0.0),
+        Method::pinhole("pinhole, sphere, every bit of t", "", 0.0),
+        Method::pinhole("pinhole, plane, every bit of t", "", 0.0),
         Method::naive("naive b2 - 4ac, f32", "", 0.0),
         Method::naive("naive, |n.d| > 1e-6, t > 1e-3, f32", "", 0.0),
     ];
@@ -133,11 +135,11 @@ fn sphere_bench() -> Bench {
     Bench::new(&[start_stage(), sphere_stage()])
 }
 
-/// One ray of a block has a part that is no number or not finite, or no direction: it meets nothing, and its neighbours
-/// meet what they meet alone.
+/// One ray of a block has a part that is NaN or not finite, or no direction: it hits nothing, and its neighbours
+/// hit what they hit alone.
 fn no_rays() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, meets nothing, spoils nothing", "", 0.0),
+        Method::pinhole("pinhole, hits nothing, spoils nothing", "", 0.0),
         Method::naive("naive, kept unless farther, f32", "", 0.0),
     ];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, sphere_bench, |bench, index, tally| {
@@ -150,7 +152,7 @@ fn no_rays() -> Trial {
             2 => rays[bad].direction[part] = f32::INFINITY,
             _ => rays[bad].origin[part] = f32::NAN,
         }
-        bench.share(sphere_table(&spheres));
+        bench.insert(sphere_table(&spheres));
         bench.aim(&rays);
         bench.run();
         let hits = bench.column::<Hits>();
@@ -170,13 +172,13 @@ fn no_rays() -> Trial {
     })
 }
 
-/// A ray that looks without end, and one that looks as far as 1e30: both meet the same at the same distance.
+/// A ray that looks without end, and one that looks as far as 1e30: both hit the same at the same distance.
 fn ends() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the same hits", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the same hits", "", 0.0)];
     let bench = || Bench::new(&[sphere_stage()]);
     one_by_one("rays that end at 1e30, and without end", &ROWS, bench, |bench, index, tally| {
         let (ray, sphere) = silhouette(139, index, 1e3);
-        bench.share(sphere_table(&[sphere]));
+        bench.insert(sphere_table(&[sphere]));
         bench.aim(&[ray]);
         let mut found = [1e30, f64::INFINITY].map(|end| {
             let mut hits = Hits::default();
@@ -187,9 +189,9 @@ fn ends() -> Trial {
             let hits = bench.column::<Hits>();
             (hits.t[0], hits.shape[0])
         });
-        let met = found[0].1 != NO_SHAPE;
-        tally.count(met);
-        if !met {
+        let hit = found[0].1 != NO_SHAPE;
+        tally.count(hit);
+        if !hit {
             found[0].0 = f64::INFINITY;
         }
         tally.scores[0].check(found[0] == found[1] && found[1].0 == by_function(ray, sphere));

@@ -13,24 +13,24 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 const MEANS: [Method; 3] = [
-    Method::kit("kit, areas in f64", "u of 1", 1.0),
+    Method::pinhole("pinhole, areas in f64", "u of 1", 1.0),
     Method::naive("naive, the cell that is hit", "u of 1", 1.0),
     Method::naive("naive, areas in f32", "u of 1", 1.0),
 ];
 const STEPS: [Method; 2] = [
-    Method::kit("kit, slope of the tangent plane", "u of it", 1.0),
-    Method::naive("naive, way to the neighbour's hit, f32", "u of it", 1.0),
+    Method::pinhole("pinhole, slope of the tangent plane", "u of it", 1.0),
+    Method::naive("naive, offset to the neighbour's hit, f32", "u of it", 1.0),
 ];
 const ANGLES: [Method; 2] = [
-    Method::kit("kit, arc tangent of both parts", "u of it", 1.0),
+    Method::pinhole("pinhole, arc tangent of both parts", "u of it", 1.0),
     Method::naive("naive, arc cosine of y", "u of it", 1.0),
 ];
 const SEAMS: [Method; 2] = [
-    Method::kit("kit, round the edge, over the pole", "of white", 1e-6),
+    Method::pinhole("pinhole, round the edge, over the pole", "of white", 1e-6),
     Method::naive("naive, no further than the edge", "of white", 1e-6),
 ];
 const HALVES: [Method; 2] = [
-    Method::kit("kit, texels split where a side is odd", "u of it", 4.0),
+    Method::pinhole("pinhole, texels split where a side is odd", "u of it", 4.0),
     Method::naive("naive, a mean of four", "u of it", 4.0),
 ];
 
@@ -92,8 +92,8 @@ fn check_steps(range: Range<u64>, flattest: f64) -> Tally {
         let moved = DVec3::new(0.0, PIXEL / -direction.y, 0.0);
         tally.count(true);
         let step = step_on_surface(moved, direction, DVec3::Y);
-        let share = Dyadic::of(moved.y).divided_by(&Dyadic::of(direction.y));
-        let exact = |axis: usize| (&Dyadic::of(moved[axis]) - &(&Dyadic::of(direction[axis]) * &share)).to_f64();
+        let fraction = Dyadic::of(moved.y).divided_by(&Dyadic::of(direction.y));
+        let exact = |axis: usize| (&Dyadic::of(moved[axis]) - &(&Dyadic::of(direction[axis]) * &fraction)).to_f64();
         let exact = DVec3::new(exact(0), exact(1), exact(2));
         tally.scores[0].measure((step - exact).length() / exact.length() / U);
         let neighbour = (direction + DVec3::Y * PIXEL).as_vec3();

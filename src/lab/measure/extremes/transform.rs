@@ -16,8 +16,8 @@ use std::ops::Range;
 const AMONG: usize = 32;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, one ellipsoid and one ray", "u of t", T_BOUND),
-    Method::kit("kit, 32 ellipsoids and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, one ellipsoid and one ray", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 ellipsoids and 32 rays", "u of t", T_BOUND),
     Method::naive("naive, unit direction in the object", "u of t", T_BOUND),
     Method::naive("naive b2 - 4ac in the object, f32", "u of t", T_BOUND),
 ];
@@ -72,7 +72,7 @@ fn by_function(ray: AimedRay, ellipsoid: &Ellipsoid) -> f64 {
 
 /// One ray and one ellipsoid through the stage: no neighbour can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Option<f64>, score: &mut Score) {
-    bench.share(ellipsoid_table([ellipsoid]));
+    bench.insert(ellipsoid_table([ellipsoid]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -80,9 +80,9 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, ellipsoid: Ellipsoid, exact: Op
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every ellipsoid by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every ellipsoid by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Option<f64>], score: &mut Score) {
-    bench.share(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
+    bench.insert(ellipsoid_table(shots.iter().map(|(_, shape)| shape.ellipsoid)));
     let rays: Vec<AimedRay> = shots.iter().map(|(ray, _)| *ray).collect();
     bench.aim(&rays);
     bench.run();
@@ -96,7 +96,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Stretched)], exact: &[Opti
     }
 }
 
-/// The naive methods; the one in f32 is judged on the ellipsoid that f32 can hold.
+/// The naive methods; the one in f32 is checked on the ellipsoid that f32 can hold.
 fn check_naive(ray: AimedRay, ellipsoid: Ellipsoid, exact_f64: Option<f64>, scores: &mut [Score]) {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     scores[0].check_t(hit_renormalised(origin, direction, ellipsoid.centre, ellipsoid.unit_from_world), exact_f64);

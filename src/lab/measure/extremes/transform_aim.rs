@@ -61,8 +61,8 @@ pub struct View {
 pub fn turn(draws: &mut Draws) -> DQuat {
     // Two halves of the four numbers, each uniform on a circle (Shoemake, Graphics Gems III).
     let [a, b] = [(); 2].map(|()| draws.between(0.0, std::f64::consts::TAU));
-    let share = draws.unit();
-    let (r, s) = (libm::sqrt(1.0 - share), libm::sqrt(share));
+    let fraction = draws.unit();
+    let (r, s) = (libm::sqrt(1.0 - fraction), libm::sqrt(fraction));
     DQuat::from_xyzw(r * libm::sin(a), r * libm::cos(a), s * libm::sin(b), s * libm::cos(b))
 }
 

@@ -1,4 +1,4 @@
-//! Placements: planes and spheres through parents, judged by the author's own numbers; what has no volume; look-at.
+//! Placements: planes and spheres through parents, checked by the author's own numbers; what has no volume; look-at.
 
 use super::transform_aim::{scales, turn};
 use super::transform_surface::angles;
@@ -21,13 +21,15 @@ use std::ops::Range;
 const SCENES: u64 = 200_000;
 
 const PLANES: [Method; 2] = [
-    Method::kit("kit, normal, angle to the exact one", "u", 4.0),
+    Method::pinhole("pinhole, normal, angle to the exact one", "u", 4.0),
     Method::naive("naive, normal as a direction", "u", 4.0),
 ];
-const PIXELS: [Method; 1] = [Method::kit("kit, inverse of each placement", "px", 1e-6)];
-const REFUSALS: [Method; 1] = [Method::kit("kit, refused beyond, taken within", "", 0.0)];
-const LOOK_AT: [Method; 2] =
-    [Method::kit("kit, refused or orthonormal", "u", 4.0), Method::naive("naive, cross and normalize", "u", 4.0)];
+const PIXELS: [Method; 1] = [Method::pinhole("pinhole, inverse of each placement", "px", 1e-6)];
+const REFUSALS: [Method; 1] = [Method::pinhole("pinhole, refused beyond, taken within", "", 0.0)];
+const LOOK_AT: [Method; 2] = [
+    Method::pinhole("pinhole, refused or orthonormal", "u", 4.0),
+    Method::naive("naive, cross and normalize", "u", 4.0),
+];
 
 /// The cases of placements.
 pub fn trials() -> Vec<Trial> {
@@ -118,8 +120,8 @@ fn check_planes(range: Range<u64>) -> Tally {
         let normals = [table.normal[0], normal_as_direction(map.matrix3, normal)].map(|normal| normal.as_vec3());
         let enclosed = Some(normal_through::<Enclosure>(&chain, normal));
         match angles(normals, enclosed, || Some(normal_through::<Dyadic>(&chain, normal))) {
-            Some([kit, naive]) => {
-                tally.scores[0].measure(kit);
+            Some([pinhole, naive]) => {
+                tally.scores[0].measure(pinhole);
                 tally.scores[1].measure(naive);
             }
             None => tally.scores[0].check(false),
@@ -134,8 +136,8 @@ fn check_pixels(range: Range<u64>) -> Tally {
     for index in range {
         let mut draws = Draws::new(132, index);
         // Who stretches: the entity, its parent, or each a part.
-        let share = [0.0, 1.0, draws.unit()][(draws.unit() * 3.0) as usize];
-        let chain = chain(&mut draws, &[6.9 * share, 6.9 * (1.0 - share)]);
+        let fraction = [0.0, 1.0, draws.unit()][(draws.unit() * 3.0) as usize];
+        let chain = chain(&mut draws, &[6.9 * fraction, 6.9 * (1.0 - fraction)]);
         let (radius, on_unit) = (draws.between(0.5, 2.0), draws.unit_vector());
         let (world, _) = scene(Sphere { radius }, &chain);
         let table = EllipsoidTable::extract(&Census::of(&world));

@@ -16,9 +16,9 @@ use pinhole::intersect::{Surface, offset_origin};
 use std::ops::Range;
 
 const METHODS: [Method; 5] = [
-    Method::kit("kit, normal, angle to the exact one", "u", 4.0),
-    Method::kit("kit, normal, its length", "u", 4.0),
-    Method::kit("kit, shadow rays off it by its bound", "", 0.0),
+    Method::pinhole("pinhole, normal, angle to the exact one", "u", 4.0),
+    Method::pinhole("pinhole, normal, its length", "u", 4.0),
+    Method::pinhole("pinhole, shadow rays off it by its bound", "", 0.0),
     Method::naive("naive, normal as a direction", "u", 4.0),
     Method::naive("naive, shadow rays 1e-4 n off it", "", 0.0),
 ];
@@ -100,8 +100,8 @@ fn check_normal(ray: AimedRay, shape: &Stretched, inside: bool, surface: Surface
     let exact = || Some(outward(ray.origin, ray.direction, ellipsoid)?.times(&Dyadic::of(side)));
     scores[1].measure((surface.normal.as_dvec3().length() - 1.0).abs() / U);
     match angles([surface.normal, naive], enclosed, exact) {
-        Some([kit, naive]) => {
-            scores[0].measure(kit);
+        Some([pinhole, naive]) => {
+            scores[0].measure(pinhole);
             scores[3].measure(naive);
         }
         None => scores[0].check(false),
@@ -120,7 +120,7 @@ fn check_start(shape: &Stretched, inside: bool, surface: Surface, scores: &mut [
 mod tests {
     use super::*;
 
-    /// Enclosures are a short way to what exact arithmetic says, and nothing else.
+    /// Enclosures are a shortcut to what exact arithmetic says, and nothing else.
     #[test]
     fn enclosed_angles_are_the_exact_ones() {
         let (mut tried, mut fell_back) = (0, 0);
@@ -133,7 +133,7 @@ mod tests {
                 let (ray, shape) = shot(View { seed: 7, ratio, sizes: 3.0, aim, from }, index);
                 let Some(exact) = outward(ray.origin, ray.direction, &shape.ellipsoid) else { continue };
                 let [x, y, z] = [&exact.x, &exact.y, &exact.z].map(Dyadic::to_f64);
-                // A little off the exact one, as the kit's is, by nothing to a few roundings.
+                // A little off the exact one, as pinhole's is, by nothing to a few roundings.
                 let normal = glam::DVec3::new(x, y, z).normalize().as_vec3();
                 let expected = angle(normal, &exact).expect("exact numbers tell");
                 let enclosed = enclosed_outward(ray.origin, ray.direction, &shape.ellipsoid);

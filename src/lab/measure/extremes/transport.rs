@@ -1,4 +1,4 @@
-//! Transport: do ways of light bring what theory says, and do two ways to find a light count as one?
+//! Transport: do light paths carry what theory says, and do two strategies to find a light count as one?
 
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
@@ -15,34 +15,34 @@ const PATHS: u64 = 4096;
 const DIRECTIONS: u64 = 1 << 16;
 /// How many standard errors a mean may lie from the truth.
 const ERRORS: f64 = 4.0;
-/// The legs after which a naive way is cut off.
+/// The depth at which a naive path is cut off.
 const CAP: u32 = 64;
 
 const WEIGHTS: [Method; 2] = [
-    Method::kit("kit, the ratio squared", "off 1", 2.0 * f64::EPSILON),
+    Method::pinhole("pinhole, the ratio squared", "off 1", 2.0 * f64::EPSILON),
     Method::naive("naive, squares in f32", "off 1", 1e-6),
 ];
 const ROULETTE: [Method; 3] = [
-    Method::kit("kit, ends by chance, weighed", "of itself", 0.0),
-    Method::naive("naive, ends after 64 legs", "of itself", 0.0),
-    Method::naive("naive, ends by chance, not weighed", "of itself", 0.0),
+    Method::pinhole("pinhole, Russian roulette, reweighted", "of itself", 0.0),
+    Method::naive("naive, ends after 64 segments", "of itself", 0.0),
+    Method::naive("naive, Russian roulette, not reweighted", "of itself", 0.0),
 ];
 const SKY: [Method; 4] = [
-    Method::kit("kit, as dense as the cosine", "of itself", 1e-10),
+    Method::pinhole("pinhole, cosine-weighted", "of itself", 1e-10),
     Method::naive("naive, directions alike, no cosine", "of itself", 1e-10),
     Method::naive("naive, pi forgotten", "of itself", 1e-10),
     Method::naive("naive, cosine counted twice", "of itself", 1e-10),
 ];
-const LAMP: [Method; 3] = [
-    Method::kit("kit, as dense as the cosine", "of all", 0.01),
-    Method::naive("naive, density of other directions", "of all", 0.01),
+const LIGHT: [Method; 3] = [
+    Method::pinhole("pinhole, cosine-weighted", "of all", 0.01),
+    Method::naive("naive, pdf of other directions", "of all", 0.01),
     Method::naive("naive, Jacobian forgotten", "of all", 0.01),
 ];
 
 /// The cases of the group.
 pub fn trials() -> Vec<Trial> {
     let furnace = |(name, albedo): (&str, f64)| {
-        // The lengths of ways have a standard deviation of √a of their mean, and so have means of many √a / √n.
+        // The lengths of paths have a standard deviation of √a of their mean, and so have means of many √a / √n.
         let bound = ERRORS * (albedo / PATHS as f64).sqrt();
         let methods = ROULETTE.map(|method| Method { bound, ..method });
         Trial::new(Group::Transport, name, &methods, move |range| check_roulette(albedo, range)).at_most(1)
@@ -51,8 +51,9 @@ pub fn trials() -> Vec<Trial> {
     let mut trials = vec![Trial::new(Group::Transport, "weights of two, 1e-30 to 1e30", &WEIGHTS, check_weights)];
     trials.extend(furnaces.map(furnace));
     trials.push(Trial::new(Group::Transport, "one surface under an even sky", &SKY, check_sky).at_most(8));
-    trials
-        .push(Trial::new(Group::Transport, "one surface under a lamp, 10 to 80 degrees", &LAMP, check_lamp).at_most(8));
+    trials.push(
+        Trial::new(Group::Transport, "one surface under a light, 10 to 80 degrees", &LIGHT, check_light).at_most(8),
+    );
     trials
 }
 
@@ -71,18 +72,18 @@ fn check_weights(range: Range<u64>) -> Tally {
     tally
 }
 
-/// The light of ways in a closed room, over what it is by theory.
+/// The light of paths in a closed room, over what it is by theory.
 fn check_roulette(albedo: f64, range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ROULETTE.len());
     let truth = 1.0 / (1.0 - albedo);
     for _ in range {
-        let (mut weighed, mut unweighed) = (0.0, 0.0);
-        for way in 0..PATHS {
-            weighed += light_of_path(albedo, way, |share, random| share / random);
-            unweighed += light_of_path(albedo, way, |share, _| share);
+        let (mut reweighted, mut unweighted) = (0.0, 0.0);
+        for path in 0..PATHS {
+            reweighted += light_of_path(albedo, path, |throughput, survival| throughput / survival);
+            unweighted += light_of_path(albedo, path, |throughput, _| throughput);
         }
         tally.count(true);
-        let means = [weighed / PATHS as f64, light_of_capped_path(albedo, CAP), unweighed / PATHS as f64];
+        let means = [reweighted / PATHS as f64, light_of_capped_path(albedo, CAP), unweighted / PATHS as f64];
         for (score, mean) in tally.scores.iter_mut().zip(means) {
             score.measure((mean / truth - 1.0).abs());
         }
@@ -90,18 +91,18 @@ fn check_roulette(albedo: f64, range: Range<u64>) -> Tally {
     tally
 }
 
-/// What one way brings that ends by chance; `kept` is the share of one that goes on.
-fn light_of_path(albedo: f64, way: u64, kept: impl Fn(f64, f64) -> f64) -> f64 {
-    let mut draws = Draws::new(2503, way);
-    let (mut light, mut share) = (0.0, 1.0);
+/// What one path carries that ends by Russian roulette; `kept` is the throughput of one that goes on.
+fn light_of_path(albedo: f64, path: u64, kept: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut draws = Draws::new(2503, path);
+    let (mut light, mut throughput) = (0.0, 1.0);
     loop {
-        light += share;
-        share *= albedo;
-        let random = survival_probability([share; 3]);
-        if draws.unit() >= random {
+        light += throughput;
+        throughput *= albedo;
+        let survival = survival_probability([throughput; 3]);
+        if draws.unit() >= survival {
             return light;
         }
-        share = kept(share, random);
+        throughput = kept(throughput, survival);
     }
 }
 
@@ -128,8 +129,8 @@ fn check_sky(range: Range<u64>) -> Tally {
 }
 
 /// What a white surface receives from a round patch of the sky, 1 within an angle from the zenith: its sine squared.
-fn check_lamp(range: Range<u64>) -> Tally {
-    let mut tally = Tally::new(LAMP.len());
+fn check_light(range: Range<u64>) -> Tally {
+    let mut tally = Tally::new(LIGHT.len());
     for index in range {
         let angle = (10.0 + 10.0 * index as f64).to_radians();
         let edge = libm::cos(angle);
@@ -141,9 +142,9 @@ fn check_lamp(range: Range<u64>) -> Tally {
             let seen = |cosine: f64| f64::from(u8::from(cosine > edge));
             let (dense, alike) = (cosine_direction(u).z, uniform_direction(u)[2]);
             sums[0] += seen(dense);
-            // Directions all alike, divided by the density of others: the cosines cancel as if they were dense.
+            // Uniform directions, divided by the pdf of others: the cosines cancel as if directions were cosine-weighted.
             sums[1] += seen(alike);
-            // Angles all alike: the sine that makes areas of the sky of them is forgotten.
+            // Uniform angles: the sine that makes areas of the sky of them is forgotten.
             let theta = u[0] * PI / 2.0;
             sums[2] += seen(libm::cos(theta)) * libm::cos(theta) * PI;
         }

@@ -19,8 +19,8 @@ pub(super) const BESIDE: u64 = 100_000;
 pub(super) const T_BOUND: f64 = 1.0;
 
 const METHODS: [Method; 4] = [
-    Method::kit("kit, a triangle and a ray at a time", "u of t", T_BOUND),
-    Method::kit("kit, 32 triangles and 32 rays", "u of t", T_BOUND),
+    Method::pinhole("pinhole, a triangle and a ray at a time", "u of t", T_BOUND),
+    Method::pinhole("pinhole, 32 triangles and 32 rays", "u of t", T_BOUND),
     Method::naive("naive Moller-Trumbore, 1e-6, f32", "u of t", T_BOUND),
     Method::naive("Woop as published, f32, f64 at 0", "u of t", T_BOUND),
 ];
@@ -73,14 +73,14 @@ pub(super) fn exact(ray: AimedRay, corners: Corners) -> Option<f64> {
     oracle_triangle::triangle_t(ray.origin, ray.direction, corners)
 }
 
-/// The distance by the kit's function of one ray and one triangle.
+/// The distance by pinhole's function of one ray and one triangle.
 pub(super) fn by_function(ray: AimedRay, triangle: &TriangleRow) -> f64 {
     triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), triangle)
 }
 
 /// One ray and one triangle through the stage: no neighbour can save a ray from being culled.
 fn check_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option<f64>, score: &mut Score) {
-    bench.share(triangle_table([corners]));
+    bench.insert(triangle_table([corners]));
     bench.aim(&[ray]);
     bench.run();
     let t = bench.column::<Hits>().t[0];
@@ -88,11 +88,11 @@ fn check_alone(bench: &mut Bench, ray: AimedRay, corners: Corners, exact: Option
     score.check_t(Some(t).filter(|t| t.is_finite()), exact);
 }
 
-/// All at once through the stage, against every ray with every triangle by the kit's function, to the last bit.
+/// All at once through the stage, against every ray with every triangle by pinhole's function, to the last bit.
 fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option<f64>], score: &mut Score) {
     let table = triangle_table(shots.iter().map(|&(_, corners)| corners));
     let rays: Vec<AimedRay> = shots.iter().map(|&(ray, _)| ray).collect();
-    bench.share(table.clone());
+    bench.insert(table.clone());
     bench.aim(&rays);
     bench.run();
     let hits = bench.column::<Hits>();
@@ -105,7 +105,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     }
 }
 
-/// The methods in f32, judged on the triangle that f32 can hold.
+/// The methods in f32, checked on the triangle that f32 can hold.
 fn check_naive(ray: AimedRay, corners: Corners, exact_f64: Option<f64>, scores: &mut [Score]) {
     let rounded = corners.map(|corner| corner.as_vec3());
     let held = rounded.map(|corner| corner.as_dvec3());

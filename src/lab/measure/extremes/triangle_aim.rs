@@ -71,7 +71,7 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Corners) {
     (band(&mut draws, view.aim, origin, target), corners)
 }
 
-/// Shares of the corners that lead to a point of the kind.
+/// Barycentric coordinates that lead to a point of the kind.
 fn weights(draws: &mut Draws, aim: SampleLights) -> [f64; 3] {
     let (a, b) = (draws.unit(), draws.unit());
     let mut weights = match aim {
@@ -151,7 +151,7 @@ impl Mesh {
     /// A scene of it: the eye and the mesh at these places, the mesh turned and scaled unevenly by its parent, and
     /// extracted as a render does.
     ///
-    /// Errors: none that a case should meet.
+    /// Errors: none that a case should cause.
     pub fn placed(&self, draws: &mut Draws, eye: DVec3, place: DVec3) -> Result<TriangleTable, SceneError> {
         let mut scene = World::new();
         scene.spawn((PerspectiveCamera::default(), Placement { position: eye, ..Placement::default() }));

@@ -42,7 +42,7 @@ fn at_edge(seed: u64, index: u64) -> (AimedRay, Corners) {
 /// Corners on a grid of eighths and rays along the axes or nearly: by parts of 0 with either sign, and denormal ones.
 fn axes() -> Trial {
     const ROWS: [Method; 2] = [
-        Method::kit("kit, hit or miss, t", "u of t", T_BOUND),
+        Method::pinhole("pinhole, hit or miss, t", "u of t", T_BOUND),
         Method::naive("naive Moller-Trumbore, 1e-6, f32", "u of t", T_BOUND),
     ];
     one_by_one("parts of 0, -0 and denormal, corners on a grid", &ROWS, |bench, index, tally| {
@@ -60,7 +60,7 @@ fn axes() -> Trial {
         let ray = AimedRay { origin, direction };
         let truth = exact(ray, corners);
         tally.count(truth.is_some());
-        bench.share(triangle_table([corners]));
+        bench.insert(triangle_table([corners]));
         bench.aim(&[ray]);
         bench.run();
         let t = bench.column::<Hits>().t[0];
@@ -72,8 +72,10 @@ fn axes() -> Trial {
 
 /// A direction 2ᵏ times as long gives t / 2ᵏ, to the last bit.
 fn lengths_of_directions() -> Trial {
-    const ROWS: [Method; 2] =
-        [Method::kit("kit, every bit of t", "", 0.0), Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0)];
+    const ROWS: [Method; 2] = [
+        Method::pinhole("pinhole, every bit of t", "", 0.0),
+        Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0),
+    ];
     one_by_one("directions 2^-60 to 2^60 long", &ROWS, |_, index, tally| {
         let (ray, corners) = at_edge(262, index);
         let scale = libm::ldexp(1.0, Draws::new(263, index).between(-60.0, 61.0).floor() as i32);
@@ -89,10 +91,10 @@ fn lengths_of_directions() -> Trial {
     })
 }
 
-/// One ray of a block has a part that is no number or not finite, or no direction: it meets nothing, and its neighbours
-/// meet what they meet alone.
+/// One ray of a block has a part that is NaN or not finite, or no direction: it hits nothing, and its neighbours
+/// hit what they hit alone.
 fn no_rays() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, meets nothing, spoils nothing", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, hits nothing, spoils nothing", "", 0.0)];
     one_by_one("a ray with no direction, NaN or infinite", &ROWS, |bench, index, tally| {
         let shot = |component: usize| at_edge(264, index * BLOCK as u64 + component as u64);
         let (mut rays, corners): (Vec<AimedRay>, Vec<Corners>) = (0..BLOCK).map(shot).unzip();
@@ -104,7 +106,7 @@ fn no_rays() -> Trial {
             _ => rays[bad].origin[part] = f32::NAN,
         }
         let table = triangle_table(corners);
-        bench.share(table.clone());
+        bench.insert(table.clone());
         bench.aim(&rays);
         bench.run();
         let hits = bench.column::<Hits>();
@@ -122,14 +124,14 @@ fn no_rays() -> Trial {
     })
 }
 
-/// A ray that looks without end, and one that looks as far as 1e30: both meet the same at the same distance.
+/// A ray that looks without end, and one that looks as far as 1e30: both hit the same at the same distance.
 fn ends() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the same hits", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the same hits", "", 0.0)];
     Trial::new(Group::Triangle, "rays that end at 1e30, and without end", &ROWS, |range| {
         let (mut tally, mut bench) = (Tally::new(ROWS.len()), Bench::new(&[triangle_stage()]));
         for index in range {
             let (ray, corners) = at_edge(265, index);
-            bench.share(triangle_table([corners]));
+            bench.insert(triangle_table([corners]));
             bench.aim(&[ray]);
             let mut found = [1e30, f64::INFINITY].map(|end| {
                 let mut hits = Hits::default();
@@ -140,9 +142,9 @@ fn ends() -> Trial {
                 let hits = bench.column::<Hits>();
                 (hits.t[0], hits.shape[0])
             });
-            let met = found[0].1 != NO_SHAPE;
-            tally.count(met);
-            if !met {
+            let hit = found[0].1 != NO_SHAPE;
+            tally.count(hit);
+            if !hit {
                 found[0].0 = f64::INFINITY;
             }
             tally.scores[0].check(found[0] == found[1] && found[1].0 == by_function(ray, &TriangleRow::new(corners)));
@@ -151,9 +153,9 @@ fn ends() -> Trial {
     })
 }
 
-/// The same three corners several times, in any order: the lowest number is met, at the same distance to the last bit.
+/// The same three corners several times, in any order: the lowest number is hit, at the same distance to the last bit.
 fn duplicates() -> Trial {
-    const ROWS: [Method; 1] = [Method::kit("kit, the lowest number, the same t", "", 0.0)];
+    const ROWS: [Method; 1] = [Method::pinhole("pinhole, the lowest number, the same t", "", 0.0)];
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     one_by_one("six triangles of the same three corners", &ROWS, |bench, index, tally| {
         let view = View { seed: 266, thinnest: 3.0, aim: SampleLights::Inside, from: From::Anywhere(6.0) };
@@ -161,7 +163,7 @@ fn duplicates() -> Trial {
         let mut table = triangle_table(ORDERS.map(|order| order.map(|corner| corners[corner])));
         let turned = Draws::new(267, index).between(0.0, 6.0) as usize;
         table.shape.rotate_left(turned);
-        bench.share(table);
+        bench.insert(table);
         bench.aim(&[ray]);
         bench.run();
         let hits = bench.column::<Hits>();

@@ -1,4 +1,4 @@
-//! Closed meshes: what is inside cannot look out, and what is aimed at an edge or a corner meets one of its faces.
+//! Closed meshes: what is inside cannot look out, and what is aimed at an edge or a corner hits one of its faces.
 
 use super::bench::Bench;
 use super::triangle::{BESIDE, T_BOUND, by_function, exact};
@@ -17,14 +17,14 @@ const RAYS_A_MESH: u64 = 512;
 const AT_ONCE: usize = 64;
 
 const METHODS: [Method; 3] = [
-    Method::kit("kit, no ray leaks", "", 0.0),
-    Method::kit("kit, faces about the edge or corner", "u of t", T_BOUND),
+    Method::pinhole("pinhole, no ray leaks", "", 0.0),
+    Method::pinhole("pinhole, faces about the edge or corner", "u of t", T_BOUND),
     Method::naive("naive Moller-Trumbore, 1e-6, f32", "", 0.0),
 ];
 /// Rows of the case where rays lie on edges exactly.
 const ON_EDGES: [Method; 3] = [
-    Method::kit("kit, no ray leaks", "", 0.0),
-    Method::kit("kit, every face", "u of t", T_BOUND),
+    Method::pinhole("pinhole, no ray leaks", "", 0.0),
+    Method::pinhole("pinhole, every face", "u of t", T_BOUND),
     Method::naive("naive, strictly inside, f64", "", 0.0),
 ];
 
@@ -91,7 +91,7 @@ fn check_mesh(
     range: Range<u64>,
     tally: &mut Tally,
 ) {
-    bench.share(table.clone());
+    bench.insert(table.clone());
     let rounded: Vec<[Vec3; 3]> = table.triangle.iter().map(|triangle| triangle.corners.map(|c| c.as_vec3())).collect();
     let rays: Vec<(AimedRay, [DVec3; 2])> = range.map(|index| aimed(view, table, centre, index)).collect();
     for rays in rays.chunks(AT_ONCE) {
@@ -99,13 +99,13 @@ fn check_mesh(
         bench.run();
         let hits = bench.column::<Hits>().clone();
         for (row, &(ray, at)) in rays.iter().enumerate() {
-            let met = hits.shape[row] != NO_SHAPE;
-            tally.count(met);
+            let hit = hits.shape[row] != NO_SHAPE;
+            tally.count(hit);
             let nearest =
                 table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
             let must =
-                view.inside || met || table.triangle.iter().any(|triangle| exact(ray, triangle.corners).is_some());
-            tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && met == must);
+                view.inside || hit || table.triangle.iter().any(|triangle| exact(ray, triangle.corners).is_some());
+            tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && hit == must);
             let found = table.triangle.get(hits.shape[row] as usize);
             let about =
                 table.triangle.iter().filter(|triangle| at.iter().all(|corner| triangle.corners.contains(corner)));
@@ -135,20 +135,20 @@ fn check_on_edges(range: Range<u64>) -> Tally {
     let mut tally = Tally::new(ON_EDGES.len());
     let mut bench = Bench::new(&[start_stage(), triangle_stage()]);
     let table = Mesh::octahedron();
-    bench.share(table.clone());
+    bench.insert(table.clone());
     for index in range {
         let mut draws = Draws::new(235, index);
         let mut eighth = |most: f64| draws.between(-most, most + 1.0).floor() / 8.0;
         let origin = DVec3::new(eighth(2.0), eighth(2.0), eighth(2.0));
-        let share = eighth(4.0) + 0.5;
+        let fraction = eighth(4.0) + 0.5;
         let face = &table.triangle[(draws.unit() * 8.0) as usize];
-        let target = face.corners[0] * share + face.corners[1] * (1.0 - share);
+        let target = face.corners[0] * fraction + face.corners[1] * (1.0 - fraction);
         let ray = AimedRay { origin: origin.as_vec3(), direction: (target - origin).as_vec3() };
         bench.aim(&[ray]);
         bench.run();
-        let met = bench.column::<Hits>().shape[0] != NO_SHAPE;
-        tally.count(met);
-        tally.scores[0].check(met);
+        let hit = bench.column::<Hits>().shape[0] != NO_SHAPE;
+        tally.count(hit);
+        tally.scores[0].check(hit);
         for triangle in &table.triangle {
             let t = by_function(ray, triangle);
             tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));

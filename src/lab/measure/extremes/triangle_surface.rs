@@ -18,9 +18,9 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 const METHODS: [Method; 7] = [
-    Method::kit("kit, shadow rays, bound of the hit", "", 0.0),
-    Method::kit("kit, normal, angle to the exact one", "u", 2.0),
-    Method::kit("kit, hit point, off the exact plane", "u(|p|)", 1.1),
+    Method::pinhole("pinhole, shadow rays, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, normal, angle to the exact one", "u", 2.0),
+    Method::pinhole("pinhole, hit point, off the exact plane", "u(|p|)", 1.1),
     Method::naive("naive, at the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
@@ -47,8 +47,9 @@ pub fn trials() -> Vec<Trial> {
         if seed == ANY_PLACE { trial } else { trial.at_most(BESIDE) }
     };
     let mut trials: Vec<Trial> = (241..).zip(views).map(trial).collect();
-    let shares = Trial::new(Group::Triangle, "shares of the corners, slivers, any slope", &SHARES, check_shares);
-    trials.push(shares.at_most(BESIDE));
+    let barycentrics =
+        Trial::new(Group::Triangle, "barycentrics, slivers, any slope", &BARYCENTRICS, check_barycentrics);
+    trials.push(barycentrics.at_most(BESIDE));
     trials
 }
 
@@ -83,14 +84,14 @@ fn check(view: View, range: Range<u64>) -> Tally {
     tally
 }
 
-/// Whether the shadow ray starts strictly on the viewer's side of the plane, and never meets the triangle again.
+/// Whether the shadow ray starts strictly on the viewer's side of the plane, and never hits the triangle again.
 fn is_left(ray: AimedRay, shadow: Shadow, corners: Corners) -> bool {
     let Shadow { origin, direction, blocked, .. } = shadow;
-    let meets = by_function(AimedRay { origin, direction }, &TriangleRow::new(corners)).is_finite();
+    let hits = by_function(AimedRay { origin, direction }, &TriangleRow::new(corners)).is_finite();
     let side = side_of_triangle(ray.origin.as_dvec3(), corners);
     side != Ordering::Equal
         && side_of_triangle(origin.as_dvec3(), corners) == side
-        && !meets
+        && !hits
         && triangle_t(origin, direction, corners).is_none()
         && blocked.is_none()
 }
@@ -103,23 +104,23 @@ fn check_normal(ray: AimedRay, corners: Corners, surface: Surface, tally: &mut T
     let [a, b, c] = corners.map(|corner| corner.as_vec3());
     let naive = (b - a).cross(c - a).normalize_or_zero() * turn as f32;
     let exact = || Some(ExactVector::of(scaled));
-    if let Some([kit, naive]) = angles([surface.normal, naive], None, exact) {
-        tally.scores[1].measure(kit);
+    if let Some([pinhole, naive]) = angles([surface.normal, naive], None, exact) {
+        tally.scores[1].measure(pinhole);
         tally.scores[6].measure(naive);
     } else {
         tally.scores[1].check(false);
     }
 }
 
-const SHARES: [Method; 3] = [
-    Method::kit("kit, each corner's share", "u", 1.0),
-    Method::kit("kit, mean of three normals, its length", "u", 1.0),
-    Method::naive("naive, shares by areas from o + td", "u", 1.0),
+const BARYCENTRICS: [Method; 3] = [
+    Method::pinhole("pinhole, each barycentric", "u", 1.0),
+    Method::pinhole("pinhole, mean of three normals, its length", "u", 1.0),
+    Method::naive("naive, barycentrics by areas from o + td", "u", 1.0),
 ];
 
-/// The corners' shares of the hit against the exact ones, absolute.
-fn check_shares(range: Range<u64>) -> Tally {
-    let mut tally = Tally::new(SHARES.len());
+/// The barycentric coordinates of the hit against the exact ones, absolute.
+fn check_barycentrics(range: Range<u64>) -> Tally {
+    let mut tally = Tally::new(BARYCENTRICS.len());
     for index in range {
         let view = View { seed: 251, thinnest: 8.0, aim: SampleLights::Inside, from: From::Anywhere(9.0) };
         let (ray, corners) = shot(view, index);
@@ -130,7 +131,8 @@ fn check_shares(range: Range<u64>) -> Tally {
         let Some(truth) = truth else { continue };
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let triangle_hit = TriangleHit::of(origin, direction, &triangle);
-        let off = |shares: [f64; 3]| shares.iter().zip(truth).map(|(a, b)| (a - b).abs() / U).fold(0.0, f64::max);
+        let off =
+            |barycentrics: [f64; 3]| barycentrics.iter().zip(truth).map(|(a, b)| (a - b).abs() / U).fold(0.0, f64::max);
         tally.scores[0].measure(off(triangle_hit.weights));
         let mut draws = Draws::new(252, index);
         let normals = [(); 3].map(|()| (DVec3::Z + draws.unit_vector() * 0.99).normalize());
@@ -140,7 +142,7 @@ fn check_shares(range: Range<u64>) -> Tally {
     tally
 }
 
-/// The shares as areas about a point that was reached along the ray.
+/// The barycentric coordinates as areas about a point that was reached along the ray.
 fn by_areas(point: DVec3, triangle: &TriangleRow) -> [f64; 3] {
     let [a, b, c] = triangle.corners;
     let normal = normal_by_winding([a, b, c]);
@@ -159,7 +161,7 @@ mod tests {
     fn a_ray_that_starts_behind_its_triangle_is_seen() {
         let corners = [DVec3::new(-1.0, -1.0, -3.0), DVec3::new(1.0, -1.0, -3.0), DVec3::new(0.0, 1.0, -3.0)];
         let ray = AimedRay { origin: Vec3::ZERO, direction: Vec3::NEG_Z };
-        let shadow = |z: f32| Shadow { origin: Vec3::Z * z, direction: Vec3::X, reach: 1.0, blocked: None };
+        let shadow = |z: f32| Shadow { origin: Vec3::Z * z, direction: Vec3::X, t_max: 1.0, blocked: None };
         assert!(is_left(ray, shadow(-2.999_999), corners));
         assert!(!is_left(ray, shadow(-3.0), corners) && !is_left(ray, shadow(-3.000_001), corners));
     }

@@ -28,8 +28,8 @@ pub fn page(cases: &[Case], strips: &[Strip], scene: &str) -> io::Result<String>
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
          <title>pinhole: extremes</title><style>{STYLE}</style></head><body>\n\
-         <h1>Extremes</h1>\n<p>The kit's methods where numbers are hardest, beside naive ones and exact arithmetic. \
-         {held} of {} cases hold, {rays} inputs in all. None wrong of N bounds the share of wrong ones by 3/N, with 95 % \
+         <h1>Extremes</h1>\n<p>Pinhole's methods where numbers are hardest, beside naive ones and exact arithmetic. \
+         {held} of {} cases hold, {rays} inputs in all. None wrong of N bounds the rate of wrong ones by 3/N, with 95 % \
          confidence. u = 2<sup>−24</sup>.</p>\n<h2>Pictures</h2>\n<p>Of the scene of {}, unless said otherwise.</p>\n",
         cases.len(),
         escaped(scene)
@@ -80,8 +80,8 @@ fn row(outcome: &Outcome) -> String {
         outcome.score.wrong,
         words.worst,
         escaped(&words.asked),
-        words.intersection.to_lowercase().replace(' ', "-"),
-        words.intersection.to_lowercase()
+        words.result.to_lowercase().replace(' ', "-"),
+        words.result.to_lowercase()
     )
 }
 

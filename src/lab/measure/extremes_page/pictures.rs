@@ -20,7 +20,7 @@ use pinhole::scene::*;
 
 /// Pixels of a picture of the scene.
 const SIZE: [u32; 2] = [144, 81];
-/// Pixels of a picture of a far sphere, each way.
+/// Pixels of a picture of a far sphere, in each direction.
 const FAR: u32 = 56;
 
 /// All strips, of the scene that `make` makes.
@@ -44,12 +44,12 @@ pub fn strips(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Vec<Strip>> {
     Ok(strips)
 }
 
-/// A strip of naive, kit and difference.
-fn strip(title: String, says: impl Fn(usize, usize) -> String, naive: (&str, Picture), kit: Picture) -> Strip {
-    let difference = kit.difference(&naive.1);
-    let says = says(kit.differing(&naive.1), kit.pixels.len());
+/// A strip of naive, pinhole and difference.
+fn strip(title: String, says: impl Fn(usize, usize) -> String, naive: (&str, Picture), pinhole: Picture) -> Strip {
+    let difference = pinhole.difference(&naive.1);
+    let says = says(pinhole.differing(&naive.1), pinhole.pixels.len());
     let named = |(name, picture): (&str, Picture)| (name.to_string(), picture);
-    let pictures = [naive, ("kit", kit), ("difference, 4 times", difference)].map(named).to_vec();
+    let pictures = [naive, ("pinhole", pinhole), ("difference, 4 times", difference)].map(named).to_vec();
     Strip { title, says, pictures }
 }
 
@@ -66,7 +66,7 @@ fn rays_of(scene: &World, offer: &[Stage]) -> Result<Vec<AimedRay>> {
     Ok((0..rays.dx.len()).map(ray).collect())
 }
 
-/// A sphere so many radii away, filling the image; grey is how far before its centre it is met.
+/// A sphere so many radii away, filling the image; grey is how far before its centre it is hit.
 fn far_sphere(distance: f64, offer: &[Stage]) -> Result<Strip> {
     let mut scene = World::new();
     let fov = 2.0 * libm::atan(1.15 / distance).to_degrees();
@@ -89,20 +89,20 @@ fn far_sphere(distance: f64, offer: &[Stage]) -> Result<Strip> {
     let naive = |method: fn(Vec3, Vec3, Vec3, f32) -> Option<f32>| {
         paint(&move |ray| method(ray.origin, ray.direction, centre.as_vec3(), 1.0).map(f64::from))
     };
-    let kit = paint(&|ray| {
+    let pinhole = paint(&|ray| {
         Some(sphere_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), centre, 1.0)).filter(|t| t.is_finite())
     });
     let (school, perpendicular) = (naive(hit_f32), naive(hit_haines_f32));
-    let (wrong, better, all) = (kit.differing(&school), kit.differing(&perpendicular), kit.pixels.len());
+    let (wrong, better, all) = (pinhole.differing(&school), pinhole.differing(&perpendicular), pinhole.pixels.len());
     let says = format!(
-        "Grey is how far before its centre the sphere is met. The formula from school in f32 is off in {wrong} of {all} \
+        "Grey is how far before its centre the sphere is hit. The formula from school in f32 is off in {wrong} of {all} \
          pixels, the perpendicular form in f32 in {better}."
     );
     let pictures = vec![
         ("naive b2 - 4ac, f32".to_string(), school.clone()),
         ("naive perpendicular form, f32".to_string(), perpendicular),
-        ("kit".to_string(), kit.clone()),
-        ("first and kit, 4 times".to_string(), kit.difference(&school)),
+        ("pinhole".to_string(), pinhole.clone()),
+        ("first and pinhole, 4 times".to_string(), pinhole.difference(&school)),
     ];
     Ok(Strip { title: format!("A sphere {distance:e} radii away"), says, pictures })
 }
@@ -118,7 +118,7 @@ fn shadows(
     let mut scene = make();
     set_size(&mut scene, SIZE);
     scale(&mut scene, k);
-    let Some([kit, naive]) = with_start(&scene, offer, SIZE, start)? else { return Ok(None) };
+    let Some([pinhole, naive]) = with_start(&scene, offer, SIZE, start)? else { return Ok(None) };
     let size = match k {
         0 => "the scene as it is".to_string(),
         _ => format!("the scene 2^{k} times as large"),
@@ -129,10 +129,10 @@ fn shadows(
              own surface after rounding, it shadows them; where the constant is large, what is near casts no shadow."
         )
     };
-    Ok(Some(strip(format!("Shadow rays, {name}: {size}"), says, (&format!("naive, {name}"), naive), kit)))
+    Ok(Some(strip(format!("Shadow rays, {name}: {size}"), says, (&format!("naive, {name}"), naive), pinhole)))
 }
 
-/// What rays from the eye meet, painted by its normal.
+/// What rays from the eye hit, painted by its normal.
 fn painted(scene: &World, rays: &[AimedRay], width: u32) -> Result<Picture> {
     let census = &Census::of(scene);
     let (spheres, planes) = (SphereTable::extract(census)?, PlaneTable::extract(census)?);
@@ -162,7 +162,7 @@ fn far_eye(make: &dyn Fn() -> World, offer: &[Stage], distance: f64) -> Result<S
     set_size(&mut scene, SIZE);
     shift(&mut scene, DVec3::splat(distance));
     let rays = rays_of(&scene, offer)?;
-    let kit = painted(&scene, &rays, SIZE[0])?;
+    let pinhole = painted(&scene, &rays, SIZE[0])?;
     let census = &Census::of(&scene);
     let (eye, axes) = (eye(census)?.as_vec3(), CameraAxes::extract(census)?.world_from_camera.as_mat3());
     let vertical = 2.0 * libm::atan(PerspectiveProjection::extract(census)?.tan_half_vertical).to_degrees();
@@ -174,12 +174,12 @@ fn far_eye(make: &dyn Fn() -> World, offer: &[Stage], distance: f64) -> Result<S
     let naive: Vec<AimedRay> = (0..SIZE[0] * SIZE[1]).map(naive_ray).collect();
     let says = |wrong, all| {
         format!(
-            "Both eyes stand at the same place; only directions differ, and both are traced from the eye by the kit's \
+            "Both eyes stand at the same place; only directions differ, and both are traced from the eye by pinhole's \
              kernels. Painted by normals. {wrong} of {all} pixels differ."
         )
     };
     let naive = ("naive viewport of world points, f32", painted(&scene, &naive, SIZE[0])?);
-    Ok(strip(format!("The scene moved by {distance:e} along x, y and z"), says, naive, kit))
+    Ok(strip(format!("The scene moved by {distance:e} along x, y and z"), says, naive, pinhole))
 }
 
 /// The scene through several angles.
@@ -188,7 +188,7 @@ fn angles(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
         let mut scene = make();
         set_size(&mut scene, SIZE);
         set_fov(&mut scene, degrees);
-        Ok((format!("kit, {degrees} degrees"), painted(&scene, &rays_of(&scene, offer)?, SIZE[0])?))
+        Ok((format!("pinhole, {degrees} degrees"), painted(&scene, &rays_of(&scene, offer)?, SIZE[0])?))
     };
     let pictures = [0.1, 5.0, 40.0, 90.0, 150.0, 170.0, 179.0, 179.99].map(picture);
     Ok(Strip {
@@ -207,7 +207,7 @@ fn widest(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
     let mut scene = make();
     set_size(&mut scene, SIZE);
     set_fov(&mut scene, WIDEST);
-    let kit = painted(&scene, &rays_of(&scene, offer)?, SIZE[0])?;
+    let pinhole = painted(&scene, &rays_of(&scene, offer)?, SIZE[0])?;
     let axes = CameraAxes::extract(&Census::of(&scene))?.world_from_camera.as_mat3();
     let naive = |degrees: f32| {
         let (tangent, [width, height]) = (tan_half_f32(degrees), SIZE.map(|side| side as f32));
@@ -223,13 +223,13 @@ fn widest(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
     let (near, turned) = (naive(WIDEST as f32)?, naive(180.0)?);
     let says = format!(
         "At {WIDEST} degrees the tangent in f32 is wrong in its fourth digit, which so wide an image hardly shows: {} of {} \
-         pixels differ. At 180 degrees it is negative, and the image stands on its head; the kit refuses that angle.",
-        kit.differing(&near),
-        kit.pixels.len()
+         pixels differ. At 180 degrees it is negative, and the image stands on its head; pinhole refuses that angle.",
+        pinhole.differing(&near),
+        pinhole.pixels.len()
     );
     let pictures = vec![
         (format!("naive tan in f32, {WIDEST} degrees"), near),
-        (format!("kit, {WIDEST} degrees"), kit),
+        (format!("pinhole, {WIDEST} degrees"), pinhole),
         ("naive tan in f32, 180 degrees".into(), turned),
     ];
     Ok(Strip { title: "The widest angle".into(), says, pictures })

@@ -14,7 +14,7 @@ use pinhole::shade::LightRays;
 
 /// The frame's own picture, and the same where every light ray starts as `start` has it; nothing where no light falls.
 ///
-/// The naive rays go the same way and look as far, and their kernels are the kit's: only the start differs.
+/// The naive rays go the same way and look as far, and their kernels are pinhole's: only the start differs.
 pub fn with_start(
     scene: &World,
     offer: &[Stage],

@@ -18,10 +18,10 @@ use serde::Serialize;
 /// The side of a tile.
 const SIDE: u32 = 32;
 
-/// What a pixel met.
+/// What a pixel hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
-    /// How far away; infinite where nothing is met.
+pub struct PixelHit {
+    /// How far away; infinite where nothing is hit.
     pub t: f64,
     /// The shape's number.
     pub shape: u32,
@@ -35,8 +35,8 @@ pub struct Frame {
     pub film: FilmBits,
     /// Whether the film holds a view of a column, whose numbers have units.
     pub viewed: bool,
-    /// What each pixel met, tile by tile; empty where the scene has no shape or no stage looks for one.
-    pub met: Vec<Met>,
+    /// What each pixel hit, tile by tile; empty where the scene has no shape or no stage looks for one.
+    pub pixel_hits: Vec<PixelHit>,
     /// The directions of the rays along the middle line, left to right.
     pub middle: Vec<DVec3>,
 }
@@ -51,11 +51,11 @@ impl Frame {
         let (width, height) = (frame.image.width, frame.image.height);
         let shapes = Shapes::of(scene)?;
         let film = FilmBits::of_tiles(width, height, tiles().filter_map(|tile| tile.get::<FilmTile>()));
-        let met = tiles().flat_map(|tile| met(&tile, &shapes)).collect();
+        let pixel_hits = tiles().flat_map(|tile| pixel_hits(&tile, &shapes)).collect();
         let mut middle: Vec<(u32, DVec3)> = tiles().flat_map(|tile| on_line(&tile, height / 2)).collect();
         middle.sort_by_key(|&(x, _)| x);
         let middle = middle.into_iter().map(|(_, direction)| direction).collect();
-        Ok(Self { film, viewed: frame.plan.view.is_some(), met, middle })
+        Ok(Self { film, viewed: frame.plan.view.is_some(), pixel_hits, middle })
     }
 }
 
@@ -111,7 +111,7 @@ impl Shapes {
     }
 }
 
-fn met(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<Met> {
+fn pixel_hits(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<PixelHit> {
     let (Some(hits), Some(rays)) = (tile.get::<Hits>(), tile.get::<WorldRays>()) else { return Vec::new() };
     let cosine = |row: usize| match hits.shape[row] {
         NO_SHAPE => 1.0,
@@ -121,7 +121,7 @@ fn met(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<Met> {
             if length > 0.0 { normal.dot(rays.direction_of(row)).abs() / length } else { 1.0 }
         }
     };
-    (0..hits.t.len()).map(|row| Met { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()
+    (0..hits.t.len()).map(|row| PixelHit { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()
 }
 
 fn on_line(tile: &EntityRef<'_>, line: u32) -> Vec<(u32, DVec3)> {
@@ -133,9 +133,9 @@ fn on_line(tile: &EntityRef<'_>, line: u32) -> Vec<(u32, DVec3)> {
 /// How two frames of one scene differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Difference {
-    /// Pixels that meet something in one of them.
+    /// Pixels that hit something in one of them.
     pub hits: usize,
-    /// Pixels that meet another shape, or nothing any more.
+    /// Pixels that hit another shape, or nothing any more.
     pub changed_hands: usize,
     /// Of the others: the most that the surface is farther or nearer, across itself and relative to its distance.
     ///
@@ -145,10 +145,10 @@ pub struct Difference {
     pub worst: f64,
 }
 
-/// Compares what the pixels of two frames met.
+/// Compares what the pixels of two frames hit.
 pub fn difference(one: &Frame, other: &Frame) -> Difference {
     let mut difference = Difference::default();
-    for (one, other) in one.met.iter().zip(&other.met) {
+    for (one, other) in one.pixel_hits.iter().zip(&other.pixel_hits) {
         difference.hits += usize::from(one.shape != NO_SHAPE || other.shape != NO_SHAPE);
         if one.shape != other.shape {
             difference.changed_hands += 1;

@@ -7,7 +7,7 @@ mod edit;
 mod frame;
 
 pub use edit::{lay_on_grid, scale, set_fov, set_size, shift, turn};
-pub use frame::{Difference, Frame, Met, difference};
+pub use frame::{Difference, Frame, PixelHit, difference};
 
 use bevy_ecs::prelude::*;
 use edit::has_children;
@@ -95,8 +95,10 @@ fn scaled(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame, k: i32) -> R
     scale(&mut scene, k);
     let frame = Frame::of(&scene, offer)?;
     let factor = libm::ldexp(1.0, k);
-    let same = |(one, other): (&Met, &Met)| one.shape == other.shape && (one.t * factor).to_bits() == other.t.to_bits();
-    let hits = plain.met.iter().zip(&frame.met).filter(|&pair| !same(pair)).count();
+    let same = |(one, other): (&PixelHit, &PixelHit)| {
+        one.shape == other.shape && (one.t * factor).to_bits() == other.t.to_bits()
+    };
+    let hits = plain.pixel_hits.iter().zip(&frame.pixel_hits).filter(|&pair| !same(pair)).count();
     let film = if plain.viewed { None } else { frame.film.difference(&plain.film) };
     let came = film.unwrap_or_else(|| match hits {
         0 => "every bit the same".into(),
@@ -133,7 +135,7 @@ fn nearly(done: String, plain: &Frame, other: &Frame) -> Line {
     let Difference { hits, changed_hands, worst } = found;
     let held = worst <= ACROSS && changed_hands * ONE_IN <= hits.max(ONE_IN);
     let came = match hits {
-        0 => "nothing is met, before or after".into(),
+        0 => "nothing is hit, before or after".into(),
         _ => format!("off by {worst:.1e} t; {changed_hands} of {hits} changed hands"),
     };
     Line { done, asked: format!("{ACROSS:.0e} t, 1 in {ONE_IN}"), came, held, difference: Some(found) }
@@ -158,7 +160,7 @@ fn moved(make: &dyn Fn() -> World, offer: &[Stage], plain: &Frame) -> Result<Vec
             continue;
         }
         let differ = frame.film.difference(&on_grid.film);
-        let held = differ.is_none() && frame.met == on_grid.met;
+        let held = differ.is_none() && frame.pixel_hits == on_grid.pixel_hits;
         let came = differ.unwrap_or_else(|| if held { "every bit the same" } else { "hits differ" }.into());
         lines.push(Line { done, asked: "every bit the same".into(), came, held, difference: None });
     }

@@ -1,4 +1,4 @@
-//! Slips between rays and surfaces.
+//! Mistakes between rays and surfaces.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{EllipsoidTable, PlaneTable, ShapeTable, SphereTable};
@@ -6,7 +6,7 @@ use pinhole::intersect::{EllipsoidRows, Hits, MaterialRows, PlaneRows, SphereRow
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 
-/// Nothing farther than 8 units is met.
+/// Nothing farther than 8 units is hit.
 pub fn near_end(mut tiles: Query<&mut Hits>) {
     for mut hits in &mut tiles {
         hits.t.fill(8.0);

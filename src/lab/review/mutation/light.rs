@@ -1,4 +1,4 @@
-//! Slips between surfaces and the picture.
+//! Mistakes between surfaces and the picture.
 
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -38,8 +38,8 @@ pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
     }
 }
 
-/// Parallel light that falls at a slant counts in full: what each ray brings is as much as the strongest brings.
-pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut LightRays>) {
+/// Parallel light that falls obliquely counts in full: what each ray brings is as much as the strongest brings.
+pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
@@ -50,7 +50,7 @@ pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Qu
     }
 }
 
-/// A light with an area as bright from afar as from a distance of 1: the square of the distance left out of the density.
+/// A light with an area as bright from afar as from a distance of 1: the square of the distance left out of the pdf.
 pub fn no_distance(mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
@@ -68,13 +68,13 @@ pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
-            let way = spots.position[0] - origin;
+            let offset = spots.position[0] - origin;
             let direction = rays.direction_of(ray);
-            if way.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
+            if offset.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
                 continue;
             }
             let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);
-            let whole = irradiance_from_point(spots.intensity[0], cosine, way.length_squared());
+            let whole = irradiance_from_point(spots.intensity[0], cosine, offset.length_squared());
             [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
         }
     }
@@ -98,7 +98,7 @@ pub fn emitted_twice(emissive: Res<Shared<EmissiveTable>>, mut tiles: Query<(&Em
     }
 }
 
-/// Light that falls at a slant counts in full.
+/// Light that falls obliquely counts in full.
 pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
@@ -111,7 +111,7 @@ pub fn no_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
     }
 }
 
-/// What stands behind a lamp is in its way too.
+/// What stands behind a light blocks it too.
 pub fn endless_t_max(mut tiles: Query<&mut ShadowHits>) {
     for mut hits in &mut tiles {
         hits.t.fill(f64::INFINITY);

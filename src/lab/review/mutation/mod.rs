@@ -1,13 +1,13 @@
-//! Bugs planted on purpose, at every stage from raster to picture, to see that a review names that very stage.
+//! Mutations: bugs made on purpose, at every stage from raster to picture, to see that a review names that very stage.
 //!
-//! Each stands in for a slip that someone has made: a sign, half a pixel, a tangent of the wrong angle.
+//! Each stands in for a mistake that someone has made: a sign, half a pixel, a tangent of the wrong angle.
 //! No source changes: the stage's system is exchanged, or its numbers are spoilt right after it ran.
 
 mod hits;
 mod light;
 mod moving;
-mod pieces;
 mod rays;
+mod shapes;
 mod table;
 mod textures;
 mod triangles;
@@ -24,14 +24,14 @@ use pinhole::plan::{Census, Stage};
 use pinhole::{Error, Overrides, Result};
 use std::sync::Arc;
 
-/// A bug planted on purpose.
+/// A mutation: a bug made on purpose.
 #[derive(Clone, Copy, Debug)]
 pub struct Mutation {
     /// The word that `review --mutate` takes.
     pub name: &'static str,
     /// The stage that a review must name; none for the development of the film, which is no stage.
     at: Option<fn() -> Stage>,
-    /// The slip, in a few words.
+    /// The mistake, in a few words.
     pub mistake: &'static str,
     /// A chapter whose picture runs that stage.
     pub chapter: &'static str,
@@ -65,7 +65,7 @@ impl Mutation {
         MUTATIONS.iter().find(|mutation| mutation.name == name).ok_or_else(|| {
             let nearest = MUTATIONS.iter().max_by_key(likeness).map_or("half-pixel", |mutation| mutation.name);
             Error::Usage(format!(
-                "there is no bug \"{name}\" by which to mutate; the nearest is {nearest}, \
+                "there is no mutation \"{name}\"; the nearest is {nearest}, \
                  and `review --mutate all` shows all"
             ))
         })
@@ -80,7 +80,7 @@ impl Mutation {
             && !runs(chapter, &stages, &stage)?
         {
             return Err(Error::Usage(format!(
-                "{} does not run \"{}\", where {} is planted; {} does",
+                "{} does not run \"{}\", where {} belongs; {} does",
                 chapter.name, stage.name, self.name, self.chapter
             )));
         }

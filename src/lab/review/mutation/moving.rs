@@ -1,4 +1,4 @@
-//! Slips at what needs several samples: lenses, and what moves.
+//! Mistakes at what needs several samples: lenses, and what moves.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::GradientTable;

@@ -1,4 +1,4 @@
-//! Slips on the way from raster to world rays.
+//! Mistakes from raster to world rays.
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};

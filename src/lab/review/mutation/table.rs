@@ -1,4 +1,4 @@
-use super::{Bug, Mutation, hits, light, moving, pieces, rays, textures, triangles};
+use super::{Bug, Mutation, hits, light, moving, rays, shapes, textures, triangles};
 use bevy_ecs::prelude::*;
 use pinhole::film::film_stage;
 use pinhole::intersect::{
@@ -33,14 +33,14 @@ const fn bug(
     Mutation { name, at: Some(stage), mistake, chapter, bug }
 }
 
-/// The chapter that most bugs are planted in: balls, a ground, a lamp and a background.
+/// The chapter in which most mutations are made: balls, a ground, a light and a background.
 const MOST: &str = "05_pinhole";
-/// Parallel rays, and no lamp.
+/// Parallel rays, and no light.
 const PARALLEL: &str = "04_orthographic";
 /// Spheres that are scaled unevenly.
 const SCALED: &str = "09_camera_to_world";
 /// Disks, rectangles and cuboids.
-const PIECES: &str = "13_shapes";
+const SHAPES: &str = "13_shapes";
 /// Surfaces with more than one colour, and an environment.
 const TEXTURED: &str = "16_textures";
 /// Three reflection models under three kinds of light.
@@ -76,27 +76,27 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("plus-z", perspective_stage, "looks along +z", MOST, Bug::After(|| rays::plus_z.into_configs())),
     bug("whole-height", orthographic_stage, "height for its half", PARALLEL, Bug::After(|| rays::whole_height.into_configs())),
     bug("transpose", world_stage, "matrix transposed", MOST, Bug::After(|| rays::transposed.into_configs())),
-    bug("near-end", intersect::start_stage, "nothing met beyond t = 8", MOST, Bug::After(|| hits::near_end.into_configs())),
+    bug("near-end", intersect::start_stage, "nothing hit beyond t = 8", MOST, Bug::After(|| hits::near_end.into_configs())),
     bug("not-dark", shade::start_stage, "light starts at 0.05", MOST, Bug::After(|| light::not_dark.into_configs())),
     bug("light-left-over", start_light_stage, "not emptied", MOST, Bug::Instead(|| light::light_left_over.into_configs())),
     bug("far-root", sphere_stage, "where the ray leaves", MOST, Bug::Instead(|| hits::far_root.into_configs())),
     bug("unit-ray", ellipsoid_stage, "unit ray, t kept", SCALED, Bug::Instead(|| hits::ellipsoid_unit_ray.into_configs())),
     bug("two-edges", triangle_stage, "third edge not asked for", MICROFACETS, Bug::Instead(|| triangles::two_edges.into_configs())),
     bug("plane-sign", plane_stage, "sign of k", MOST, Bug::Instead(|| hits::plane_sign.into_configs())),
-    bug("disk-square", disk_stage, "the square about it", PIECES, Bug::Instead(|| pieces::disk_square.into_configs())),
-    bug("one-coordinate", rectangle_stage, "one coordinate asked", PIECES, Bug::Instead(|| pieces::one_coordinate.into_configs())),
-    bug("cuboid-far-side", cuboid_stage, "where the ray leaves", PIECES, Bug::Instead(|| pieces::cuboid_far_side.into_configs())),
+    bug("disk-square", disk_stage, "the square about it", SHAPES, Bug::Instead(|| shapes::disk_square.into_configs())),
+    bug("one-coordinate", rectangle_stage, "one coordinate asked", SHAPES, Bug::Instead(|| shapes::one_coordinate.into_configs())),
+    bug("cuboid-far-side", cuboid_stage, "where the ray leaves", SHAPES, Bug::Instead(|| shapes::cuboid_far_side.into_configs())),
     bug("nothing-moves", moving_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("zero-is-none", classify_stage, "shape 0 taken for none", MOST, Bug::After(|| hits::zero_is_none.into_configs())),
     bug("normal-inward", sphere_surface_stage, "sign of the normal", MOST, Bug::After(|| hits::normal_inward.into_configs())),
     bug("no-epsilon", sphere_surface_stage, "epsilon times 0", MOST, Bug::After(|| hits::no_epsilon.into_configs())),
     bug("normal-as-direction", ellipsoid_surface_stage, "taken for a direction", SCALED, Bug::After(|| hits::normal_as_direction.into_configs())),
-    bug("next-corner", triangle_surface_stage, "shares one corner on", MICROFACETS, Bug::After(|| triangles::next_corner.into_configs())),
+    bug("next-corner", triangle_surface_stage, "barycentrics one corner on", MICROFACETS, Bug::After(|| triangles::next_corner.into_configs())),
     bug("shorter-normal", shading_normal_stage, "not brought to length 1", MICROFACETS, Bug::After(|| triangles::shorter.into_configs())),
     bug("constant-epsilon", plane_surface_stage, "one epsilon, 1e-4", MOST, Bug::After(|| hits::constant_epsilon.into_configs())),
-    bug("disk-inward", disk_surface_stage, "sign of the normal", PIECES, Bug::After(|| pieces::disk_inward.into_configs())),
-    bug("rectangle-epsilon", rectangle_surface_stage, "one epsilon, 1e-4", PIECES, Bug::After(|| pieces::rectangle_epsilon.into_configs())),
-    bug("round-cuboid", cuboid_surface_stage, "normal as a sphere's", PIECES, Bug::After(|| pieces::round_cuboid.into_configs())),
+    bug("disk-inward", disk_surface_stage, "sign of the normal", SHAPES, Bug::After(|| shapes::disk_inward.into_configs())),
+    bug("rectangle-epsilon", rectangle_surface_stage, "one epsilon, 1e-4", SHAPES, Bug::After(|| shapes::rectangle_epsilon.into_configs())),
+    bug("round-cuboid", cuboid_surface_stage, "normal as a sphere's", SHAPES, Bug::After(|| shapes::round_cuboid.into_configs())),
     bug("turned-inward", moving_surface_stage, "sign of the normal", MOVING, Bug::After(|| moving::turned_inward.into_configs())),
     bug("two-pixels", footprint_stage, "two pixels for one", TEXTURED, Bug::After(|| textures::two_pixels.into_configs())),
     bug("half-colour", colour_stage, "half of red", TEXTURED, Bug::After(|| textures::half_colour.into_configs())),
@@ -106,19 +106,19 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("bytes-for-light", image_stage, "bytes taken for light", TEXTURED, Bug::After(|| textures::bytes_for_light.into_configs())),
     bug("mirrored", environment_stage, "left for right", TEXTURED, Bug::Instead(|| textures::mirrored.into_configs())),
     bug("upside-down", gradient_stage, "below for above", MIRRORED, Bug::Instead(|| moving::upside_down.into_configs())),
-    bug("background-everywhere", background_stage, "also where something is met", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
+    bug("background-everywhere", background_stage, "also where something is hit", MOST, Bug::Instead(|| light::background_everywhere.into_configs())),
     bug("no-cosine", point_light_stage, "cosine left out", MOST, Bug::After(|| light::no_cosine.into_configs())),
-    bug("sun-without-slant", directional_light_stage, "cosine left out", REFLECTION, Bug::After(|| light::sun_without_slant.into_configs())),
+    bug("sun-without-cosine", directional_light_stage, "cosine left out", REFLECTION, Bug::After(|| light::sun_without_cosine.into_configs())),
     bug("no-distance", area_light_stage, "square of the distance left out", SOFT, Bug::After(|| light::no_distance.into_configs())),
     bug("spot-without-fading", spot_light_stage, "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
-    bug("endless-reach", start_shadow_stage, "reach without end", MOST, Bug::After(|| light::endless_t_max.into_configs())),
+    bug("endless-t-max", start_shadow_stage, "t_max without end", MOST, Bug::After(|| light::endless_t_max.into_configs())),
     bug("spheres-ignored", sphere_shadow_stage, "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
     bug("ellipsoids-ignored", ellipsoid_shadow_stage, "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
     bug("triangles-ignored", triangle_shadow_stage, "not looked for", MICROFACETS, Bug::Instead(|| triangles::ignored.into_configs())),
     bug("behind-counts", plane_shadow_stage, "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
-    bug("disks-ignored", disk_shadow_stage, "not looked for", PIECES, Bug::Instead(|| light::disks_ignored.into_configs())),
-    bug("rectangles-ignored", rectangle_shadow_stage, "not looked for", PIECES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
-    bug("cuboids-ignored", cuboid_shadow_stage, "not looked for", PIECES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
+    bug("disks-ignored", disk_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
+    bug("rectangles-ignored", rectangle_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
+    bug("cuboids-ignored", cuboid_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("movers-ignored", moving_shadow_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", unlit_stage, "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", light_stage, "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),

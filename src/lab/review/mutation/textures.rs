@@ -1,4 +1,4 @@
-//! Slips in textures and environments.
+//! Mistakes in textures and environments.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{CheckerTable, EnvironmentTable, ImageTable, NO_TEXTURE, StripesTable, TwoColours};
@@ -22,7 +22,7 @@ pub fn two_pixels(mut tiles: Query<&mut Footprints>) {
     }
 }
 
-/// A share of the light lost.
+/// A fraction of the light lost.
 pub fn half_colour(mut tiles: Query<&mut SurfaceColours>) {
     for mut colours in &mut tiles {
         colours.r.iter_mut().for_each(|part| *part *= 0.5);
@@ -62,7 +62,7 @@ fn recolour(
     list: &MaterialRows,
     points: &TexturePoints,
     colours: &mut SurfaceColours,
-    share: impl Fn(TexturePoint) -> f64,
+    first_fraction: impl Fn(TexturePoint) -> f64,
 ) {
     for &row in &list.row {
         let row = row as usize;
@@ -71,8 +71,8 @@ fn recolour(
             continue;
         }
         let (first, second) = (table.first[texture as usize], table.second[texture as usize]);
-        let share = share(points.get(row));
-        let mixed = |part: usize| share * first[part] + (1.0 - share) * second[part];
+        let fraction = first_fraction(points.get(row));
+        let mixed = |part: usize| fraction * first[part] + (1.0 - fraction) * second[part];
         (colours.r[row], colours.g[row], colours.b[row]) = (mixed(0), mixed(1), mixed(2));
     }
 }

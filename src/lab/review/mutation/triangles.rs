@@ -1,4 +1,4 @@
-//! Slips between rays and triangles.
+//! Mistakes between rays and triangles.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{ShapeTable, TriangleTable};
@@ -24,7 +24,7 @@ pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&World
     }
 }
 
-/// Each corner's share given to the next one.
+/// Each corner's barycentric coordinate given to the next one.
 pub fn next_corner(
     triangles: Res<Shared<TriangleTable>>,
     shapes: Res<Shared<ShapeTable>>,

@@ -12,7 +12,7 @@ use std::fmt::Write;
 pub struct Compared {
     /// The chapter's stem.
     pub name: String,
-    /// What it is about, or which bug is planted in it.
+    /// What it is about, or which mutation it has.
     pub title: String,
     /// What was kept.
     pub before: Snapshots,

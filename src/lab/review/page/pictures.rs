@@ -44,16 +44,16 @@ fn shot(class: &str, words: &str, png: &[u8], [width, height]: [u32; 2], frame: 
     )
 }
 
-/// A box around the first block that differs, in shares of the picture.
+/// A box around the first block that differs, in fractions of the picture.
 fn frame(first: &Difference, [width, height]: [u32; 2]) -> String {
     let Place::Block { pixels: [x, y], .. } = &first.place else { return String::new() };
-    let share = |pixels: u32, side: u32| f64::from(pixels) / f64::from(side) * 100.0;
+    let percent = |pixels: u32, side: u32| f64::from(pixels) / f64::from(side) * 100.0;
     format!(
         "<i class=\"frame\" style=\"left:{:.3}%;top:{:.3}%;width:{:.3}%;height:{:.3}%\"></i>",
-        share(*x.start(), width),
-        share(*y.start(), height),
-        share(x.end() + 1 - x.start(), width),
-        share(y.end() + 1 - y.start(), height)
+        percent(*x.start(), width),
+        percent(*y.start(), height),
+        percent(x.end() + 1 - x.start(), width),
+        percent(y.end() + 1 - y.start(), height)
     )
 }
 

@@ -1,8 +1,8 @@
 use crate::review::{ChangedRow, changed_rows};
 use std::fmt::Write;
 
-/// Where the lanes of a probe's line start: after its column's name, space and unit.
-const LANES_AT: usize = 55;
+/// Where the components of a probe's line start: after its column's name, space and unit.
+const COMPONENTS_AT: usize = 55;
 
 /// What changed at the probes: a table a probe, a line a number that changed, with its differing digits marked.
 ///
@@ -34,7 +34,7 @@ pub fn rays(before: &str, now: &str) -> Option<String> {
         let (place, _) = probe.split_once("   ").unwrap_or((probe, ""));
         let _ = write!(
             text,
-            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"double_double\"><table>\
+            "<details{open}><summary>{} <small>{count} changed</small></summary><div class=\"wide\"><table>\
              <thead><tr><th scope=\"col\">column</th><th scope=\"col\">component</th><th scope=\"col\">before</th>\
              <th scope=\"col\">now</th></tr></thead><tbody>\n{lines}</tbody></table></div></details>\n",
             escape(place)
@@ -52,7 +52,7 @@ struct Changed {
     now: String,
 }
 
-/// The lanes of a column that changed at a probe.
+/// The components of a column that changed at a probe.
 fn changed_components(row: &ChangedRow<'_>) -> Vec<Changed> {
     let split = |lines: &[&str]| lines.iter().map(|line| components(line)).collect::<Vec<_>>();
     let (before, now) = (split(&row.before), split(&row.now));
@@ -86,11 +86,11 @@ fn changed_components(row: &ChangedRow<'_>) -> Vec<Changed> {
     changed
 }
 
-/// A line's column, and its lanes: a name and a value each.
+/// A line's column, and its components: a name and a value each.
 fn components(line: &str) -> (String, Vec<(String, String)>) {
     let letters: Vec<char> = line.chars().collect();
-    let aligned = letters.get(LANES_AT - 1) == Some(&' ') && letters.len() > LANES_AT;
-    let cut = if aligned { LANES_AT } else { 0 };
+    let aligned = letters.get(COMPONENTS_AT - 1) == Some(&' ') && letters.len() > COMPONENTS_AT;
+    let cut = if aligned { COMPONENTS_AT } else { 0 };
     let (head, rest): (String, String) = (letters[..cut].iter().collect(), letters[cut..].iter().collect());
     let name = head.split("  ").next().unwrap_or_default().trim().to_string();
     let pairs = rest.trim().split("  ").filter(|pair| !pair.is_empty());

@@ -19,7 +19,7 @@ pub fn stages(before: &str, now: &str) -> String {
         );
     }
     format!(
-        "<div class=\"double_double\"><table class=\"stages\"><thead><tr><th scope=\"col\">stage</th><th scope=\"col\">column</th>\
+        "<div class=\"wide\"><table class=\"stages\"><thead><tr><th scope=\"col\">stage</th><th scope=\"col\">column</th>\
          <th scope=\"col\">blocks that differ</th><th scope=\"col\">where</th></tr></thead><tbody>\n{rows}</tbody>\
          </table></div>\n"
     )

@@ -1,4 +1,4 @@
-//! Slips of disks, rectangles and cuboids.
+//! Mistakes of disks, rectangles and cuboids.
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{CuboidTable, DiskTable, RectangleTable, ShapeTable};
@@ -30,9 +30,9 @@ pub fn disk_square(disks: Res<Shared<DiskTable>>, mut tiles: Query<(&WorldRays, 
 pub fn one_coordinate(rectangles: Res<Shared<RectangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for (row, rectangle) in pairs(rays.rows(), rectangles.shape.len()) {
-            let met = crossing(rays.origin_of(row), rays.direction_of(row), &rectangles.planar[rectangle]);
-            if met.at[0].abs() <= 1.0 && !met.surely_not {
-                keep_nearer(&mut hits, row, met.t, rectangles.shape[rectangle]);
+            let hit = crossing(rays.origin_of(row), rays.direction_of(row), &rectangles.planar[rectangle]);
+            if hit.at[0].abs() <= 1.0 && !hit.surely_not {
+                keep_nearer(&mut hits, row, hit.t, rectangles.shape[rectangle]);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Shadow rays: does what lies before the light count, and what lies behind it not?
 //!
 //! A direction in f32 is off by less than u = 2⁻²⁴ across and u in length, so the ray passes a light at distance d by
-//! less than ud. A wall that faces the ray at up to 78° is therefore met no sooner than d(1 − 6u), and the reach
+//! less than ud. A wall that faces the ray at up to 78° is therefore hit no sooner than d(1 − 6u), and the t_max
 //! d(1 − 8u), rounded, stops before it, be the wall ever so close behind the light. A wall along the ray would need a
 //! finer direction: there the light has to stand off the wall by 4ud or more.
 
@@ -10,19 +10,19 @@ use super::{Group, Method, Score, Tally, Trial};
 use crate::measure::oracle_plane::{Plane, plane_t, side_of_plane};
 use crate::measure::oracle_sphere::{Sphere, line_ts};
 use crate::measure::ray_aim::{Draws, rounded_ray, seen_sphere_of_any_size};
-use crate::naive::shadow::{ShadowStart, reach_without_end, start_after_constant, start_off_surface, t_max_to_light};
+use crate::naive::shadow::{ShadowStart, start_after_constant, start_off_surface, t_max_to_light, t_max_without_end};
 use glam::{DVec3, Vec3};
 use pinhole::intersect::Surface;
 use std::cmp::Ordering;
 use std::ops::Range;
 
 const WALL: [Method; 3] = [
-    Method::kit("kit, reach of the light ray", "", 0.0),
+    Method::pinhole("pinhole, t_max of the shadow ray", "", 0.0),
     Method::naive("naive, reach without end", "", 0.0),
     Method::naive("naive, reach to the light", "", 0.0),
 ];
 const BALL: [Method; 3] = [
-    Method::kit("kit, bound of the hit", "", 0.0),
+    Method::pinhole("pinhole, bound of the hit", "", 0.0),
     Method::naive("naive, t > 1e-3", "", 0.0),
     Method::naive("naive, hit + 1e-4 n", "", 0.0),
 ];
@@ -36,7 +36,7 @@ pub fn trials() -> Vec<Trial> {
     let wall = |name, standing| Trial::new(Group::Shadow, name, &WALL, move |range| check_walls(standing, range));
     vec![
         wall("a light before a wall that faces it, as close as f64 has it", facing),
-        wall("a light before a wall of any slant, 4u of its distance off", along),
+        wall("a light before a wall at any angle, 4u of its distance off", along),
         Trial::new(Group::Shadow, "a small ball between surface and light, any size", &BALL, check_balls),
     ]
 }
@@ -61,9 +61,9 @@ fn check_walls(standing: Standing, range: Range<u64>) -> Tally {
         let Some((shadow, wall, distance)) = shadow else { continue };
         tally.scores[0].check(shadow.blocked.is_none());
         let to_wall = plane_t(shadow.origin, shadow.direction, wall);
-        for (score, reach) in tally.scores[1..].iter_mut().zip([reach_without_end(distance), t_max_to_light(distance)])
+        for (score, t_max) in tally.scores[1..].iter_mut().zip([t_max_without_end(distance), t_max_to_light(distance)])
         {
-            score.check(to_wall.is_none_or(|t| t >= f64::from(reach)));
+            score.check(to_wall.is_none_or(|t| t >= f64::from(t_max)));
         }
     }
     tally
@@ -128,7 +128,7 @@ fn check_balls(range: Range<u64>) -> Tally {
     tally
 }
 
-/// Whether the ball still shadows the naive starts; their kernel is exact, so that only the start is judged.
+/// Whether the ball still shadows the naive starts; their kernel is exact, so that only the start is checked.
 fn check_naive_balls(surface: Surface, direction: Vec3, ball: Sphere, scores: &mut [Score]) {
     let shadowed = |start: ShadowStart| {
         line_ts(start.origin, direction, ball).is_some_and(|[_, far]| far > f64::from(start.t_min))
