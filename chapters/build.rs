@@ -1,5 +1,7 @@
 //! Lists the chapters: every folder here that has a `main.rs` is one, so a new chapter is entered nowhere.
 
+mod folders;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -8,22 +10,7 @@ fn main() -> io::Result<()> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     io::Write::write_all(&mut io::stdout(), format!("cargo::rerun-if-changed={}\n", here.display()).as_bytes())?;
-    fs::write(out.join("chapters.rs"), listed(&here, &stems(&here)?))
-}
-
-/// The folders with a `main.rs`: the cover, then the chapters in the order of their numbers.
-fn stems(here: &Path) -> io::Result<Vec<String>> {
-    let mut stems = Vec::new();
-    for entry in fs::read_dir(here)? {
-        let path = entry?.path();
-        if path.join("main.rs").exists()
-            && let Some(stem) = path.file_name()
-        {
-            stems.push(stem.to_string_lossy().into_owned());
-        }
-    }
-    stems.sort_by_key(|stem| (stem != "cover", stem.clone()));
-    Ok(stems)
+    fs::write(out.join("chapters.rs"), listed(&here, &folders::with_file(&here, "main.rs")?))
 }
 
 /// The modules, the function `all`, and the macro `for_each_chapter`.

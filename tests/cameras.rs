@@ -258,7 +258,7 @@ fn angles_are_refused_by_name() {
     let camera = named(&mut world, "camera");
     world.entity_mut(camera).insert(Layers::all());
     let told = pinhole::extract::validate(&Census::of(&world)).expect_err("refused").to_string();
-    assert!(told.starts_with("camera \"camera\": layers is asked for, but a fisheye camera has none"), "{told}");
+    assert!(told.starts_with("camera \"camera\": layers is requested, but a fisheye camera has none"), "{told}");
 }
 
 /// One scene through every camera: another picture each, and of each many colours.

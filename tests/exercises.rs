@@ -1,18 +1,30 @@
-//! What readers write: every stub fails, every kept solution passes, every planted mistake is called by its name.
+//! What readers write: every stub fails, every solution passes, every typical mistake is called by its name.
 
 use pinhole_cli::exercises;
-use pinhole_lab::Attempt;
-use pinhole_lab::exercise::{Outcome, PATIENCE, Progress, Report, check, list_exercises, take_turn};
+use pinhole_cli::exercises::chapter_01_image::question::exercise as image;
+use pinhole_cli::exercises::chapter_05_pinhole::question::exercise as pinhole;
+use pinhole_cli::exercises::chapter_12_how_it_is_built::question::exercise as plan;
+use pinhole_lab::exercise::{Exercise, Outcome, PATIENCE, Progress, Report, list_exercises, take_turn};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
 
-#[path = "exercises/mistakes.rs"]
-mod mistakes;
+#[path = "exercises/folders.rs"]
+mod folders;
 
-#[path = "solutions/mod.rs"]
-mod solutions;
+#[path = "exercises/mine.rs"]
+mod mine;
+
+/// What each chapter's folder holds for tests: the solution, and typical mistakes.
+mod solutions {
+    use pinhole_lab::exercise::Exercise;
+
+    /// A chapter, its solution, its mistakes with words of what must be said of each.
+    pub type Solved = (&'static str, fn() -> Exercise, fn() -> Vec<(Exercise, &'static str)>);
+
+    include!(concat!(env!("OUT_DIR"), "/solutions.rs"));
+}
 
 /// The line that a stub has and a reader's own function has not.
 const MARKER: &str = "// Yours to write:";
@@ -43,9 +55,9 @@ fn told(report: &Report) -> String {
 }
 
 /// One turn: what it printed, and the sentence it ended with.
-fn turn(attempt: Attempt, file: &Path) -> (String, Option<String>) {
+fn turn(exercise: &Exercise, file: &Path) -> (String, Option<String>) {
     let mut out = Vec::new();
-    let ended = take_turn("05_pinhole", attempt, file, &mut out).err().map(|error| error.to_string());
+    let ended = take_turn("05_pinhole", exercise, file, &mut out).err().map(|error| error.to_string());
     (String::from_utf8(out).expect("UTF-8"), ended)
 }
 
@@ -53,14 +65,19 @@ fn hints(said: &str) -> usize {
     said.lines().filter(|line| line.starts_with("hint ")).count()
 }
 
-const RIGHT: Attempt = solutions::ALL[4].1;
-const WRONG: Attempt = Attempt::PerspectiveDirection(|[x, y], _| [x, y, -1.0]);
+fn right() -> Exercise {
+    solutions::chapter_05_pinhole::mistakes::solved()
+}
+
+fn wrong() -> Exercise {
+    pinhole(|[x, y], _| [x, y, -1.0])
+}
 
 #[test]
-fn every_kept_solution_is_right() {
+fn every_solution_is_right() {
     let mut inputs = 0;
-    for (chapter, solution) in solutions::ALL.iter().copied() {
-        let report = check(solution, PATIENCE);
+    for (chapter, solved, _) in solutions::ALL {
+        let report = solved().check(PATIENCE);
         assert!(matches!(report.outcome, Outcome::Right(_)), "{chapter}: {}", told(&report));
         inputs += report.inputs;
         eprintln!("{chapter}: {}", told(&report).lines().nth(1).unwrap_or_default());
@@ -71,10 +88,10 @@ fn every_kept_solution_is_right() {
 #[test]
 fn every_stub_is_wrong() {
     let (mut stubs, mut asking) = (0, 0);
-    for &(chapter, attempt) in exercises::ALL {
+    for (chapter, exercise) in exercises::all() {
         asking += 1;
         if untouched(chapter) {
-            let report = check(attempt, PATIENCE);
+            let report = exercise.check(PATIENCE);
             assert!(report.is_stub(), "{chapter}: {}", told(&report));
             stubs += 1;
         }
@@ -85,14 +102,14 @@ fn every_stub_is_wrong() {
 
 #[test]
 fn chapters_stubs_and_solutions_agree() {
-    for ((name, solution), chapter) in solutions::ALL.iter().zip(exercises::ALL) {
-        let (chapter, attempt) = chapter;
-        assert!(chapters::all().iter().any(|known| known.name == *chapter), "{chapter} is no chapter");
-        assert_eq!((*name, solution.function()), (*chapter, attempt.function()));
-        let signature = format!("pub fn {}(", attempt.function());
+    for ((name, solved, _), (chapter, exercise)) in solutions::ALL.iter().zip(exercises::all()) {
+        let solution = solved();
+        assert!(chapters::all().iter().any(|known| known.name == chapter), "{chapter} is no chapter");
+        assert_eq!((*name, solution.function), (chapter, exercise.function));
+        let signature = format!("pub fn {}(", exercise.function);
         assert!(stub(name).contains(&signature), "no {signature} in chapters/{name}/exercise.rs");
-        let report = check(*solution, PATIENCE);
-        assert_eq!(report.function, attempt.function());
+        let report = solution.check(PATIENCE);
+        assert_eq!(report.function, exercise.function);
         assert!(report.hints.len() >= 3, "{name}: only {} hints", report.hints.len());
         let (file, word) = report.pinhole_has;
         let source = fs::read_to_string(root().join(file)).unwrap_or_else(|_| panic!("{name}: there is no {file}"));
@@ -101,28 +118,30 @@ fn chapters_stubs_and_solutions_agree() {
 }
 
 #[test]
-fn every_planted_mistake_is_called_by_its_name() {
-    let mut unnamed = Vec::new();
-    for (at, (chapter, mistake, words)) in mistakes::ALL.iter().enumerate() {
-        let report = check(*mistake, PATIENCE);
-        let looks_like = match &report.outcome {
-            Outcome::Wrong(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
-            _ => "no mistake at all",
-        };
-        if !looks_like.contains(words) {
-            unnamed.push(format!("{chapter}, mistake {at}, \"{words}\": {looks_like}\n{}", told(&report)));
+fn every_typical_mistake_is_called_by_its_name() {
+    let (mut made, mut unnamed) = (0, Vec::new());
+    for (chapter, _, mistakes) in solutions::ALL {
+        let mistakes = mistakes();
+        assert!(!mistakes.is_empty(), "no mistake is known of {chapter}");
+        for (at, (mistake, words)) in mistakes.iter().enumerate() {
+            let report = mistake.check(PATIENCE);
+            let looks_like = match &report.outcome {
+                Outcome::Wrong(mismatch) => mismatch.looks_like.unwrap_or("nothing known"),
+                _ => "no mistake at all",
+            };
+            if !looks_like.contains(words) {
+                unnamed.push(format!("{chapter}, mistake {at}, \"{words}\": {looks_like}\n{}", told(&report)));
+            }
+            made += 1;
         }
     }
-    assert!(unnamed.is_empty(), "{} of {}:\n{}", unnamed.len(), mistakes::ALL.len(), unnamed.join("\n"));
-    for (chapter, _) in solutions::ALL {
-        assert!(mistakes::ALL.iter().any(|(of, ..)| of == chapter), "no mistake is planted in {chapter}");
-    }
-    eprintln!("mistakes: {} planted, all recognised", mistakes::ALL.len());
+    assert!(unnamed.is_empty(), "{} of {made}:\n{}", unnamed.len(), unnamed.join("\n"));
+    eprintln!("mistakes: {made} made, all recognised");
 }
 
 #[test]
 fn a_mismatch_names_input_answer_and_expected() {
-    let said = told(&check(Attempt::RasterFromIndex(|i, w| [(i % w as u64) as f64, (i / w as u64) as f64]), PATIENCE));
+    let said = told(&image(|i, w| [(i % w as u64) as f64, (i / w as u64) as f64]).check(PATIENCE));
     for words in ["index 0, width 4", "yours      (0.0, 0.0)", "expected   (0.5, 0.5)", "difference (-0.5, -0.5)"] {
         assert!(said.contains(words), "no \"{words}\" in\n{said}");
     }
@@ -132,27 +151,27 @@ fn a_mismatch_names_input_answer_and_expected() {
 fn hints_grow_and_progress_is_kept() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("out/check.json");
-    let most = check(RIGHT, PATIENCE).hints.len();
+    let most = right().check(PATIENCE).hints.len();
     for time in 1..=most + 2 {
-        let (said, ended) = turn(WRONG, &file);
+        let (said, ended) = turn(&wrong(), &file);
         assert_eq!(hints(&said), time.min(most), "{said}");
         assert!(ended.is_some_and(|ended| ended.contains("is wrong for")), "{said}");
         assert_eq!(Progress::read(&file).0.of("05_pinhole").wrong as usize, time);
     }
     let list = |file: &Path| {
         let mut out = Vec::new();
-        list_exercises(&[("05_pinhole", WRONG)], file, &mut out).expect("printed");
+        list_exercises(&[("05_pinhole", wrong())], file, &mut out).expect("printed");
         String::from_utf8(out).expect("UTF-8")
     };
     assert!(list(&file).contains(&format!("tried {} times", most + 2)), "{}", list(&file));
-    let (said, ended) = turn(RIGHT, &file);
+    let (said, ended) = turn(&right(), &file);
     assert!(ended.is_none() && said.contains("is right for all") && hints(&said) == 0, "{said}");
     assert!(list(&file).contains("done"), "{}", list(&file));
-    let (said, _) = turn(WRONG, &file);
+    let (said, _) = turn(&wrong(), &file);
     assert_eq!(hints(&said), 1, "{said}");
-    let stub = Attempt::PerspectiveDirection(|_, _| [0.0; 3]);
+    let stub = pinhole(|_, _| [0.0; 3]);
     let before = Progress::read(&file).0;
-    let (said, ended) = turn(stub, &file);
+    let (said, ended) = turn(&stub, &file);
     assert!(ended.is_some() && said.contains("as the stub does"), "{said}");
     assert_eq!(Progress::read(&file).0, before, "a stub counts as no try");
 }
@@ -161,7 +180,7 @@ fn hints_grow_and_progress_is_kept() {
 fn a_damaged_file_of_progress_is_set_aside() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("check.json");
-    turn(WRONG, &file);
+    turn(&wrong(), &file);
     let whole = fs::read(&file).expect("written");
     let halves = (0..whole.len() - 2).map(|length| whole[..length].to_vec());
     let others: [&[u8]; 5] =
@@ -169,7 +188,7 @@ fn a_damaged_file_of_progress_is_set_aside() {
     let mut damaged = 0;
     for bytes in halves.chain(others.map(<[u8]>::to_vec)) {
         fs::write(&file, &bytes).expect("written");
-        let (said, ended) = turn(RIGHT, &file);
+        let (said, ended) = turn(&right(), &file);
         assert!(ended.is_none() && said.contains("is damaged") && said.contains("is set aside as"), "{said}");
         assert_eq!(fs::read(folder.path().join("check.damaged.json")).expect("set aside"), bytes);
         assert!(Progress::read(&file).0.of("05_pinhole").done);
@@ -177,7 +196,7 @@ fn a_damaged_file_of_progress_is_set_aside() {
     }
     let occluders = folder.path().join("folder");
     fs::create_dir(&occluders).expect("made");
-    let (said, ended) = turn(RIGHT, &occluders);
+    let (said, ended) = turn(&right(), &occluders);
     assert!(ended.is_none() && said.contains("will not be remembered"), "{said}");
     eprintln!("progress: {damaged} damaged files set aside");
 }
@@ -186,19 +205,19 @@ fn a_damaged_file_of_progress_is_set_aside() {
 fn a_function_that_panics_or_never_ends_is_reported() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("check.json");
-    let panics = Attempt::PerspectiveDirection(|screen, tan| {
+    let panics = pinhole(|screen, tan| {
         assert!(screen[0] >= 0.0, "the image\nis mirrored");
-        solutions::pinhole_camera::perspective_direction(screen, tan)
+        solutions::chapter_05_pinhole::solution::perspective_direction(screen, tan)
     });
-    let (said, ended) = turn(panics, &file);
+    let (said, ended) = turn(&panics, &file);
     assert!(said.contains("panicked: the image is mirrored") && said.contains("screen (-1.0, 0.0)"), "{said}");
     assert!(ended.is_some_and(|ended| ended.contains("panicked at input 3")) && hints(&said) == 1, "{said}");
-    let endless = Attempt::Kept(|_, _| {
+    let endless = plan(|_, _| {
         loop {
             std::thread::sleep(Duration::from_millis(50));
         }
     });
-    let report = check(endless, Duration::from_millis(300));
+    let report = endless.check(Duration::from_millis(300));
     assert!(matches!(report.outcome, Outcome::Late(..)));
     assert!(told(&report).contains("has not answered within 0.3 s"), "{}", told(&report));
 }
@@ -213,8 +232,8 @@ fn the_program_lists_checks_and_ends_with_1_on_a_mismatch() {
     let list = run(folder.path(), &["check"]);
     let said = String::from_utf8(list.stdout).expect("UTF-8");
     assert!(list.status.success());
-    for (chapter, solution) in solutions::ALL {
-        assert!(said.contains(chapter) && said.contains(solution.function()), "no {chapter} in\n{said}");
+    for (chapter, solved, _) in solutions::ALL {
+        assert!(said.contains(chapter) && said.contains(solved().function), "no {chapter} in\n{said}");
     }
     assert!(!said.contains("cover") && !folder.path().join("out").exists(), "{said}");
     let none = run(folder.path(), &["check", "cover"]);

@@ -3,15 +3,22 @@
 
 use std::sync::OnceLock;
 
-use pinhole_lab::figure::{self, Drawing, Grid, Subject, chosen_rays, drawn_distance, overlap};
+use pinhole_cli::figures;
+use pinhole_lab::figure::{Drawing, Figure, Grid, Subject, chosen_rays, draw, drawn_distance, overlap};
 
 /// All of them, drawn once for all tests.
 fn drawings() -> &'static [(&'static str, Drawing)] {
     static DRAWINGS: OnceLock<Vec<(&str, Drawing)>> = OnceLock::new();
     DRAWINGS.get_or_init(|| {
         let chapters = chapters::all();
-        let draw = |figure: &figure::Figure| (figure.name, figure::draw(&chapters, figure.name).expect(figure.name));
-        figure::figures().iter().map(draw).collect()
+        let figures = figures::all();
+        let drawn = |figure: &Figure| {
+            let drawing = draw(&figures, &chapters, figure.name).expect(figure.name);
+            assert!(drawing.text.contains(&format!("scene {}", figure.chapter)), "{} names no scene", figure.name);
+            assert!(drawing.labels.len() >= 3, "{}", figure.name);
+            (figure.name, drawing)
+        };
+        figures.iter().map(drawn).collect()
     })
 }
 
@@ -91,7 +98,7 @@ fn the_command_lists_draws_and_refuses() {
         (done.map_err(|error| error.to_string()), String::from_utf8(out).expect("text"))
     };
     let (done, listed) = run(&["figure"]);
-    assert!(done.is_ok() && listed.lines().count() == figure::figures().len());
+    assert!(done.is_ok() && listed.lines().count() == figures::all().len());
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("x.svg");
     let (done, told) = run(&["figure", "02_ray", "-o", &file.display().to_string()]);
@@ -99,4 +106,15 @@ fn the_command_lists_draws_and_refuses() {
     assert!(std::fs::read_to_string(&file).is_ok_and(|text| text.starts_with("<svg")));
     let (done, _) = run(&["figure", "05_pinhloe"]);
     assert!(done.is_err_and(|told| told.contains("the nearest is 05_pinhole")));
+}
+
+#[test]
+fn a_camera_of_the_other_kind_is_refused_in_a_sentence() {
+    let mut chapters = chapters::all();
+    chapters.retain(|chapter| chapter.name != "05_pinhole");
+    let other = chapters.iter_mut().find(|chapter| chapter.name == "04_orthographic").expect("the chapter");
+    other.name = "05_pinhole";
+    let refused = draw(&figures::all(), &chapters, "05_pinhole").err().expect("refused");
+    let sentence = "the figure 05_pinhole needs a perspective camera, and the scene of 05_pinhole has none";
+    assert_eq!(refused.to_string(), sentence);
 }

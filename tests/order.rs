@@ -28,21 +28,19 @@ const ORDER: &[(&str, &[&str])] = &[
             "prelude",
         ],
     ),
-    ("lab", &["png_url", "repository", "naive", "attempt", "figure", "review", "measure", "report", "exercise"]),
-    ("", &["exercises", "command"]),
+    ("lab", &["png_url", "repository", "naive", "figure", "review", "measure", "report", "exercise"]),
+    ("", &["exercises", "figures", "command"]),
 ];
 
 /// What every folder may name at the crate's root.
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 7] = [
+const REEXPORTED: [(&str, &str); 5] = [
     ("Chapter", "chapter"),
     ("Asked", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
-    ("Attempt", "attempt"),
-    ("StageWords", "attempt"),
     ("run", "example"),
 ];
 

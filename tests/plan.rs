@@ -95,8 +95,8 @@ fn rows_systems_columns_and_tables_are_one_list() {
         if pictureless(&on) {
             refused += 1;
             match prepare(&Census::of(&scene), &offer).err().expect("refused") {
-                Error::Plan(PlanError::NoSuchView { asked, why }) => {
-                    assert_eq!(asked, VIEWED, "{on:?}");
+                Error::Plan(PlanError::NoSuchView { wanted, why }) => {
+                    assert_eq!(wanted, VIEWED, "{on:?}");
                     assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, "), "{on:?}: {why}");
                 }
                 other => panic!("{on:?}: {other}"),
@@ -374,14 +374,14 @@ fn three(noun: &str) -> String {
 fn an_emissive_surface_is_seen_and_lights_nothing() {
     let mut scene = toggled(&[Toggle::Emissive, Toggle::Plane]);
     let aimed = plan_of(&scene);
-    assert_eq!(row(&aimed, "Add emission").reason, "added as far as it is not aimed at");
+    assert_eq!(row(&aimed, "Add emission").reason, "added with its MIS weight");
     assert!(row(&aimed, "Add emission, weighted by MIS").kept);
     assert!(row(&aimed, "Sample area lights").kept && row(&aimed, "Evaluate direct light").kept);
     let camera = named(&mut scene, "camera");
     scene.entity_mut(camera).insert(Integrator::RayCasting);
     let plan = plan_of(&scene);
     let emission = row(&plan, "Add emission");
-    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but lighting nothing else");
+    assert_eq!(emission.reason, "1 emissive surface: \"glow\", seen, but not lighting other surfaces");
     assert!(emission.kept && !row(&plan, "Show unlit surfaces").kept && !row(&plan, "Evaluate direct light").kept);
     let alone = plan_of(&toggled(&[Toggle::Emissive, Toggle::Light]));
     let columns: Vec<&str> = alone.columns.iter().map(|column| column.name).collect();

@@ -225,7 +225,7 @@ fn the_command_line_samples_what_it_is_told_and_refuses_in_a_sentence() {
     assert!(done.is_ok() && told.contains(expected), "{told}");
     let (done, told) = run("trace 5 --pixel 1,2 --samples 8 --sample 7");
     assert!(
-        done.is_ok() && told.contains("pixel 1,2   sample 7, leg 0") && told.contains("pixel 0  sample 7"),
+        done.is_ok() && told.contains("pixel 1,2   sample 7, bounce 0") && told.contains("pixel 0  sample 7"),
         "{told}"
     );
     for (words, told) in [

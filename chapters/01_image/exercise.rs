@@ -1,4 +1,4 @@
-//! The exercise of chapter 01; `cargo run --release -- check 1` compares it with the kit.
+//! The exercise of chapter 01; `cargo run --release -- check 1` compares it with pinhole's.
 
 // ANCHOR: raster_from_index
 /// The centre, in raster space, of the pixel with this running index in an image `width` pixels wide.

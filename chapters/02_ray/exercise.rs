@@ -1,4 +1,4 @@
-//! The exercise of chapter 02; `cargo run --release -- check 2` compares it with the kit.
+//! The exercise of chapter 02; `cargo run --release -- check 2` compares it with pinhole's.
 
 // ANCHOR: unit
 /// The vector of length 1 that points where `v` points, or `None` where `v` points nowhere.

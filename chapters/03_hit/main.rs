@@ -1,4 +1,4 @@
-//! A ray meets a sphere and a plane: which t comes first?
+//! A ray hits a sphere and a plane: which t comes first?
 //! The picture paints the hits, a colour a shape, darker with distance.
 //! New here: intersection, exact enough for a sphere that is very far or very large.
 

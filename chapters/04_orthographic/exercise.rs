@@ -1,4 +1,4 @@
-//! The exercise of chapter 04; `cargo run --release -- check 4` compares it with the kit.
+//! The exercise of chapter 04; `cargo run --release -- check 4` compares it with pinhole's.
 
 // ANCHOR: orthographic_ray
 /// The ray, in camera space, of an orthographic camera through a screen point: its origin and its direction.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 05; `cargo run --release -- check 5` compares it with the kit.
+//! The exercise of chapter 05; `cargo run --release -- check 5` compares it with pinhole's.
 
 // ANCHOR: perspective_direction
 /// The direction, in camera space and of length 1, from the eye through a screen point.

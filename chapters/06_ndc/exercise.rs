@@ -1,4 +1,4 @@
-//! The exercise of chapter 06; `cargo run --release -- check 6` compares it with the kit.
+//! The exercise of chapter 06; `cargo run --release -- check 6` compares it with pinhole's.
 
 // ANCHOR: pixel_from_ndc
 /// The pixel that holds an NDC point, or `None` where the point lies outside the image.

@@ -1,4 +1,4 @@
-//! The exercise of chapter 07; `cargo run --release -- check 7` compares it with the kit.
+//! The exercise of chapter 07; `cargo run --release -- check 7` compares it with pinhole's.
 
 // ANCHOR: ndc_from_screen
 /// The NDC point of a screen point: `screen_from_ndc` undone, for an image of this many pixels.

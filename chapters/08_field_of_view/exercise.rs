@@ -1,4 +1,4 @@
-//! The exercise of chapter 08; `cargo run --release -- check 8` compares it with the kit.
+//! The exercise of chapter 08; `cargo run --release -- check 8` compares it with pinhole's.
 
 use pinhole::scene::FovAxis;
 

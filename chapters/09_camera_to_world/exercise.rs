@@ -1,4 +1,4 @@
-//! The exercise of chapter 09; `cargo run --release -- check 9` compares it with the kit.
+//! The exercise of chapter 09; `cargo run --release -- check 9` compares it with pinhole's.
 
 // ANCHOR: normal_world_from_object
 /// The normal, in world space and of length 1, of a surface whose normal in object space is `normal`.

@@ -1,4 +1,4 @@
-//! The camera stands anywhere and is turned any way; its rays were made as if it stood at the origin and looked down −z.
+//! The camera stands anywhere and looks in any direction; its rays were made as if it stood at the origin, facing −z.
 //! Eggs and a lens are spheres whose placement scales them unevenly; a point, a direction and a normal move differently.
 //! New here: the last step of ray generation, and where things stand.
 

@@ -1,7 +1,7 @@
-//! The exercise of chapter 11; `cargo run --release -- check 11` compares it with the kit.
+//! The exercise of chapter 11; `cargo run --release -- check 11` compares it with pinhole's.
 
 // ANCHOR: pinhole_from_theirs
-/// A direction that is given in another camera's axes, in ours: x right, y up, z back.
+/// A direction that is given in another camera's axes, in pinhole's: x right, y up, z back.
 ///
 /// Their x points right if `x_right` is true, and else left; their y up if `y_up`, and else down; their z ahead if
 /// `z_ahead`, and else back. The length stays what it is, and only the exact numbers count.

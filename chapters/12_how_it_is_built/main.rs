@@ -1,5 +1,5 @@
-//! How the kit is built, shown by building onto it: a column and a stage of this chapter's own.
-//! The picture is how squarely each surface faces the eye, which no stage of the kit computes.
+//! How pinhole is built, shown by building onto it: a column and a stage of this chapter's own.
+//! The picture is how directly each surface faces the eye, which no stage of pinhole computes.
 //! New here: nothing in the renderer; `Facing` and its stage live in this file.
 
 use bevy_ecs::prelude::*;
@@ -28,9 +28,9 @@ pub fn chapter() -> Chapter {
 
 // ANCHOR: facing
 column! {
-    /// How squarely each ray meets its surface.
+    /// The cosine at which each ray hits its surface.
     pub struct Facing("facing", "none, a ratio", "1", Ray) {
-        /// The cosine of the angle between the normal and the way back to the eye; 0 where nothing is met.
+        /// The cosine of the angle between the normal and the direction to the eye; 0 where nothing is hit.
         cosine: f32,
     }
 }

@@ -1,4 +1,4 @@
-//! The exercise of chapter 13; `cargo run --release -- check 13` compares it with the kit.
+//! The exercise of chapter 13; `cargo run --release -- check 13` compares it with pinhole's.
 
 // ANCHOR: nearest_box_t
 /// The smallest t above 0 at which origin + t · direction lies on a face of the box between two corners, `None` where
@@ -7,7 +7,7 @@
 /// The faces lie across the axes; `least` holds the smaller coordinates, `most` the larger ones.
 /// The direction is not 0 and may have any length and zeros of either sign; t counts in that length.
 /// The origin may lie outside, inside or on the box. Faces, edges and corners belong to the box, so that a ray that runs
-/// along a face meets it, where it comes to the first edge.
+/// along a face hits it, where it comes to the first edge.
 pub fn nearest_box_t(origin: [f64; 3], direction: [f64; 3], least: [f64; 3], most: [f64; 3]) -> Option<f64> {
     // Yours to write: put your own lines for the two below.
     let _ = (origin, direction, least, most);

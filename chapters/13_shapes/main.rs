@@ -1,4 +1,4 @@
-//! A scene of many kinds: a ball, a floor, a table top, a board, boxes, a pyramid of triangles; which one does a ray meet?
+//! A scene of many kinds: a ball, a floor, a table top, a board, boxes, a pyramid of triangles; which one does a ray hit?
 //! Each kind narrows the hit in its turn; where two are equally near, the lower shape number wins.
 //! New here: the disk, the rectangle and the cuboid, and how each is described.
 

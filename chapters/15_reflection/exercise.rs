@@ -1,10 +1,10 @@
-//! The exercise of chapter 15; `cargo run --release -- check 15` compares it with the kit.
+//! The exercise of chapter 15; `cargo run --release -- check 15` compares it with pinhole's.
 
 // ANCHOR: phong_radiance
 /// The radiance that a Phong surface sends towards the eye of parallel light that nothing blocks.
 ///
-/// `colour` and `specular` are shares of the light from 0 to 1, and `exponent` is at least 0.
-/// `irradiance` is what a surface that faces the light squarely would receive.
+/// `colour` and `specular` are reflectances from 0 to 1, and `exponent` is at least 0.
+/// `irradiance` is what a surface that the light falls on at normal incidence would receive.
 /// `normal`, `to_light` and `to_eye` have length 1; the eye is on the normal's side.
 /// A surface that faces away from the light, or lies in line with it, sends 0.
 /// The answer may be off by 1e-10 of itself.

@@ -1,6 +1,6 @@
 //! What does a surface make of the light that falls on it? Three models side by side: matte, Phong, Blinn–Phong.
-//! Three kinds of light shine on them, a sun, a spot and a lamp, and one ball shines by itself.
-//! New here: highlights, surfaces that emit, and lights that are no points.
+//! Three kinds of light shine on them, directional, spot and point, and one ball shines by itself.
+//! New here: highlights, surfaces that emit, and lights other than points.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

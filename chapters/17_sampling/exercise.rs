@@ -1,4 +1,4 @@
-//! The exercise of chapter 17; `cargo run --release -- check 17` compares it with the kit.
+//! The exercise of chapter 17; `cargo run --release -- check 17` compares it with pinhole's.
 
 // ANCHOR: tent_offset
 /// How far to the right of the pixel's centre a tent filter puts the sample that a number stands for, in pixels.

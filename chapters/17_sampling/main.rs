@@ -1,4 +1,4 @@
-//! Sampling a pixel: many rays through each, at well-chosen places, each counted as a filter weighs it.
+//! Sampling a pixel: many rays through each, at well-chosen places, each weighted by a filter.
 //! The rings become finer than a pixel; what is wrong with the samples shows as rings that are not there.
 //! New here: the `Sampling` on the camera, and the stage "Place samples" in place of "Place raster points".
 

@@ -1,4 +1,4 @@
-//! The exercise of chapter 18; `cargo run --release -- check 18` compares it with the kit.
+//! The exercise of chapter 18; `cargo run --release -- check 18` compares it with pinhole's.
 
 // ANCHOR: variance_and_bias_squared
 /// The variance from run to run of one pixel, and the square of its bias, each estimated without a bias of its own.

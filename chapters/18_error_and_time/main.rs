@@ -1,5 +1,5 @@
 //! How wrong is a picture, and after how long? A scene whose error is at its edges: of balls, and of their shadows.
-//! Two lamps, so that a shadow has an edge inside another.
+//! Two lights, so that a shadow has an edge inside another.
 //! New here: no stage at all, but a report about those there are.
 
 use bevy_ecs::prelude::*;

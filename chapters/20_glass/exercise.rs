@@ -1,4 +1,4 @@
-//! The exercise of chapter 20; `cargo run --release -- check 20` compares it with the kit.
+//! The exercise of chapter 20; `cargo run --release -- check 20` compares it with pinhole's.
 
 // ANCHOR: refracted
 /// The direction in which light goes on that passes through a surface, or `None` where all of it is reflected.

@@ -1,5 +1,5 @@
-//! Lamps with an area: a shadow's edge is as soft as the lamp is wide. One point of one lamp is asked at a time, at random.
-//! A wide lamp on one side, a bulb on the other: the post and the ball have a shadow of each.
+//! Lights with an area: a shadow's edge is as soft as the light is wide. One point of one light is sampled at a time.
+//! A wide light on one side, a bulb on the other: the post and the ball have a shadow of each.
 //! New here: `Emissive` lights other surfaces; the stage "Sample area lights"; the camera's `Integrator`.
 
 use bevy_ecs::prelude::*;

@@ -1,6 +1,6 @@
 //! How much of the sky does each point see? A courtyard under an even sky: creases, corners and arcades are dark.
 //! All is of one colour; whatever tells the shapes apart is what hides the sky.
-//! New here: the `Integrator` on the camera, and rays to the sky instead of to lamps.
+//! New here: the `Integrator` on the camera, and rays to the sky instead of to lights.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

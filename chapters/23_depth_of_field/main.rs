@@ -1,5 +1,5 @@
 //! Depth of field: an opening in place of the pinhole, so that what lies at one distance is sharp and all else is blurred.
-//! A row of balls runs into the distance, and far behind them small lamps show the opening's shape.
+//! A row of balls runs into the distance, and far behind them small lights show the opening's shape.
 //! New here: the `Lens` on the camera, and the stages "Sample the lens" and "Generate camera rays: thin lens".
 
 use bevy_ecs::prelude::*;

@@ -1,4 +1,4 @@
-//! Motion blur: each ray has a time of its own while the shutter is open, and meets what moves where it is then.
+//! Motion blur: each ray has a time of its own while the shutter is open, and hits what moves where it is then.
 //! A ball flies by, a coin falls, and their shadows go with them; what stands still stays sharp.
 //! New here: the `Shutter` on the camera, `Motion` on shapes, and the stages "Sample times" and "Intersect moving shapes".
 

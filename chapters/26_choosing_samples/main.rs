@@ -1,6 +1,6 @@
-//! Which rays tell most? Four plates of metal, smooth to rough, show four lamps, small to large, of equal power.
-//! Rays that chance finds suit the smooth plate, points on lamps the rough one; neither suits both.
-//! New here: `LightStrategy::Mis`, which uses both and counts every way once.
+//! Which rays tell most? Four plates of metal, smooth to rough, show four lights, small to large, of equal power.
+//! BSDF sampling suits the smooth plate, light sampling the rough one; neither suits both.
+//! New here: `LightStrategy::Mis`, which uses both and weights them.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -48,12 +48,12 @@ fn scene(world: &mut World) {
         ("ball", 0.5, 0.32, [0.4, 0.9, 0.6]),
         ("globe", 1.8, 0.8, [0.4, 0.6, 1.0]),
     ] {
-        // A lamp of a quarter of the area shines four times as brightly.
+        // A light of a quarter of the area shines four times as brightly.
         let bright = 0.8 / (radius * radius);
         let emissive = Emissive { radiance: Rgb::new(bright * r, bright * g, bright * b), ..Emissive::default() };
         world.spawn((Name::new(name), Sphere { radius }, Placement::at(x, 2.6, -1.2), emissive));
     }
-    // Each leans so that the eye sees the lamps in it.
+    // Each leans so that the eye sees the lights in it.
     for (name, y, z, lean, roughness) in [
         ("rough plate", 0.2, 2.3, 7.7, 0.25),
         ("brushed plate", 0.4, 1.25, 13.8, 0.1),

@@ -1,4 +1,4 @@
-//! The exercise of chapter 27; `cargo run --release -- check 27` compares it with the kit.
+//! The exercise of chapter 27; `cargo run --release -- check 27` compares it with pinhole's.
 
 // ANCHOR: pixel_fraction
 /// What a pixel gets of each unit of light that a point sends to the eye, per steradian: 1 / (A d² cos³ θ).

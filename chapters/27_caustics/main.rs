@@ -1,6 +1,6 @@
-//! Where does the bright spot behind a ball of glass come from? From a lamp so small that hardly a ray meets it.
-//! The ball gathers the lamp's light on the floor, and half a ring of mirror folds it into a curve.
-//! New here: rays that start on the lamp, and are joined to the camera.
+//! Where does the bright spot behind a ball of glass come from? From a light so small that hardly a ray hits it.
+//! The ball focuses its light on the floor, and half a ring of mirror folds it into a curve.
+//! New here: rays that start on the light, and are connected to the camera.
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -46,15 +46,15 @@ fn scene(world: &mut World) {
     let ball = Placement::at(-0.85, 0.6, 0.1);
     world.spawn((Name::new("ball"), Sphere { radius: 0.6 }, ball, Glass::default()));
 
-    // Half a ring, open towards the lamp: flat pieces, mirrored by their corners' normals.
+    // Half a ring, open towards the light: planar parts, smooth by their corners' normals.
     let gold = world.spawn((Name::new("gold"), Mirror { colour: Rgb::new(0.95, 0.75, 0.35) })).id();
-    let edge = |piece: u32, height: f64| {
-        let angle = PI * (f64::from(piece) / 24.0 - 0.82);
+    let edge = |part: u32, height: f64| {
+        let angle = PI * (f64::from(part) / 24.0 - 0.82);
         let out = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
         (DVec3::new(1.0, height, 0.1) + 0.75 * out, -out)
     };
-    for piece in 0..24 {
-        let corners = [edge(piece, 0.0), edge(piece + 1, 0.0), edge(piece + 1, 0.35), edge(piece, 0.35)];
+    for part in 0..24 {
+        let corners = [edge(part, 0.0), edge(part + 1, 0.0), edge(part + 1, 0.35), edge(part, 0.35)];
         for pick in [[0, 1, 2], [0, 2, 3]] {
             let (vertices, normals) = (pick.map(|at| corners[at].0), Some(pick.map(|at| corners[at].1)));
             world.spawn((Triangle { vertices, normals, uvs: None }, UsesMaterial(gold)));

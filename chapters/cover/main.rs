@@ -1,5 +1,5 @@
 //! The cover: what following light makes possible, in one picture.
-//! A globe of glass gathers a lamp's light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
+//! A globe of glass focuses a light beside it; mirrors, metal and matte seeds stand around, near the lens and far.
 //! Each seed stands a golden angle further round than the last, as in a sunflower.
 
 use bevy_ecs::prelude::*;
@@ -31,7 +31,7 @@ fn scene(world: &mut World) {
         Lens { aperture: Aperture::Radius { radius: 0.16 }, focus_distance: 9.8, ..Lens::default() },
         Resolution { width: 960, height: 540 },
         Sampling { samples: 80, ..Sampling::default() },
-        // Paths that survive roulette count for more, and one that then hits the lamp is a speck: so roulette begins late.
+        // Paths that survive roulette count for more, and one that then hits the light is a speck: so roulette begins late.
         Integrator::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 8 },
         LightTracing { paths: 0.5 },
     ));
@@ -49,7 +49,7 @@ fn scene(world: &mut World) {
         };
     }
     world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.52, 0.5, 0.47) }));
-    // Large and dim: what mirrors and glass show of the lamp is found only by paths that happen to hit it, and where one
+    // Large and dim: what mirrors and glass show of the light is found only by paths that happen to hit it, and where one
     // in 80 does, it must not whiten the pixel.
     let shine = Emissive { radiance: Rgb::new(7.0, 6.0, 4.8), ..Emissive::default() };
     world.spawn((Name::new("lamp"), Sphere { radius: 4.7 }, Placement::at(-6.0, 10.0, -9.0), shine));
@@ -65,12 +65,12 @@ const GOLD: Rgb = Rgb::new(0.86, 0.58, 0.16);
 const TEAL: Rgb = Rgb::new(0.06, 0.34, 0.38);
 
 /// From ember through gold to teal, the further out.
-fn seed_colour(way: f64) -> Rgb {
-    if way < 0.5 { blend(EMBER, GOLD, 2.0 * way) } else { blend(GOLD, TEAL, 2.0 * way - 1.0) }
+fn seed_colour(t: f64) -> Rgb {
+    if t < 0.5 { blend(EMBER, GOLD, 2.0 * t) } else { blend(GOLD, TEAL, 2.0 * t - 1.0) }
 }
 
-/// A colour on the way from one to another.
-fn blend(from: Rgb, to: Rgb, way: f64) -> Rgb {
-    let [r, g, b] = (from.to_vec() * (1.0 - way) + to.to_vec() * way).to_array();
+/// A blend of two colours, from 0, all of the first, to 1.
+fn blend(from: Rgb, to: Rgb, t: f64) -> Rgb {
+    let [r, g, b] = (from.to_vec() * (1.0 - t) + to.to_vec() * t).to_array();
     Rgb::new(r, g, b)
 }

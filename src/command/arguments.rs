@@ -35,6 +35,7 @@ pub fn after_help() -> String {
         "report 18 --quick",
         "export 05_pinhole",
         "check",
+        "render 5 --mine",
     ];
     let tries: Vec<String> = tries.iter().map(|words| format!("  {}", called(words))).collect();
     format!(
@@ -60,7 +61,7 @@ pub enum Command {
     Trace(TraceChapter),
     /// Try the methods where numbers are hardest, beside the naive ones and exact arithmetic
     Extremes(TryExtremes),
-    /// Measure what theory knows, by whole renders, and how far chance may have moved each number
+    /// Measure what theory knows, by whole renders, and how far noise may have moved each number
     ClosedForms(TryClosedForms),
     /// Render a chapter's scene in other units, elsewhere, turned, through other angles, in other sizes
     Sweep(SweepChapter),
@@ -96,7 +97,7 @@ pub struct ReviewSnapshots {
     pub action: Option<ReviewAction>,
     /// Only this chapter: its stem, its number or its name (05_pinhole, 5, pinhole)
     pub chapter: Option<String>,
-    /// Show the page as it would look with a bug planted (all: a table of all bugs)
+    /// Show the page as it would look with a mutation (all: a table of all)
     #[arg(long, value_name = "BUG")]
     pub mutate: Option<String>,
     /// Write one picture instead of the page
@@ -216,7 +217,7 @@ pub struct CompareConventions {
     /// How many pixels the image has: 960x540, 1080p, a width alone such as 960, or a part such as 50%
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, value_parser = size)]
     pub size: Option<Size>,
-    /// Render what one sees who takes a word of another program for ours: mirrored, upside-down, backwards, too-narrow,
+    /// Render what one sees who takes a word of another program for pinhole's: mirrored, upside-down, backwards, too-narrow,
     /// too-wide or rolled
     #[arg(long, value_name = "WORD", value_parser = |word: &str| word.parse::<Mistake>())]
     pub mistake: Option<Mistake>,
@@ -268,6 +269,10 @@ pub struct RenderChapter {
     /// Render the scene file again whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "stats")]
     pub watch: bool,
+    /// Render the chapter with the function that you have written for its exercise in place of pinhole's (default: to
+    /// out/, as 05_mine.png)
+    #[arg(long, conflicts_with = "watch")]
+    pub mine: bool,
     #[command(flatten)]
     pub options: RenderOptions,
 }

@@ -3,8 +3,7 @@ use super::find;
 use super::format::{Format, number_or_word, print_json};
 use crate::exercises;
 use pinhole::Chapter;
-use pinhole_lab::Attempt;
-use pinhole_lab::exercise::{Outcome, Progress, Turn, list_exercises, take_turn, turn};
+use pinhole_lab::exercise::{Exercise, Outcome, Progress, Turn, list_exercises, take_turn, turn};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -19,15 +18,15 @@ const PROGRESS: &str = "out/check.json";
 pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mut dyn Write) -> Result {
     let file = Path::new(PROGRESS);
     match (asked, format) {
-        (None, Format::Text) => Ok(list_exercises(exercises::ALL, file, out)?),
+        (None, Format::Text) => Ok(list_exercises(&exercises::all(), file, out)?),
         (None, Format::Json) => print_json(&told(file), out),
         (Some(asked), Format::Text) => {
-            let (name, attempt) = find(chapters, asked)?;
-            Ok(take_turn(name, attempt, file, out)?)
+            let (name, exercise) = exercise_of(chapters, asked)?;
+            Ok(take_turn(name, &exercise, file, out)?)
         }
         (Some(asked), Format::Json) => {
-            let (name, attempt) = find(chapters, asked)?;
-            let turn = turn(name, attempt, file);
+            let (name, exercise) = exercise_of(chapters, asked)?;
+            let turn = turn(name, &exercise, file);
             print_json(&Told::of(name, &turn), out)?;
             turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::usage(sentence)))
         }
@@ -35,21 +34,24 @@ pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mu
 }
 
 /// A chapter's name and the function that it asks for.
-fn find(chapters: &[Chapter], asked: &str) -> Result<(&'static str, Attempt)> {
+///
+/// Errors: no such chapter, or none with an exercise.
+pub fn exercise_of(chapters: &[Chapter], asked: &str) -> Result<(&'static str, Exercise)> {
     let name = find::chapter(chapters, asked)?.name;
     let none = || format!("{name} has no exercise to check; `check` without a chapter lists those that have one");
-    Ok((name, exercises::of(name).ok_or_else(|| Error::usage(none()))?))
+    let exercise = exercises::all().into_iter().find(|(chapter, _)| *chapter == name);
+    Ok((name, exercise.ok_or_else(|| Error::usage(none()))?.1))
 }
 
 fn told(file: &Path) -> Value {
     let (progress, remark) = Progress::read(file);
-    let told = |(chapter, attempt): &(&str, Attempt)| {
-        let exercise = format!("chapters/{chapter}/exercise.rs");
+    let told = |(chapter, exercise): &(&str, Exercise)| {
+        let file = format!("chapters/{chapter}/exercise.rs");
         json!({
-            "chapter": chapter, "function": attempt.function(), "file": exercise, "tries": progress.of(chapter),
+            "chapter": chapter, "function": exercise.function, "file": file, "tries": progress.of(chapter),
         })
     };
-    let exercises: Vec<Value> = exercises::ALL.iter().map(told).collect();
+    let exercises: Vec<Value> = exercises::all().iter().map(told).collect();
     json!({ "exercises": exercises, "notes": remark.into_iter().collect::<Vec<String>>() })
 }
 

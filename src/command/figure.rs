@@ -1,9 +1,10 @@
 use super::arguments::DrawFigure;
 use super::error::{Error, Result};
 use super::format::{Format, print_json, print_written};
+use crate::figures;
 use pinhole::Chapter;
 use pinhole::film::write_whole;
-use pinhole_lab::figure::{Figure, draw, figures};
+use pinhole_lab::figure::{Figure, draw};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,15 +15,18 @@ pub fn draw_figure(chapters: &[Chapter], asked: &DrawFigure, format: Format, out
         if format.is_json() {
             let told =
                 |Figure { name, chapter, about, .. }| json!({ "name": name, "chapter": chapter, "about": about });
-            return print_json(&json!({ "figures": figures().into_iter().map(told).collect::<Vec<Value>>() }), out);
+            return print_json(
+                &json!({ "figures": figures::all().into_iter().map(told).collect::<Vec<Value>>() }),
+                out,
+            );
         }
-        for figure in figures() {
+        for figure in figures::all() {
             writeln!(out, "{:<18} {}", figure.name, figure.about)?;
         }
         return Ok(());
     };
     let file = svg_place(asked.output.as_ref(), name)?;
-    let drawing = draw(chapters, name)?;
+    let drawing = draw(&figures::all(), chapters, name)?;
     write_whole(&file, |file| file.write_all(drawing.text.as_bytes()))?;
     print_written(&file, format, out)
 }

@@ -3,8 +3,9 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::shape_names;
 use pinhole::film::{Curve, Film, FilmLayers, png_bytes, write_exr, write_layered_exr, write_png};
-use pinhole::plan::{Census, Column, Plan};
+use pinhole::plan::{Census, Plan};
 use pinhole::scene::printable_path;
+use pinhole_lab::exercise::Mine;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -82,15 +83,16 @@ pub struct Files {
     /// The names of shapes by their numbers, for the layer that tells them.
     names: Vec<String>,
     curve: Curve,
+    /// The reader's function, where it stands in a stage; nothing is written once it fails.
+    mine: Option<Mine>,
 }
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan) -> Self {
+    pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan, mine: Option<Mine>) -> Self {
         let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
-        let keeps_layers = plan.columns.iter().any(|column| column.name == FilmLayers::NAME);
-        let names = if keeps_layers { shape_names(scene) } else { Vec::new() };
-        Self { targets, names, curve }
+        let names = if plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
+        Self { targets, names, curve, mine }
     }
 
     /// Writes the files anew, each whole.
@@ -100,15 +102,18 @@ impl Files {
 
     /// Writes one of them.
     pub fn write_one(&self, film: &Film, picture: &Path) -> pinhole::Result {
-        Ok(match (is(picture, "exr"), film.layers.is_empty()) {
+        self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
+        match (is(picture, "exr"), film.layers.is_empty()) {
             (false, _) => write_png(film, self.curve, picture)?,
             (true, true) => write_exr(film, picture)?,
             (true, false) => write_layered_exr(film, &self.names, picture)?,
-        })
+        }
+        Ok(())
     }
 
     /// Sends the picture to standard output, where that is asked for.
     pub fn send(&self, film: &Film, out: &mut dyn Write) -> Result {
+        self.mine.as_ref().map_or(Ok(()), Mine::answers)?;
         if self.targets.standard_output {
             out.write_all(&png_bytes(film, self.curve)?)?;
             out.flush()?;

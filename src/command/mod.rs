@@ -105,6 +105,9 @@ fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) 
         Some(Command::Draw(asked)) => draw::draw_image(&asked, format, out),
         Some(Command::List) => list::list(chapters, format, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, format, streams),
+        Some(Command::Render(asked)) if asked.mine => {
+            render::render_mine(chapters, &asked.chapter, asked.options(), format, streams)
+        }
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?;
             render::render_subject(&subject, &asked.options(), format, streams)

@@ -1,3 +1,4 @@
+use super::check::exercise_of;
 use super::error::{Error, Result};
 use super::files::{Files, Targets};
 use super::find;
@@ -18,6 +19,9 @@ use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::Sampling;
+use pinhole_lab::exercise::{Mine, Outcome, PATIENCE};
+use std::ffi::OsStr;
+use std::path::Path;
 use std::time::Instant;
 
 /// The main job: the cover, to `out/`.
@@ -26,10 +30,65 @@ pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<
     render_subject(&cover, &RenderOptions::default(), format, streams)
 }
 
+/// Renders a chapter with the reader's function in place of one of pinhole's stages.
+///
+/// Errors: no chapter with an exercise, or one that no picture shows; --resume; a function that never answers, panics
+/// or gives what no picture can hold, in one sentence, and then no file is written.
+pub fn render_mine(
+    chapters: &[Chapter],
+    asked: &OsStr,
+    mut options: RenderOptions,
+    format: Format,
+    streams: &mut Streams<'_>,
+) -> Result {
+    if options.resume {
+        let what = "a function may have changed since, so `--mine` begins anew; leave out --resume";
+        return Err(Error::CommandLine(format!("there is nothing to continue: {what}")));
+    }
+    if find::is_scene_file(asked) || asked == "-" {
+        let what = "`--mine` renders a chapter with the function that it asks you to write; a scene file asks for none";
+        return Err(Error::CommandLine(what.into()));
+    }
+    let (name, exercise) = exercise_of(chapters, &asked.to_string_lossy())?;
+    let number = name.split('_').next().unwrap_or(name);
+    let chapter = find::chapter(chapters, name)?;
+    let mine = Mine::of(&exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
+    let report = exercise.check(PATIENCE);
+    match &report.outcome {
+        Outcome::Late(..) => {
+            let late = report.sentence().unwrap_or_default();
+            return Err(Error::usage(format!("{late}, so nothing is rendered; `check {number}` shows the input")));
+        }
+        Outcome::Right(_) => {}
+        _ if report.is_stub() => {
+            streams.note(&format!("note: {} gives one and the same answer, as the stub does", exercise.function))?;
+        }
+        _ => {
+            let sentence = report.sentence().unwrap_or_default();
+            streams.note(&format!("note: {sentence}; `check {number}` shows the first"))?;
+        }
+    }
+    if options.output.is_empty() {
+        options.output = vec![Path::new("out").join(format!("{number}_mine.png"))];
+    }
+    let subject = mine.chapter.clone();
+    render_with(&Subject::Chapter(&subject), &options, Some(mine), format, streams)
+}
+
 /// Renders a scene and says in a few lines what came of it; with `--verbose` all that ran and was left out, too.
 pub fn render_subject(
     subject: &Subject<'_>,
     options: &RenderOptions,
+    format: Format,
+    streams: &mut Streams<'_>,
+) -> Result {
+    render_with(subject, options, None, format, streams)
+}
+
+fn render_with(
+    subject: &Subject<'_>,
+    options: &RenderOptions,
+    mine: Option<Mine>,
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
@@ -51,7 +110,7 @@ pub fn render_subject(
     }
     let said = before_rendering(census, options, (&render, began), json, streams)?;
 
-    let files = Files::new(targets, census, &render.plan);
+    let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
     let outcome = if render.is_sampled() {
         Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {

@@ -21,10 +21,8 @@ pub mod report;
 
 pub mod exercise;
 
-mod attempt;
 mod png_url;
 mod repository;
 
-pub use attempt::{Attempt, StageWords};
 pub use png_url::png_url;
 pub use repository::repository;

@@ -1,4 +1,4 @@
-//! What the renderer does, from top to bottom: every stage once, in the order of the data.
+//! What the renderer does, from top to bottom: every stage once, in the order of the data flow.
 //!
 //! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
 //! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
@@ -42,12 +42,12 @@ enum Group {
 }
 use Group::*;
 
-/// All stages in the order of the data.
+/// All stages in the order of the data flow.
 ///
-/// Where several of one set add to the same sums, their order here decides the last bits of a picture.
+/// Where several of one set add to the same sums, their order here decides the last bits of the picture.
 #[rustfmt::skip]
 const LIST: &[(Group, fn() -> Stage)] = &[
-    // Points of the image become rays in the world, or rays start on the lights.
+    // Image points become rays in world space, or rays start on the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
     (CameraRays, rays::ndc_stage),
@@ -62,7 +62,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
-    // What each bounce fills is cleared.
+    // The columns that each bounce fills are cleared.
     (Intersection, intersect::start_stage),
     (Radiance, shade::start_stage),
     (DirectLight, shade::start_light_stage),
@@ -98,18 +98,18 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Transforms, intersect::shading_normal_stage),
     (Textures, shade::footprint_stage),
     (Textures, shade::colour_stage),
-    (Textures, shade::lay_stage),
+    (Textures, shade::texture_point_stage),
     (Textures, shade::checker_stage),
     (Textures, shade::stripes_stage),
     (Textures, shade::image_stage),
 
-    // What rays that hit nothing bring back.
+    // The radiance of rays that hit nothing.
     (Radiance, shade::background_stage),
     (Environment, shade::environment_stage),
     (AreaLights, follow::mis_environment_stage),
     (Environment, shade::gradient_stage),
 
-    // What else is kept of each pixel.
+    // Layers of the film are recorded.
     (Film, film::layers_stage),
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
@@ -133,7 +133,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Shadows, shade::triangle_shadow_stage),
     (Motion, shade::moving_shadow_stage),
 
-    // Light that arrives is reflected towards where the ray came from.
+    // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
     (Mis, follow::mis_matte_stage),
     (Mis, follow::mis_metal_stage),
     (Highlights, shade::blinn_phong_stage),
@@ -145,7 +145,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (AmbientOcclusion, follow::sky_stage),
     (Unlit, shade::unlit_stage),
 
-    // The path goes on from each surface, or ends there.
+    // BSDFs are sampled to continue the path, or it is terminated.
     (Glass, follow::start_media_stage),
     (Glass, follow::absorb_stage),
     (Glass, follow::glass_stage),
@@ -160,13 +160,13 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Bounces, follow::add_bounce_stage),
     (LightTracing, follow::splat_stage),
     (Glass, follow::carry_media_stage),
-    (Bounces, follow::step_stage),
+    (Bounces, follow::next_bounce_stage),
     (Bounces, follow::footprints_stage),
     (Bounces, follow::times_stage),
 
-    // All further bounces; then the light of the whole path lands on the film.
-    (Bounces, follow::follow_stage),
-    (Bounces, follow::gather_stage),
+    // All further bounces; then the light of the whole path is added to the film.
+    (Bounces, follow::remaining_bounces_stage),
+    (Bounces, follow::sum_bounces_stage),
     (WideCameras, shade::image_circle_stage),
     (Film, film::moments_stage),
     (Film, film::film_stage),
@@ -176,12 +176,12 @@ fn of(group: Group) -> Vec<Stage> {
     LIST.iter().filter(|(own, _)| *own == group).map(|(_, stage)| stage()).collect()
 }
 
-/// Everything, as scene files are offered it: all but the painting of a view, which depends on what else is on offer.
+/// All stages, as offered for scene files, except for the painting of a view, which depends on what else is on offer.
 pub fn all() -> Vec<Stage> {
     LIST.iter().map(|(_, stage)| stage()).collect()
 }
 
-/// Puts stages into the order of the list; those that are not in it follow, as they stood.
+/// Sorts stages into the order of the list; those that are not in it follow in their given order.
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places =
@@ -189,13 +189,13 @@ pub fn sort(offer: &mut [Stage]) {
     offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
 }
 
-/// A ray through the middle of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic
+/// A ray through the centre of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic
 /// cameras.
 pub fn camera_rays() -> Vec<Stage> {
     of(CameraRays)
 }
 
-/// Several samples a pixel, where the camera asks for them.
+/// Several samples per pixel, where the camera asks for them.
 pub fn samples() -> Vec<Stage> {
     of(Samples)
 }
@@ -210,7 +210,7 @@ pub fn lens() -> Vec<Stage> {
     of(Lens)
 }
 
-/// Times at which rays are traced, and shapes that move meanwhile.
+/// Ray times, and shapes that move while the shutter is open.
 pub fn motion() -> Vec<Stage> {
     of(Motion)
 }
@@ -220,12 +220,12 @@ pub fn intersection() -> Vec<Stage> {
     of(Intersection)
 }
 
-/// Positions and normals of what was hit.
+/// Positions and normals of hits.
 pub fn surfaces() -> Vec<Stage> {
     of(Surfaces)
 }
 
-/// What transforms make of shapes: spheres scaled unevenly, and shading normals.
+/// The effects of transforms on shapes: non-uniformly scaled spheres, and shading normals.
 pub fn transforms() -> Vec<Stage> {
     of(Transforms)
 }
@@ -235,43 +235,43 @@ pub fn shadows() -> Vec<Stage> {
     of(Shadows)
 }
 
-/// Each surface in its own colour before a background, where no light is on offer.
+/// Surface colours in front of a background, where no lights are on offer.
 pub fn unlit() -> Vec<Stage> {
     let shown = of(Unlit).into_iter().map(|stage| stage.when(shade::shown_evidence));
     of(Radiance).into_iter().chain(shown).collect()
 }
 
-/// Point lights on matte surfaces, with shadows, before a background; where nothing shines, surfaces are shown unlit.
+/// Point lights on matte surfaces, with shadows, and a background; in a scene without light, surfaces are shown unlit.
 pub fn direct_light() -> Vec<Stage> {
     [Radiance, DirectLight, Shadows, Unlit].into_iter().flat_map(of).collect()
 }
 
-/// Directional lights, spot lights, and surfaces that emit light of their own.
+/// Directional lights, spot lights, and surfaces that emit light.
 pub fn lights() -> Vec<Stage> {
     of(Lights)
 }
 
-/// The highlights of Phong's and of Blinn's model.
+/// Phong and Blinn–Phong highlights.
 pub fn highlights() -> Vec<Stage> {
     of(Highlights)
 }
 
-/// Surfaces with more than one colour, averaged over what a pixel covers of them.
+/// Textures, filtered over each pixel's footprint.
 pub fn textures() -> Vec<Stage> {
     of(Textures)
 }
 
-/// What lies behind everything, where it is more than one colour: a gradient or an image.
+/// Backgrounds of more than one colour: a gradient or an environment image.
 pub fn environment() -> Vec<Stage> {
     of(Environment)
 }
 
-/// What carries a path from bounce to bounce and adds up its light.
+/// The stages that carry a path from bounce to bounce and sum its light.
 pub fn bounces() -> Vec<Stage> {
     of(Bounces)
 }
 
-/// Mirrors, where paths go on in one direction only.
+/// Mirrors, whose BSDF is a delta distribution.
 pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
@@ -286,32 +286,32 @@ pub fn glass() -> Vec<Stage> {
     of(Glass)
 }
 
-/// Lights that fill a solid angle: surfaces that emit, and the environment.
+/// Area lights: surfaces that emit, and the environment.
 pub fn area_lights() -> Vec<Stage> {
     of(AreaLights)
 }
 
-/// How much of the sky each surface sees.
+/// Ambient occlusion.
 pub fn ambient_occlusion() -> Vec<Stage> {
     of(AmbientOcclusion)
 }
 
-/// Paths that go on from matte surfaces, and Russian roulette, which ends them.
+/// Path continuation from matte surfaces, and Russian roulette.
 pub fn path_continuation() -> Vec<Stage> {
     of(PathContinuation)
 }
 
-/// Multiple importance sampling: light that BSDF sampling finds too counts for less.
+/// Multiple importance sampling: light that BSDF sampling finds too is weighted.
 pub fn mis() -> Vec<Stage> {
     of(Mis)
 }
 
-/// Paths from the lights to the camera.
+/// Light tracing: paths from the lights to the camera.
 pub fn light_tracing() -> Vec<Stage> {
     of(LightTracing)
 }
 
-/// The film: sums of samples, and what else is kept of each pixel.
+/// The film: sums of samples, and the layers of each pixel.
 pub fn film() -> Vec<Stage> {
     of(Film)
 }

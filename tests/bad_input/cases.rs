@@ -372,10 +372,10 @@ pub const MATERIAL: &[Case] = &[
     ("a mirror and glass at once", &["\"matter\"", "Mirror and Glass at once", "one material only"], |w| {
         w.spawn((Name::new("matter"), Mirror::default(), Glass::default()));
     }),
-    ("a disk of glass", &["disk \"lens\"", "material", "the glass \"lens\"", "an inside", "a sphere"], |w| {
+    ("a disk of glass", &["disk \"lens\"", "material", "the glass \"lens\"", "an interior", "a sphere"], |w| {
         w.spawn((Name::new("lens"), Disk::default(), Glass::default()));
     }),
-    ("a rectangle of used glass", &["rectangle \"window\"", "material", "the glass \"pane\"", "an inside"], |w| {
+    ("a rectangle of used glass", &["rectangle \"window\"", "material", "the glass \"pane\"", "an interior"], |w| {
         let pane = w.spawn((Name::new("pane"), Glass::default())).id();
         w.spawn((Name::new("window"), Rectangle::default(), UsesMaterial(pane)));
     }),

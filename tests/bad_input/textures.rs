@@ -50,7 +50,7 @@ pub const TEXTURES: &[Case] = &[
     }),
     (
         "a checker that leaves its highlight no room",
-        &["checker \"floor\"", "first", "(0.8, 0.8, 0.8)", "specular share (0.3"],
+        &["checker \"floor\"", "first", "(0.8, 0.8, 0.8)", "specular colour (0.3"],
         |w| {
             let floor = named(w, "floor");
             let shiny = Phong { colour: Rgb::grey(0.1), specular: Rgb::grey(0.3), exponent: 20.0 };
@@ -59,7 +59,7 @@ pub const TEXTURES: &[Case] = &[
     ),
     (
         "an image brighter than its highlight allows",
-        &["image texture \"ball\"", "card.png", "specular share (0, 0.9"],
+        &["image texture \"ball\"", "card.png", "specular colour (0, 0.9"],
         |w| {
             let ball = named(w, "ball");
             let shiny = BlinnPhong { colour: Rgb::grey(0.0), specular: Rgb::new(0.0, 0.9, 0.0), exponent: 20.0 };

@@ -132,7 +132,12 @@ fn varied() -> Vec<Stage> {
     stages.extend([intersect::disk_stage(), intersect::cuboid_stage(), intersect::classify_stage()]);
     stages.extend([intersect::disk_surface_stage(), intersect::cuboid_surface_stage()]);
     stages.extend([shade::start_stage(), shade::start_light_stage(), shade::gradient_stage()]);
-    stages.extend([shade::footprint_stage(), shade::colour_stage(), shade::lay_stage(), shade::checker_stage()]);
+    stages.extend([
+        shade::footprint_stage(),
+        shade::colour_stage(),
+        shade::texture_point_stage(),
+        shade::checker_stage(),
+    ]);
     stages.extend([shade::spot_light_stage(), shade::start_shadow_stage(), shade::disk_shadow_stage()]);
     stages.extend([shade::cuboid_shadow_stage(), shade::light_stage(), shade::phong_stage(), film_stage()]);
     stages
@@ -148,8 +153,8 @@ fn followed() -> Vec<Stage> {
     stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
     stages.extend([shade::plane_shadow_stage(), follow::mis_matte_stage(), shade::light_stage()]);
     stages.extend([follow::mis_emission_stage(), follow::mirror_stage(), follow::matte_stage()]);
-    stages.extend([follow::roulette_stage(), follow::add_bounce_stage(), follow::step_stage()]);
-    stages.extend([follow::follow_stage(), follow::gather_stage(), film_stage()]);
+    stages.extend([follow::roulette_stage(), follow::add_bounce_stage(), follow::next_bounce_stage()]);
+    stages.extend([follow::remaining_bounces_stage(), follow::sum_bounces_stage(), film_stage()]);
     stages
 }
 

@@ -168,7 +168,7 @@ fn cuboids_shine_as_their_faces_do() {
             let mut truth = 0.0;
             for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
                 let out = faces.half_edges[axis] * sign;
-                if !faces.holds(from) && (faces.normals[axis] * sign).dot(from - out) <= 0.0 {
+                if !faces.contains(from) && (faces.normals[axis] * sign).dot(from - out) <= 0.0 {
                     continue;
                 }
                 let [a, b] = [1, 2].map(|next| faces.half_edges[(axis + next) % 3]);

@@ -163,12 +163,12 @@ fn the_plan_tells_what_is_aimed_at() {
     };
     let (kept, reason) = row(&world);
     assert!(
-        !kept && reason == "0 lights with area; 1 shape with no area to aim at, met by chance only: \"egg\"",
+        !kept && reason == "0 lights with area; 1 shape that cannot be sampled, found by BSDF sampling only: \"egg\"",
         "{reason}"
     );
     world.spawn((Name::new("lamp"), Sphere::default(), Emissive::default()));
     let (kept, reason) = row(&world);
-    let expected = "1 light with area: \"lamp\"; 1 shape with no area to aim at, met by chance only: \"egg\"";
+    let expected = "1 light with area: \"lamp\"; 1 shape that cannot be sampled, found by BSDF sampling only: \"egg\"";
     assert!(kept && reason.starts_with(expected), "{reason}");
     let camera = world.query_filtered::<Entity, With<PerspectiveCamera>>().iter(&world).next().expect("a camera");
     world.entity_mut(camera).insert(Integrator::RayCasting);

@@ -205,7 +205,7 @@ fn both_ways_to_a_light_know_one_pdf() {
             Placement { position: DVec3::new(0.0, 4.0, 0.0), orientation: turned(&mut draws), ..Placement::default() };
         let scene = lit_scene(lamp, at, 1.0);
         let lights = AreaLightTable::extract(&Census::of(&scene)).expect("lights");
-        let chances: f64 = lights.random.iter().sum();
+        let chances: f64 = lights.probability.iter().sum();
         assert_eq!(chances, 1.0);
         let (mut world, tile) = tile_world(&scene);
         let surfaces: Vec<Surface> = (0..ROWS)
@@ -221,7 +221,7 @@ fn both_ways_to_a_light_know_one_pdf() {
         for ray in 0..rays.rows() {
             let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = rays.direction_of(ray);
-            let at = from + direction * f64::from(rays.reach[ray]);
+            let at = from + direction * f64::from(rays.t_max[ray]);
             let told = |light| area_light_pdf(&lights, light, from, at);
             let nearest = (0..lights.emitter.len()).map(|light| (told(light) / pdfs.pdf[ray] - 1.0).abs());
             let off = nearest.fold(f64::INFINITY, f64::min);

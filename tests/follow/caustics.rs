@@ -312,7 +312,7 @@ fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
     assert!(
         plan_of(&asking)
             .to_string()
-            .contains("pass \"light\": a row is a way from a light, it leaves the splats on the film")
+            .contains("pass \"light\": a row is a path from a light, it produces the splats on the film")
     );
     // Without mirrors and glass, without a lamp, or with a view, there is nothing to trace.
     let without = |names: &[&str]| {
@@ -391,5 +391,5 @@ fn what_only_light_tracing_finds_is_said_before() {
     for world in [&mut plain, &mut asking] {
         world.spawn((Name::new("sun"), DirectionalLight::default()));
     }
-    assert!(told(&asking).contains("no rays start on lights without a place (1 directional light: \"sun\")"));
+    assert!(told(&asking).contains("no paths start on lights without a position (1 directional light: \"sun\")"));
 }

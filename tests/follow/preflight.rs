@@ -20,30 +20,33 @@ fn said(scene: &World) -> Result<Vec<String>, Error> {
 fn slips_are_told_before_the_picture_is_rendered() {
     let expected: &[(&str, &[&[&str]])] = &[
         ("nothing wrong", &[]),
-        ("no light, by paths", &[&["likely to be black", "there is no light"]]),
-        ("a lamp behind the wall", &[&["likely to be black", "faces away from every light", "\"lamp\""]]),
-        ("a lamp inside the ball", &[&["likely to be black", "rays to lights is blocked", "sphere \"ball\""]]),
+        ("no light, by path tracing", &[&["probably be black", "there is no light"]]),
+        ("a light behind the wall", &[&["probably be black", "faces away from every light", "\"lamp\""]]),
+        ("a light inside the ball", &[&["probably be black", "shadow rays are blocked", "sphere \"ball\""]]),
         (
             "the camera inside the ball",
-            &[&["likely to be black"], &["inside the sphere \"ball\", and sees it from within"]],
+            &[&["probably be black"], &["inside the sphere \"ball\" and sees it from within"]],
         ),
         (
             "the camera inside a block of tinted glass",
-            &[&["inside the cuboid \"block\"", "absorbs on the way to what else"]],
+            &[&["inside the cuboid \"block\"", "its absorption is not applied"]],
         ),
-        ("the camera looks the other way", &[&["likely to be black", "rays meets a shape", "no background"]]),
-        ("the same before a blue sky", &[&["none of", "rays tried", "meets a shape"]]),
-        ("a lamp a hundred times too bright", &[&["% of the rays tried", "more than white", "EXR"]]),
-        ("a small lamp left to chance", &[&["likely to be black", "0 of 6144 rays", "by chance", "Mis"]]),
-        ("a mirror, by ray casting", &[&["shows mirrors and glass dark", "\"mirror\"", "Integrator::Whitted"]]),
+        ("the camera looks the other way", &[&["probably be black", "rays hits a shape", "no background"]]),
+        ("the same in front of a blue sky", &[&["none of", "test rays", "hits a shape"]]),
+        ("a light a hundred times too bright", &[&["% of the test rays", "more than white", "EXR"]]),
         (
-            "a lamp with an area, by Whitted's rays",
+            "a small area light found by BSDF sampling alone",
+            &[&["probably be black", "0 of 6144 rays", "at random", "Mis"]],
+        ),
+        ("a mirror, by ray casting", &[&["renders mirrors and glass black", "\"mirror\"", "Integrator::Whitted"]]),
+        (
+            "an area light, by Whitted's method",
             &[
-                &["likely to be black", "light nothing here", "\"panel\""],
-                &["rays light nothing by", "\"panel\"", "Integrator::Path"],
+                &["probably be black", "illuminate nothing", "\"panel\""],
+                &["do not illuminate others", "\"panel\"", "Integrator::Path"],
             ],
         ),
-        ("focus at 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
+        ("a focus distance of 0", &[&["refused", "camera \"camera\": focus_distance is 0,"]]),
     ];
     assert_eq!(
         MISTAKES.iter().map(|mistake| mistake.what).collect::<Vec<_>>(),
@@ -133,7 +136,7 @@ fn a_lamp_that_shines_the_other_way_is_told() {
         said(&world).expect("said")
     };
     let told = scene(false);
-    assert!(told.len() == 1 && told[0].contains("the lights shine elsewhere") && told[0].contains("panel"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("is not in any light's beam") && told[0].contains("panel"), "{told:?}");
     assert!(scene(true).is_empty(), "{:?}", scene(true));
 }
 
@@ -189,7 +192,7 @@ fn matter_that_no_stage_follows_is_refused() {
         assert!(prepare(census, &chapter(true).stages()).is_ok(), "{word}");
         let refused = prepare(census, &chapter(false).stages()).err().map(|error| error.to_string());
         let sentence = format!(
-            "sphere \"ball\": {word} is given, but no stage on offer sends light on from it; offer stages::all(), \
+            "sphere \"ball\": {word} is given, but no stage on offer samples its BSDF; offer stages::all(), \
              which do"
         );
         assert_eq!(refused, Some(sentence));

@@ -1,7 +1,7 @@
 //! What stages read and write comes from their systems' parameters; little is left to declare.
 
 use super::*;
-use pinhole::follow::follow_stage;
+use pinhole::follow::remaining_bounces_stage;
 use pinhole::intersect::{classify_stage, sphere_stage};
 use pinhole::plan::{Column, Shared, column};
 use pinhole::rays::{CameraRays, RasterPoints, lens_point_stage, world_stage};
@@ -89,7 +89,7 @@ fn systems_say_what_stages_touch() {
     assert_eq!((reads, reads_if), (vec!["surface", "material rows", "light"], vec!["shading"]), "a stage that appends");
     assert_eq!((writes, stage.appends), (vec!["light", "light pdf"], true));
 
-    let stage = follow_stage();
+    let stage = remaining_bounces_stage();
     let [reads, _, reasons, writes, tables, _] = touched(&stage);
     assert_eq!((reads, writes), (vec!["world", "path light"], vec!["path light"]), "an exclusive system declares");
     assert_eq!((reasons.len(), tables), (4, vec!["integrator"]));

@@ -186,9 +186,9 @@ fn forcing_a_needed_stage_off_shows() {
                     assert!(stage.writes.iter().any(|own| own.name == column), "\"{}\" writes {column}", stage.name);
                     Some(format!("\"{reader}\" finds `{column}` only after \"{writer}\" in \"{name}\""))
                 }
-                Err(Error::Plan(PlanError::NoSuchView { asked, why })) => {
+                Err(Error::Plan(PlanError::NoSuchView { wanted, why })) => {
                     assert!(why.contains(stage.name) && why.contains("forced off"), "{why}");
-                    Some(format!("the view misses `{asked}` in \"{name}\""))
+                    Some(format!("the view misses `{wanted}` in \"{name}\""))
                 }
                 Err(error) => panic!("\"{}\" forced off: {error}", stage.name),
             }

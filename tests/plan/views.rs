@@ -13,8 +13,8 @@ fn a_view_of_an_unknown_word_names_what_is_on_offer() {
         let camera = named(&mut scene, "camera");
         scene.entity_mut(camera).insert(View { column: word.into() });
         let error = plan(&Census::of(&scene), &offer()).expect_err("no such column");
-        let PlanError::NoSuchView { asked, why } = &error else { panic!("{error}") };
-        assert_eq!(asked, word);
+        let PlanError::NoSuchView { wanted, why } = &error else { panic!("{error}") };
+        assert_eq!(wanted, word);
         for name in view_names(&offer()).into_iter().filter(|name| !name.ends_with(" rows")) {
             assert!(why.contains(name), "`{word}`: {why} must name `{name}`");
         }

@@ -60,7 +60,7 @@ where
 }
 
 /// What a panic said, on one line.
-fn words(panic: Box<dyn Any + Send>) -> String {
+pub fn words(panic: Box<dyn Any + Send>) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
     text.map_or_else(|| "no words".into(), |text| text.split_whitespace().collect::<Vec<_>>().join(" "))

@@ -10,7 +10,7 @@ pub fn absolute(yours: &[f64], right: &[f64]) -> f64 {
     largest(yours, right, |yours, right| (yours - right).abs())
 }
 
-/// The largest difference of any part, each as a share of the right part; where that is 0, only 0 will do.
+/// The largest difference of any part, each as a fraction of the right part; where that is 0, only 0 will do.
 pub fn relative(yours: &[f64], right: &[f64]) -> f64 {
     largest(yours, right, |yours, right| (yours - right).abs() / right.abs())
 }

@@ -17,7 +17,7 @@ pub struct Report {
     pub outcome: Outcome,
     /// What may be said to whoever is stuck, each telling more than the one before.
     pub hints: &'static [&'static str],
-    /// Where the kit does the same: a file, and a name in it.
+    /// Where pinhole does the same: a file, and a name in it.
     pub pinhole_has: (&'static str, &'static str),
 }
 
@@ -67,7 +67,12 @@ pub struct Mismatch {
 }
 
 /// Asks the function every input and compares.
-pub fn compare<I, A>(question: Question<I, A>, yours: impl Fn(&I) -> A + Send + 'static, patience: Duration) -> Report
+pub fn compare<I, A>(
+    function: &'static str,
+    question: Question<I, A>,
+    yours: impl Fn(&I) -> A + Send + 'static,
+    patience: Duration,
+) -> Report
 where
     I: Clone + Send + Sync + 'static,
     A: Shown + Send + 'static,
@@ -80,14 +85,14 @@ where
     };
     let mut given = Vec::with_capacity(inputs.len());
     let mut ended = None;
-    for answer in answers(question.function, &inputs, yours, patience) {
+    for answer in answers(function, &inputs, yours, patience) {
         match answer {
             Answer::Given(answer) => given.push(answer),
             Answer::Panicked(words) => ended = Some(Outcome::Panicked(asked(given.len()), words)),
             Answer::Late => ended = Some(Outcome::Late(asked(given.len()), patience)),
         }
     }
-    let right: Vec<A> = inputs[..given.len()].iter().map(question.kit).collect();
+    let right: Vec<A> = inputs[..given.len()].iter().map(question.right).collect();
     let wrong: Vec<usize> = (0..given.len()).filter(|&at| !question.same(&given[at], &right[at])).collect();
     let apart = |at: usize| (question.apart)(&given[at], &right[at]);
     let outcome = match (wrong.first(), ended) {
@@ -105,7 +110,7 @@ where
         (None, None) => Outcome::Right((0..given.len()).map(apart).fold(0.0, f64::max)),
     };
     Report {
-        function: question.function,
+        function,
         inputs: inputs.len(),
         allowed: (question.allowed, question.measured),
         outcome,
@@ -123,7 +128,7 @@ fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], 
         let agrees = |at: usize| question.same(&given[at], &made[at]) || given[at].shown() == made[at].shown();
         // Where the mistake changes nothing and the answer is right, the two say nothing about each other.
         let speaks = |at: &usize| !question.same(&made[*at], &right[*at]) || !question.same(&given[*at], &right[*at]);
-        let share = |end: usize| {
+        let fraction = |end: usize| {
             let (mut agreed, mut spoken) = (0, 0);
             for at in (0..end).filter(speaks) {
                 agreed += usize::from(agrees(at));
@@ -131,12 +136,12 @@ fn looks_like<I, A: Shown>(question: &Question<I, A>, given: &[A], right: &[A], 
             }
             agreed as f64 / f64::from(spoken.max(1))
         };
-        (agrees(first) && share(near) >= 0.9, share(given.len()), mistake.told)
+        (agrees(first) && fraction(near) >= 0.9, fraction(given.len()), mistake.told)
     });
     let mut best: Option<(f64, &'static str)> = None;
-    for (explains, share, told) in checked {
-        if explains && best.is_none_or(|(most, _)| share > most) {
-            best = Some((share, told));
+    for (explains, fraction, told) in checked {
+        if explains && best.is_none_or(|(most, _)| fraction > most) {
+            best = Some((fraction, told));
         }
     }
     best.map(|(_, told)| told)

@@ -1,85 +1,94 @@
-//! What a chapter asks its reader to write, put beside what the kit computes.
+//! What a chapter asks its reader to write, checked against what pinhole computes, and rendered in its place.
 //!
-//! Reads: the reader's function, which is compiled from the chapter's `exercise.rs`.
-//! Writes: how it did, the first input at which the two differ, and how often it was tried, to a file of progress.
-//! The reader's code runs on a thread of its own: it may panic or run for ever without taking the program along.
-//! Nothing here runs in a render.
+//! Reads: a chapter's question and a function; the reader's own is compiled from the chapter's `exercise.rs`.
+//! Writes: how it did, the first input at which the two differ, and how often it was tried, to a file of progress; or
+//! the chapter with the function in one of its stages.
+//! The reader's code is checked on a thread of its own: it may panic or run for ever without taking the program along.
+//! Nothing here knows a chapter: each one's question lies in its own folder.
 
-mod ambient_occlusion;
 mod answers;
-mod apart;
-mod camera_to_world;
-mod caustics;
-mod choosing_samples;
+pub mod apart;
+mod ask;
 mod compare;
-mod conventions;
-mod depth_of_field;
-mod error_and_time;
-mod field_of_view;
-mod glass;
-mod hit;
-mod how_it_is_built;
-mod image;
-mod light_and_shadow;
-mod mirrors;
-mod motion_blur;
-mod ndc;
-mod orthographic;
-mod path_tracing;
-mod pinhole;
+mod mine;
 mod progress;
 mod question;
-mod ray;
-mod reflection;
 mod report;
-mod sampling;
-mod screen;
-mod shapes;
 mod shown;
-mod soft_shadows;
-mod textures;
-mod transforms;
 mod turn;
 
+pub use ask::{Ask, RowPlace, RowPlaces};
 pub use compare::{Mismatch, Outcome, Report};
+pub use mine::{Mine, Setting, StandIn};
 pub use progress::{Progress, Tries};
+pub use question::{Mistake, Probe, Question, probes};
+pub use shown::Shown;
 pub use turn::{Turn, list_exercises, take_turn, turn};
 
-use crate::attempt::Attempt;
+use compare::compare;
+use mine::Render;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How long one answer may take before the reader's function counts as running for ever.
 pub const PATIENCE: Duration = Duration::from_secs(3);
 
-/// Asks a reader's function all inputs of its exercise and says how it did.
-pub fn check(attempt: Attempt, patience: Duration) -> Report {
-    match attempt {
-        Attempt::RasterFromIndex(yours) => image::check(yours, patience),
-        Attempt::Unit(yours) => ray::check(yours, patience),
-        Attempt::NearestSphereT(yours) => hit::check(yours, patience),
-        Attempt::OrthographicRay(yours) => orthographic::check(yours, patience),
-        Attempt::PerspectiveDirection(yours) => pinhole::check(yours, patience),
-        Attempt::PixelFromNdc(yours) => ndc::check(yours, patience),
-        Attempt::NdcFromScreen(yours) => screen::check(yours, patience),
-        Attempt::VerticalFov(yours) => field_of_view::check(yours, patience),
-        Attempt::NormalWorldFromObject(yours) => camera_to_world::check(yours, patience),
-        Attempt::ReflectedRadiance(yours) => light_and_shadow::check(yours, patience),
-        Attempt::PinholeFromTheirs(yours) => conventions::check(yours, patience),
-        Attempt::Kept(yours) => how_it_is_built::check(yours, patience),
-        Attempt::NearestBoxT(yours) => shapes::check(yours, patience),
-        Attempt::VarianceAndBiasSquared(yours) => error_and_time::check(yours, patience),
-        Attempt::MeanOfStripes(yours) => textures::check(yours, patience),
-        Attempt::PhongRadiance(yours) => reflection::check(yours, patience),
-        Attempt::FallingCosine(yours) => transforms::check(yours, patience),
-        Attempt::TentOffset(yours) => sampling::check(yours, patience),
-        Attempt::Mirrored(yours) => mirrors::check(yours, patience),
-        Attempt::Refracted(yours) => glass::check(yours, patience),
-        Attempt::SolidAnglePdf(yours) => soft_shadows::check(yours, patience),
-        Attempt::LensDirection(yours) => depth_of_field::check(yours, patience),
-        Attempt::MovingSphereT(yours) => motion_blur::check(yours, patience),
-        Attempt::CosineDirection(yours) => ambient_occlusion::check(yours, patience),
-        Attempt::AfterRoulette(yours) => path_tracing::check(yours, patience),
-        Attempt::PowerHeuristic(yours) => choosing_samples::check(yours, patience),
-        Attempt::PixelFraction(yours) => caustics::check(yours, patience),
+/// A function that a chapter asks its reader to write, as somebody has written it.
+pub struct Exercise {
+    /// The function's name.
+    pub function: &'static str,
+    check: Box<dyn Fn(Duration) -> Report + Send + Sync>,
+    mine: Result<Box<Render>, &'static str>,
+}
+
+impl Exercise {
+    /// An exercise whose function renders in the place that `mine` gives it.
+    pub fn rendered<I, A>(
+        function: &'static str,
+        question: fn() -> Question<I, A>,
+        written: impl Fn(&I) -> A + Send + Sync + 'static,
+        mine: fn(Ask<I, A>, &Setting<'_>) -> StandIn,
+    ) -> Self
+    where
+        I: Clone + Send + Sync + 'static,
+        A: Shown + Send + 'static,
+    {
+        let written: Arc<dyn Fn(&I) -> A + Send + Sync> = Arc::new(written);
+        let asked = Arc::clone(&written);
+        let mine: Box<Render> = Box::new(move |setting| {
+            let ask = Ask::new(function, question, Arc::clone(&asked));
+            let complaint = ask.complaint();
+            (mine(ask, setting), complaint)
+        });
+        Self { mine: Ok(mine), ..Self::unseen(function, question, move |input| written(input), "") }
+    }
+
+    /// An exercise whose function no picture shows, and the sentence that says why.
+    pub fn unseen<I, A>(
+        function: &'static str,
+        question: fn() -> Question<I, A>,
+        written: impl Fn(&I) -> A + Send + Sync + 'static,
+        why: &'static str,
+    ) -> Self
+    where
+        I: Clone + Send + Sync + 'static,
+        A: Shown + Send + 'static,
+    {
+        let written = Arc::new(written);
+        let check = move |patience| {
+            let written = Arc::clone(&written);
+            compare(function, question(), move |input: &I| written(input), patience)
+        };
+        Self { function, check: Box::new(check), mine: Err(why) }
+    }
+
+    /// Asks the function all inputs of its exercise and says how it did.
+    pub fn check(&self, patience: Duration) -> Report {
+        (self.check)(patience)
+    }
+
+    /// Whether a picture shows the function.
+    pub fn renders(&self) -> bool {
+        self.mine.is_ok()
     }
 }

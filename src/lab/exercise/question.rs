@@ -2,16 +2,14 @@ use super::shown::Shown;
 
 /// What one exercise asks, what counts as the same answer, and what is said when it is not.
 pub struct Question<I, A> {
-    /// The function's name.
-    pub function: &'static str,
-    /// Where the kit does the same: a file, and a name in it.
+    /// Where pinhole does the same: a file, and a name in it.
     pub pinhole_has: (&'static str, &'static str),
     /// The inputs, ordinary ones first.
     pub probes: Vec<Probe<I>>,
     /// An input as the function's arguments, by name.
     pub tell: fn(&I) -> String,
     /// The right answer.
-    pub kit: fn(&I) -> A,
+    pub right: fn(&I) -> A,
     /// How far apart two answers are: the reader's, and the right one.
     pub apart: fn(&A, &A) -> f64,
     /// How far apart they may be.
@@ -57,5 +55,10 @@ impl<I, A: Shown> Question<I, A> {
     /// Whether an answer counts as the right one.
     pub fn same(&self, yours: &A, right: &A) -> bool {
         (self.apart)(yours, right) <= self.allowed
+    }
+
+    /// An input as the function's arguments, where all else stands on one line too.
+    pub fn tell_on_one_line(&self, input: &I) -> String {
+        (self.tell)(input).split_whitespace().collect::<Vec<_>>().join(" ")
     }
 }

@@ -52,7 +52,7 @@ impl Report {
             }
         }
         let (file, name) = self.pinhole_has;
-        writeln!(out, "the kit does it in {file}: look for `{name}`")
+        writeln!(out, "pinhole does it in {file}: look for `{name}`")
     }
 
     fn print_hints(&self, earned: usize, out: &mut dyn Write) -> io::Result<()> {

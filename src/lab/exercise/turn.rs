@@ -1,6 +1,5 @@
 use super::compare::{Outcome, Report};
-use super::{PATIENCE, Progress, Tries, check};
-use crate::attempt::Attempt;
+use super::{Exercise, PATIENCE, Progress, Tries};
 use pinhole::{Error, Result};
 use std::io::Write;
 use std::path::Path;
@@ -17,10 +16,10 @@ pub struct Turn {
 }
 
 /// Checks a chapter's exercise once, and remembers it in the file.
-pub fn turn(name: &str, attempt: Attempt, file: &Path) -> Turn {
+pub fn turn(name: &str, exercise: &Exercise, file: &Path) -> Turn {
     let (mut progress, remark) = Progress::read(file);
     let mut notes: Vec<String> = remark.into_iter().collect();
-    let report = check(attempt, PATIENCE);
+    let report = exercise.check(PATIENCE);
     let mut tries = progress.of(name);
     if !report.is_stub() {
         let done = matches!(report.outcome, Outcome::Right(_));
@@ -47,13 +46,16 @@ impl Turn {
 /// Checks a chapter's exercise once: prints how the reader's function did, and remembers it in the file.
 ///
 /// Errors: a wrong answer, a panic or no answer in time, in one sentence; printing failed.
-pub fn take_turn(name: &str, attempt: Attempt, file: &Path, out: &mut dyn Write) -> Result {
-    let Turn { report, tries, notes } = turn(name, attempt, file);
+pub fn take_turn(name: &str, exercise: &Exercise, file: &Path, out: &mut dyn Write) -> Result {
+    let Turn { report, tries, notes } = turn(name, exercise, file);
     report.print(tries.wrong as usize, out)?;
     let number = name.split('_').next().unwrap_or(name);
     match report.outcome {
         Outcome::Right(_) => writeln!(out, "next: `check` without a chapter shows what is left")?,
         _ => writeln!(out, "edit chapters/{name}/exercise.rs, then `check {number}` again")?,
+    }
+    if exercise.renders() && !report.is_stub() {
+        writeln!(out, "`render {} --mine` shows it", number.trim_start_matches('0'))?;
     }
     notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
     report.sentence().map_or(Ok(()), |sentence| Err(Error::Usage(sentence)))
@@ -62,10 +64,10 @@ pub fn take_turn(name: &str, attempt: Attempt, file: &Path, out: &mut dyn Write)
 /// The exercises of all chapters, and how far the reader has come.
 ///
 /// Errors: printing failed.
-pub fn list_exercises(exercises: &[(&str, Attempt)], file: &Path, out: &mut dyn Write) -> Result {
+pub fn list_exercises(exercises: &[(&str, Exercise)], file: &Path, out: &mut dyn Write) -> Result {
     let (progress, remark) = Progress::read(file);
-    writeln!(out, "functions for you to write, each checked against the kit's:")?;
-    for (chapter, attempt) in exercises {
+    writeln!(out, "functions for you to write, each checked against pinhole's:")?;
+    for (chapter, exercise) in exercises {
         let tries = progress.of(chapter);
         let state = match (tries.done, tries.tried) {
             (true, _) => "done".into(),
@@ -73,7 +75,7 @@ pub fn list_exercises(exercises: &[(&str, Attempt)], file: &Path, out: &mut dyn 
             (false, 1) => "tried once".into(),
             (false, times) => format!("tried {times} times"),
         };
-        writeln!(out, "  {:<22} {:<24} {state}", chapter, attempt.function())?;
+        writeln!(out, "  {:<22} {:<24} {state}", chapter, exercise.function)?;
     }
     writeln!(out, "each lies in chapters/<chapter>/exercise.rs; `check 5` tries that of chapter 05")?;
     if let Some(remark) = remark {

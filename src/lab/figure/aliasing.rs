@@ -1,3 +1,5 @@
+//! Textures at one point a pixel, over what a pixel covers, and at many points a pixel.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::WIDTH;
@@ -86,12 +88,12 @@ fn apart(one: &[[f32; 3]], other: &[[f32; 3]]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::{figures, trial};
+    use crate::figure::trial;
 
     #[test]
     fn filtered_is_nearer_to_many_points() {
-        let figure = figures().into_iter().find(|figure| figure.name == "16_aliasing").expect("the figure");
-        let [point, filtered, many] = pictures(&trial::chapter("16_textures"), &figure).expect("pictures");
+        let figure = trial::figure(draw);
+        let [point, filtered, many] = pictures(&trial::chapter(trial::checkered), &figure).expect("pictures");
         let (naive, kit) = (apart(&point, &many), apart(&filtered, &many));
         eprintln!("a point is off by {naive:.4}, filtered by {kit:.4}");
         assert!(kit < 0.7 * naive);

@@ -1,3 +1,5 @@
+//! The image plane at distance 1, from the side.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{IMAGE, INK, Pen, RAY, WIDTH};

@@ -1,3 +1,5 @@
+//! Where a ray hits a sphere.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{IMAGE, INK, Pen, RAY, TEXT, WIDTH};

@@ -1,3 +1,5 @@
+//! How much each reflection model sends in which direction.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{IMAGE, INK, LIGHT, Pen, RAY, WIDTH};

@@ -1,3 +1,5 @@
+//! The camera's axes, made of eye, target and up.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{IMAGE, INK, LIGHT, Pen, RAY, WIDTH};

@@ -1,3 +1,5 @@
+//! One point of the image, in two resolutions.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{Fill, INK, Pen, WIDTH};

@@ -1,3 +1,5 @@
+//! Spheres scaled unevenly, lit by wrong normals and by right ones.
+
 use super::Figure;
 use super::label::Label;
 use super::occluders::Occluders;
@@ -115,12 +117,12 @@ fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, o
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::{figures, trial};
+    use crate::figure::trial;
 
     #[test]
     fn naive_normals_change_the_scaled_sphere_and_the_right_ones_are_shaded_as_the_kit_does() {
-        let figure = figures().into_iter().find(|figure| figure.name == "09_normals").expect("the figure");
-        let (right, naive, worst) = pictures(&trial::chapter("09_camera_to_world"), &figure).expect("pictures");
+        let figure = trial::figure(draw);
+        let (right, naive, worst) = pictures(&trial::chapter(trial::central), &figure).expect("pictures");
         let differ = right.iter().zip(&naive).filter(|(right, naive)| right != naive).count();
         eprintln!("{differ} of {} pixels differ, the worst normal by {:.1} degrees", right.len(), worst.degrees);
         assert!(differ > 100 && differ < right.len() / 4 && worst.degrees > 20.0 && worst.degrees < 90.0);

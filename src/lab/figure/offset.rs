@@ -1,3 +1,5 @@
+//! A hit, its error, and where its shadow ray starts.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{Fill, IMAGE, INK, LIGHT, Pen, RAY, WIDTH};
@@ -206,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_hit_shown_lies_inside_and_its_start_outside() {
-        let chapter = trial::chapter("10_light_and_shadow");
+        let chapter = trial::chapter(trial::central);
         let subject = Subject::of(&chapter, 96, 54).expect("columns");
         let hit = telling_hit(&subject).expect("a hit");
         let Surface { position, normal, bound, .. } = hit.surface;

@@ -1,3 +1,5 @@
+//! Parallel rays from a rectangle of pixels.
+
 use super::Figure;
 use super::grid::Grid;
 use super::label::Label;

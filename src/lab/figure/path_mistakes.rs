@@ -15,42 +15,6 @@ use pinhole::scene::{Glass, Sampling};
 
 const SIZE: [u32; 2] = [276, 155];
 
-/// The figures that show mistakes.
-pub fn figures() -> Vec<Figure> {
-    vec![
-        Figure {
-            name: "19_broken",
-            chapter: "19_mirrors",
-            about: "rough metal, and rough metal by the density of something else",
-            draw: draw_metal,
-        },
-        Figure {
-            name: "20_broken",
-            chapter: "20_glass",
-            about: "glass, glass that bends the wrong way, and glass that keeps beams narrow",
-            draw: draw_glass,
-        },
-        Figure {
-            name: "22_broken",
-            chapter: "22_ambient_occlusion",
-            about: "how much of the sky points see, with the cosine and without",
-            draw: draw_sky,
-        },
-        Figure {
-            name: "26_broken",
-            chapter: "26_choosing_samples",
-            about: "two ways to find a lamp, weighed, and both counted",
-            draw: draw_weights,
-        },
-        Figure {
-            name: "25_broken",
-            chapter: "25_path_tracing",
-            about: "one scene by paths with a factor too few or too many, and encoded twice",
-            draw: super::broken_paths::draw,
-        },
-    ]
-}
-
 /// So many samples a pixel.
 fn sampled(samples: u32) -> impl Fn(&mut EntityWorldMut<'_>) + Copy {
     move |camera| {

@@ -1,3 +1,5 @@
+//! A pinhole camera: rays from the eye through pixel centres.
+
 use super::Figure;
 use super::grid::{Grid, drawn_distance};
 use super::label::Label;

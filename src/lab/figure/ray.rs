@@ -1,3 +1,5 @@
+//! A ray: a point, a unit vector, and t.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{INK, Pen, RAY, WIDTH};

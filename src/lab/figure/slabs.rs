@@ -1,3 +1,5 @@
+//! Where a ray is inside each slab of a cuboid, and inside all three.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{IMAGE, INK, Pen, RAY, WIDTH};

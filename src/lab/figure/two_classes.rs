@@ -1,3 +1,5 @@
+//! Object-order and image-order rendering, side by side.
+
 use super::Figure;
 use super::label::Label;
 use super::pen::{Fill, IMAGE, INK, LIGHT, Pen, RAY, WIDTH};

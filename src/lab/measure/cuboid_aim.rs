@@ -114,7 +114,7 @@ fn centre_on_axes(edges: [DVec3; 3], at: [f64; 3], draws: &mut Draws) -> DVec3 {
 /// as f32 goes, and up to a step beside it.
 fn ray_on_axes(slabs: &Slabs, at: [f64; 3], in_face: bool, draws: &mut Draws) -> AimedRay {
     let spot = slabs.centre + DVec3::from([0, 1, 2].map(|axis| slabs.half[axis] * at[axis]));
-    let size = slabs.reach as f32;
+    let size = slabs.bounding_radius as f32;
     let (first, zero) = ((draws.unit() * 3.0) as usize, if draws.unit() < 0.5 { 0.0 } else { -0.0 });
     let mut direction = Vec3::splat(zero);
     direction[first] = if draws.unit() < 0.5 { 1.0 } else { -1.0 };

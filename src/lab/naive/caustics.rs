@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::CameraJoinTable;
-use pinhole::follow::scatter_glass;
+use pinhole::follow::sample_glass;
 use pinhole::intersect::Surfaces;
 use pinhole::plan::{Column, Shared, Stage};
 use pinhole::shade::{LightRays, camera_join_stage, connect_to_camera};
@@ -15,7 +15,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
         for ray in 0..rays.rows() {
             let normal = surfaces.get(rays.path[ray] as usize).normal.as_dvec3();
             let cosine = normal.dot(rays.direction_of(ray));
-            rays.mis(ray, 1.0 / cosine);
+            rays.weight_by(ray, 1.0 / cosine);
         }
     }
 }
@@ -24,7 +24,7 @@ pub fn forget_join_cosine(mut tiles: Query<(&Surfaces, &mut LightRays)>) {
 /// Forgets how much of the image plane a pixel is.
 pub fn forget_pixel_area(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
-        (0..rays.rows()).for_each(|ray| rays.mis(ray, join.pixel_area()));
+        (0..rays.rows()).for_each(|ray| rays.weight_by(ray, join.pixel_area()));
     }
 }
 
@@ -42,5 +42,5 @@ pub fn join_without_area() -> Stage {
 
 /// The stage that sends light on at glass as if it were radiance, with 1/η².
 pub fn refract_as_radiance() -> Stage {
-    Stage { system: Arc::new(|| scatter_glass::<false>.into_configs()), ..pinhole::follow::glass_light_stage() }
+    Stage { system: Arc::new(|| sample_glass::<false>.into_configs()), ..pinhole::follow::glass_light_stage() }
 }

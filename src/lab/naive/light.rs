@@ -34,14 +34,14 @@ pub fn highlight_f32(peak: f32, exponent: f32, normal: Vec3, to_light: Vec3, to_
 ///
 /// In a narrow cone all cosines are 1 but for their last digits.
 #[must_use]
-pub fn spot_share_by_cosine(cosine: f64, inner: f64, outer: f64) -> f64 {
+pub fn spot_falloff_by_cosine(cosine: f64, inner: f64, outer: f64) -> f64 {
     let s = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }
 
 /// The same in f32.
 #[must_use]
-pub fn spot_share_by_cosine_f32(cosine: f32, inner: f32, outer: f32) -> f32 {
+pub fn spot_falloff_by_cosine_f32(cosine: f32, inner: f32, outer: f32) -> f32 {
     let s = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }

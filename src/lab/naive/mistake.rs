@@ -10,7 +10,9 @@ use pinhole::extract::{
     AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable,
     ShutterTable, glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, aim_by, cosine_pdf, frame_of};
+use pinhole::follow::{
+    GlassRows, Scattered, ScatteredRay, SkyColumns, SkyLists, cosine_pdf, frame_of, sample_sky_with,
+};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
@@ -49,7 +51,7 @@ pub fn scatter_matte_by(way: MatteSample) -> Stage {
                     ScatteredRay {
                         origin: offset_origin(surface.position, surface.normal, surface.bound),
                         direction: frame_of(surface.normal.as_dvec3()) * local,
-                        share: [0, 1, 2].map(|part| share[part] * (way.share)(colour[part], local.z)),
+                        throughput: [0, 1, 2].map(|part| share[part] * (way.share)(colour[part], local.z)),
                         pdf: cosine_pdf(local.z),
                     }
                 });
@@ -119,7 +121,7 @@ pub fn sky_in_all_directions_alike() -> Stage {
                integrator: Res<Shared<IntegratorTable>>,
                lists: Local<SkyLists>,
                tiles: Query<SkyColumns>| {
-        aim_by(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
+        sample_sky_with(|numbers| DVec3::from(uniform_direction(numbers)), (&sampling, &integrator), lists, tiles);
     };
     Stage::new("Aim in all directions alike", TileSystems::SampleLights, aim)
         .kind(StageKind::Alternative)
@@ -164,7 +166,7 @@ fn spoils_light_sampling(name: &'static str, forget: fn(Res<Shared<AreaLightTabl
 fn reweigh(lights: &AreaLightTable, rays: &mut LightRays, naive: impl Fn(DVec3, f64) -> f64) {
     for ray in 0..rays.rows() {
         let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
-        let (direction, reach) = (rays.direction_of(ray), f64::from(rays.reach[ray]));
+        let (direction, reach) = (rays.direction_of(ray), f64::from(rays.t_max[ray]));
         let ends_on = |light: &&Emitter| (distance_to(light, from, direction) / reach - 1.0).abs() < ON_LIGHT;
         let Some(Emitter::Rectangle(planar)) = lights.emitter.iter().find(ends_on) else { continue };
         let to = direction * reach;

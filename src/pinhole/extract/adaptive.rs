@@ -3,14 +3,14 @@ use crate::plan::Census;
 use crate::scene::{Adaptive, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The fewest samples that tell a variance worth deciding from.
+/// The fewest pilot samples from which a variance can be estimated usefully.
 const FEWEST_PILOT: u32 = 4;
-/// The most, beyond which the pilot is the render.
+/// The most pilot samples; beyond this the pilot would be the render itself.
 const MOST_PILOT: u32 = 65_536;
 
-/// What the scene asks of adaptive sampling, if it does.
+/// The adaptive sampling that the scene requests, if any.
 ///
-/// Errors: two that ask, an error or a number of samples out of range, a camera that takes no samples.
+/// Errors: two requests, an error or a number of samples out of range, a camera that takes no samples.
 pub fn adaptive_of(scene: &Census<'_>) -> Result<Option<Adaptive>, SceneError> {
     scene.once(adaptive_now)
 }

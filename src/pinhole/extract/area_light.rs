@@ -10,34 +10,35 @@ use crate::scene::{Emissive, Placement, Plane, Rgb, SceneError, Sphere, called};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 
-/// Into how many equal parts the choice of a light cuts chance.
+/// The number of equal parts into which the unit interval is divided for choosing a light.
 const PARTS: u64 = 1 << 32;
 
-/// Lights with an area whose points can be aimed at, in spawn order of their shapes.
+/// Area lights that can be sampled, in spawn order of their shapes.
 ///
-/// Planes have no end, unevenly scaled spheres no even spread of points that is known, and what moves is elsewhere for
-/// every ray; what these emit is met by chance only.
+/// Planes are infinite, the area of a non-uniformly scaled sphere has no known uniform sampling, and moving shapes are
+/// elsewhere for every ray; the emission of these is found by BSDF sampling only.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AreaLightTable {
-    /// Their shapes.
+    /// The shape of each light.
     pub emitter: Vec<Emitter>,
     /// The shape's number.
     pub shape: Vec<u32>,
-    /// The radiance that leaves every point, linear Rec. 709.
+    /// The radiance emitted at every point, linear Rec. 709.
     pub radiance: Vec<[f64; 3]>,
-    /// Whether it leaves on the side of the shape's own normal only.
+    /// Whether it is emitted only on the side of the shape's own normal.
     pub one_sided: Vec<bool>,
-    /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
+    /// The cumulative distribution in units of 2⁻³²: a light is chosen by fractions from its predecessor's value up to
+    /// its own.
     pub until: Vec<u64>,
-    /// How likely it is to be chosen: half by its power's share of all, half evenly, and at least 2⁻³².
-    pub random: Vec<f64>,
-    /// The light that a shape is; [`NO_ROW`] for a shape that is none.
+    /// The probability of choosing it: half in proportion to its power, half uniform, and at least 2⁻³².
+    pub probability: Vec<f64>,
+    /// The light of each shape; [`NO_ROW`] for a shape that is none.
     pub light_of_shape: Vec<u32>,
 }
 
 impl AreaLightTable {
     // ANCHOR: choose_light
-    /// The light that a fraction of 32 bits chooses.
+    /// The light chosen by a 32-bit fraction.
     #[inline(always)]
     pub fn chosen(&self, fraction: u32) -> usize {
         self.until.partition_point(|&until| until <= u64::from(fraction))
@@ -45,26 +46,26 @@ impl AreaLightTable {
     // ANCHOR_END: choose_light
 }
 
-/// Shares chance out, half of it by power and half evenly: a dim light that is near, or that polished metal mirrors, may
-/// matter most where it does.
+/// The probabilities of lights, half in proportion to power and half uniform: a dim light may still dominate where it
+/// is near, or where metal reflects it.
 ///
-/// Gives up to which of 2³² parts each light or one before it is chosen, and how likely each is.
-/// Each light gets one part, and the others go by its share.
-/// The parts are whole, so that a light is chosen as often as its `chance` says to the last bit, however dim.
-pub(super) fn share_out(powers: &[f64]) -> (Vec<u64>, Vec<f64>) {
+/// Returns the cumulative distribution in parts of 2⁻³² and the probability of each light.
+/// Each light gets one part, and the rest are divided by its fraction; whole parts make each probability exact to the
+/// last bit, however dim the light.
+pub(super) fn light_distribution(powers: &[f64]) -> (Vec<u64>, Vec<f64>) {
     let total: f64 = powers.iter().sum();
     let even = !(total > 0.0 && total.is_finite());
     let left = PARTS - powers.len() as u64;
-    let even_share = 1.0 / powers.len() as f64;
-    let share = |power: f64| if even { even_share } else { 0.5 * (power / total + even_share) };
-    let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (share(power) * left as f64) as u64).collect();
+    let uniform = 1.0 / powers.len() as f64;
+    let fraction = |power: f64| if even { uniform } else { 0.5 * (power / total + uniform) };
+    let mut parts: Vec<u64> = powers.iter().map(|&power| 1 + (fraction(power) * left as f64) as u64).collect();
     let largest = (0..parts.len()).max_by_key(|&light| parts[light]);
     let given: u64 = parts.iter().sum();
     if let Some(largest) = largest {
         parts[largest] = parts[largest] + PARTS - given;
     }
-    let random = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
-    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), random)
+    let probability = parts.iter().map(|&parts| parts as f64 / PARTS as f64).collect();
+    (parts.iter().scan(0, |sum, &parts| Some(add(sum, parts))).collect(), probability)
 }
 
 fn add(sum: &mut u64, parts: u64) -> u64 {
@@ -72,7 +73,7 @@ fn add(sum: &mut u64, parts: u64) -> u64 {
     *sum
 }
 
-/// How bright linear Rec. 709 light looks.
+/// The luminance of linear Rec. 709 light.
 pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
@@ -98,7 +99,7 @@ impl Table for AreaLightTable {
                 ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.planar[row])),
                 ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.planar[row])),
                 ShapeKind::Triangle => {
-                    Emitter::Triangle { corners: triangles.facet[row].corners, normal: triangles.normal[row] }
+                    Emitter::Triangle { corners: triangles.triangle[row].corners, normal: triangles.normal[row] }
                 }
                 ShapeKind::Cuboid => {
                     let slabs = &cuboids.slabs[row];
@@ -115,7 +116,7 @@ impl Table for AreaLightTable {
             table.radiance.push(radiance);
             table.one_sided.push(one_sided);
         }
-        (table.until, table.random) = share_out(&powers);
+        (table.until, table.probability) = light_distribution(&powers);
         Ok(table)
     }
 
@@ -133,7 +134,7 @@ fn about_ellipse(planar: &Planar) -> Parallelogram {
     Parallelogram::about_ellipse(planar.centre, planar.half_edges(), planar.normal)
 }
 
-/// Evidence that a shape emits light and can be aimed at; shapes that emit and cannot are told too.
+/// Evidence that a shape emits light and can be sampled; emitting shapes that cannot are mentioned too.
 pub fn area_light_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let moves = moves_while_open(scene);
@@ -159,8 +160,8 @@ pub fn area_light_evidence(scene: &Census<'_>) -> Evidence {
             return found;
         }
         let names = by_bsdf.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
-        let shapes = counted(by_bsdf.len(), "shape with no area to aim at");
-        let reason = format!("{}; {shapes}, met by chance only: {names}", found.reason);
+        let shapes = counted(by_bsdf.len(), "shape that cannot be sampled");
+        let reason = format!("{}; {shapes}, found by BSDF sampling only: {names}", found.reason);
         Evidence { reason, ..found }
     })
 }

@@ -3,7 +3,7 @@ use crate::plan::{Census, Table};
 use crate::scene::{Background, Environment, Gradient, Rgb, SceneError, called};
 use bevy_ecs::prelude::*;
 
-/// The radiance that a ray which meets nothing brings back.
+/// The radiance of a ray that hits nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BackgroundTable {
     /// Linear Rec. 709.
@@ -30,7 +30,7 @@ impl Table for BackgroundTable {
     }
 }
 
-/// A scene has one kind of background at most.
+/// Checks that a scene has at most one kind of background.
 fn check_one_kind(scene: &Census<'_>) -> Result<(), SceneError> {
     let kinds = [
         ("a Background", scene.entities::<With<Background>>()),

@@ -1,26 +1,26 @@
 use super::check::kind_and_name;
-use super::phong::{exponent_within, shared_light};
+use super::phong::{diffuse_and_specular, exponent_within};
 use crate::plan::{Census, Table};
 use crate::scene::{BlinnPhong, SceneError};
 use bevy_ecs::prelude::*;
 
-/// Highlights about the direction half way between light and eye, in spawn order.
+/// Blinn–Phong highlights, lobes about the half vector, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlinnPhongTable {
-    /// The largest share of the light that each sends on: red, green, blue, from 0 to 1.
+    /// The specular albedo of each: red, green, blue, from 0 to 1.
     pub specular: Vec<[f64; 3]>,
-    /// How narrow each is.
+    /// The exponent n; larger ones give a narrower lobe.
     pub exponent: Vec<f64>,
-    /// What each has at its middle, by [`blinn_phong_peak`].
+    /// The value at the centre of the lobe, by [`blinn_phong_peak`], in 1/sr.
     pub peak: Vec<f64>,
 }
 
 // ANCHOR: blinn_phong_peak
 /// The factor N = (n + 2)(n + 4) / (8π(n + 2^(−n/2))) of N cosⁿβ, in 1/sr.
 ///
-/// Light that falls squarely leaves at twice the angle β of the half-way direction, so dω = 4 cos β dω_β, and
-/// ∫ N cosⁿβ cos 2β dω over the hemisphere, where β ends at 45°, is exactly 1 (Giesen 2009).
-/// The shorter (n + 8) / 8π, often read, is up to 7.5 % more than that.
+/// At normal incidence, light is reflected at twice the angle β of the half vector, so dω = 4 cos β dω_β, and ∫ N cosⁿβ
+/// cos 2β dω over the hemisphere, where β ends at 45°, is exactly 1 (Giesen 2009).
+/// The often quoted (n + 8) / 8π is up to 7.5 % larger.
 pub fn blinn_phong_peak(exponent: f64) -> f64 {
     let below = 8.0 * std::f64::consts::PI * (exponent + libm::exp2(-0.5 * exponent));
     (exponent + 2.0) * (exponent + 4.0) / below
@@ -35,7 +35,7 @@ impl Table for BlinnPhongTable {
         for &entity in scene.entities::<With<BlinnPhong>>().iter() {
             let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "blinn_phong", entity);
-            table.specular.push(shared_light(&who, blinn.colour, blinn.specular)?[1]);
+            table.specular.push(diffuse_and_specular(&who, blinn.colour, blinn.specular)?[1]);
             table.exponent.push(exponent_within(&who, blinn.exponent)?);
             table.peak.push(blinn_phong_peak(blinn.exponent));
         }
@@ -47,9 +47,9 @@ impl Table for BlinnPhongTable {
     }
 }
 
-/// The colour of a Blinn–Phong material, all of whose numbers are checked.
+/// The diffuse colour of a Blinn–Phong material, after checking all of its values.
 pub(super) fn blinn_phong_colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
     exponent_within(who, blinn.exponent)?;
-    Ok(shared_light(who, blinn.colour, blinn.specular)?[0])
+    Ok(diffuse_and_specular(who, blinn.colour, blinn.specular)?[0])
 }

@@ -6,16 +6,16 @@ use crate::scene::{Degrees, FovAxis, OrthographicCamera, PerspectiveCamera, Reso
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
 
-/// The narrowest pixel, in radians, whose world ray f32 still tells from its neighbour's to 0.03 px.
+/// The narrowest pixel, in radians, for which a world ray in f32 is still accurate to 0.03 pixels.
 pub const SMALLEST_PIXEL: f64 = 4e-6;
-/// How far a camera's axes may be from orthonormal before it counts as scaled.
+/// How far a camera's axes may be from orthonormal before it is considered scaled.
 const ROTATION_TOLERANCE: f64 = 1e-9;
-/// The most pixels along one side.
+/// The greatest number of pixels along one side.
 const LONGEST_SIDE: u32 = 65_536;
-/// The most pixels of one film; its sums take 28 bytes each.
+/// The greatest number of pixels of a film, whose sums take 28 bytes each.
 const MOST_PIXELS: u64 = 1 << 30;
 
-/// Where the camera stands, in world space: the origin of render space.
+/// The camera's position in world space: the origin of render space.
 pub fn eye(scene: &Census<'_>) -> Result<DVec3, SceneError> {
     scene.once(|scene| {
         let (who, camera) = named_camera(scene)?;
@@ -23,7 +23,7 @@ pub fn eye(scene: &Census<'_>) -> Result<DVec3, SceneError> {
     })
 }
 
-/// How many pixels the image has.
+/// The image's resolution and aspect ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageFrame {
     /// Pixels from left to right.
@@ -66,15 +66,15 @@ impl Table for ImageFrame {
     }
 }
 
-/// What a perspective camera does to screen points.
+/// The perspective projection of screen points to the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerspectiveProjection {
-    /// Half the image plane's height at distance 1: tan(vertical angle / 2).
+    /// Half the image plane's height at distance 1: tan(fov / 2) for the vertical field of view.
     pub tan_half_vertical: f64,
 }
 
 impl PerspectiveProjection {
-    /// The angle, in radians, that the narrowest pixel of an image of this shape takes up: the one in a corner.
+    /// The angle, in radians, subtended by the narrowest pixel of an image of this resolution: the one in a corner.
     pub fn narrowest_pixel(&self, image: ImageFrame) -> f64 {
         let corner = DVec2::new(image.aspect(), 1.0) * self.tan_half_vertical;
         2.0 * self.tan_half_vertical / f64::from(image.height) / (1.0 + corner.length_squared())
@@ -116,8 +116,8 @@ impl Table for PerspectiveProjection {
 }
 
 // ANCHOR: tan_half
-/// tan(α / 2) of a full angle α, to the last bits also where α is near 180°: there the tangent of what is missing to
-/// 180° is taken, which the subtraction gives exactly, and turned over.
+/// tan(α / 2) of a full angle α, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
+/// half the difference to 180°, which is subtracted exactly.
 pub fn tan_half(angle: Degrees) -> f64 {
     if angle.0 > 90.0 {
         1.0 / libm::tan(Degrees(180.0 - angle.0).radians() / 2.0)
@@ -128,7 +128,7 @@ pub fn tan_half(angle: Degrees) -> f64 {
 // ANCHOR_END: tan_half
 
 // ANCHOR: half_extent
-/// How far an image of this aspect reaches from its centre along `axis`, in half heights.
+/// The extent of an image of this aspect ratio from its centre along `axis`, in half heights.
 pub fn half_extent(axis: FovAxis, aspect: f64) -> f64 {
     match axis {
         FovAxis::Vertical => 1.0,
@@ -139,16 +139,16 @@ pub fn half_extent(axis: FovAxis, aspect: f64) -> f64 {
     }
 }
 
-/// tan(vertical angle / 2) of an angle that is measured across `axis` of an image of this aspect.
+/// tan(fov / 2) for the vertical field of view, from an angle along `axis` of an image of this aspect ratio.
 fn tan_half_vertical(fov: Degrees, axis: FovAxis, aspect: f64) -> f64 {
     tan_half(fov) / half_extent(axis, aspect)
 }
 // ANCHOR_END: half_extent
 
 // ANCHOR: angle_across
-/// The full angle whose half has this tangent: `tan_half` turned round.
+/// The full angle whose half has this tangent; the inverse of [`tan_half`].
 ///
-/// Beyond 90° it is taken of what is missing to 180°, as `tan_half` does.
+/// Beyond 90° it is computed from the difference to 180°, as in [`tan_half`].
 pub fn angle_of_tan_half(tangent: f64) -> Degrees {
     let degrees = |radians: f64| radians * (180.0 / std::f64::consts::PI);
     Degrees(if tangent > 1.0 {
@@ -158,16 +158,16 @@ pub fn angle_of_tan_half(tangent: f64) -> Degrees {
     })
 }
 
-/// The full angle across `axis` of what this lens sees in an image of this aspect.
+/// The full field of view along `axis` of this projection in an image of this aspect ratio.
 pub fn angle_across(lens: &PerspectiveProjection, axis: FovAxis, aspect: f64) -> Degrees {
     angle_of_tan_half(lens.tan_half_vertical * half_extent(axis, aspect))
 }
 // ANCHOR_END: angle_across
 
-/// What an orthographic camera does to screen points.
+/// The orthographic window: its extent on the view plane, for screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthographicWindow {
-    /// Half the rectangle's height, in scene units.
+    /// Half the window's height, in scene units.
     pub half_height: f64,
 }
 
@@ -188,7 +188,7 @@ impl Table for OrthographicWindow {
 /// The camera's axes in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraAxes {
-    /// Columns: the camera's x (right), y (up) and z (back) as unit vectors of the world.
+    /// Columns: the camera's x (right), y (up) and z (back) axes as unit vectors in world space.
     pub world_from_camera: DMat3,
 }
 
@@ -204,7 +204,7 @@ impl Table for CameraAxes {
         if !rotation {
             let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_camera.col(axis).length()));
             let mirrored = if world_from_camera.determinant() < 0.0 { "mirrored, " } else { "" };
-            let accepted = "a camera may be turned and moved only, and no parent may scale or mirror it";
+            let accepted = "a camera may only be rotated and moved, and no parent may scale or mirror it";
             return Err(SceneError::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
         }
         Ok(Self { world_from_camera })
@@ -220,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_angle_asked_for_across_an_axis_is_the_angle_across_that_axis() {
+    fn a_field_of_view_along_an_axis_is_the_angle_along_that_axis() {
         let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];
         let (mut worst, mut tried) = (0.0_f64, 0);
         for axis in axes {
@@ -235,7 +235,7 @@ mod tests {
                 }
             }
         }
-        eprintln!("{tried} lenses: the angle comes back to within {worst:.1e} of itself");
+        eprintln!("{tried} projections: the angle is recovered within {worst:.1e} of itself");
         assert!(worst < 4.0 * f64::EPSILON);
     }
 }

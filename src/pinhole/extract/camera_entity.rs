@@ -5,7 +5,7 @@ use crate::scene::{
 };
 use bevy_ecs::prelude::*;
 
-/// Every component that is a camera, with its article, and who carries it; a new one joins with a line.
+/// The components that are cameras, each with its article and its entities; a new kind is added with a line.
 const CAMERAS: [(&str, fn(&World) -> Vec<Entity>); 4] = [
     ("a PerspectiveCamera", entities::<With<PerspectiveCamera>>),
     ("an OrthographicCamera", entities::<With<OrthographicCamera>>),
@@ -35,12 +35,12 @@ pub fn camera_entity(scene: &World) -> Result<Entity, SceneError> {
     }
 }
 
-/// The same, looked for once.
+/// The camera of the scene, looked up once per census.
 pub(super) fn camera_of(scene: &Census<'_>) -> Result<Entity, SceneError> {
     scene.once(|scene| camera_entity(scene))
 }
 
-/// The camera and what a message calls it.
+/// The camera and its name in messages.
 pub(super) fn named_camera(scene: &Census<'_>) -> Result<(String, Entity), SceneError> {
     let camera = camera_of(scene)?;
     Ok((kind_and_name(scene, "camera", camera), camera))

@@ -7,25 +7,26 @@ use crate::scene::{OrthographicCamera, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2};
 
-/// How points in front of the camera are joined to it.
+/// The camera's projection in the reverse direction, for connecting points to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraJoinTable {
-    /// Rows: the camera's axes as unit vectors of the world.
+    /// Rows: the camera's axes as unit vectors in world space.
     pub camera_from_world: DMat3,
-    /// Whether all its rays start at the eye or on its lens; else they start on the view's rectangle and are parallel.
+    /// Whether its rays start at the eye or on its lens; otherwise they start on the orthographic window and are
+    /// parallel.
     pub is_perspective: bool,
-    /// Half the height of the image plane at distance 1, or of the view's rectangle.
+    /// Half the height of the image plane at distance 1, or of the orthographic window.
     pub half_height: f64,
-    /// From the eye to the plane in focus, along the camera's axis, in scene units; infinite without a lens.
+    /// Distance from the eye to the plane of focus along the camera's axis, in scene units; infinite without a lens.
     pub focus_distance: f64,
-    /// Pixels from left to right and from top to bottom.
+    /// The resolution: pixels from left to right and from top to bottom.
     pub size: DVec2,
-    /// How far outside the image the pixels' filter still reaches, in pixels.
+    /// How far outside the image a point still contributes to pixels through their filter, in pixels.
     pub margin: f64,
 }
 
 impl CameraJoinTable {
-    /// The area of a pixel, in square half heights' units: on the image plane at distance 1, or on the view's rectangle.
+    /// The area of a pixel on the image plane at distance 1, or on the orthographic window in square scene units.
     #[inline(always)]
     pub fn pixel_area(&self) -> f64 {
         let side = 2.0 * self.half_height / self.size.y;

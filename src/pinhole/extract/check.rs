@@ -1,4 +1,4 @@
-//! Checks that several kinds of component share, each giving the one sentence that a refusal is.
+//! Checks that several components have in common; each gives the one sentence of an error message.
 
 use crate::plan::Census;
 use crate::scene::{Rgb, SceneError, called, some_of};
@@ -8,12 +8,12 @@ use glam::DVec3;
 /// Lengths beyond this leave no room for squares and sums in f32.
 const LARGEST_LENGTH: f64 = 1e18;
 
-/// What a message calls an entity: its kind and its name.
+/// The name of an entity in messages: its kind and its own name.
 pub fn kind_and_name(scene: &World, kind: &str, entity: Entity) -> String {
     format!("{kind} {}", called(scene, entity))
 }
 
-/// A point within reach of render space.
+/// Checks a point: finite, and with coordinates that render space can represent.
 pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec3, SceneError> {
     if point.is_finite() && point.abs().max_element() <= LARGEST_LENGTH {
         Ok(point)
@@ -27,7 +27,7 @@ pub fn finite_point(who: &str, field: &'static str, point: DVec3) -> Result<DVec
     }
 }
 
-/// A length above 0 and within reach of render space.
+/// Checks a length: above 0, and such that render space can represent it.
 pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f64, SceneError> {
     if (1.0 / LARGEST_LENGTH..=LARGEST_LENGTH).contains(&length) {
         Ok(length)
@@ -37,12 +37,12 @@ pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f6
     }
 }
 
-/// A colour whose parts are finite and at least 0.
+/// Checks a colour of light: each component finite and at least 0.
 pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
     colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
 }
 
-/// A colour whose parts lie from 0 to 1.
+/// Checks a reflectance or albedo: each component from 0 to 1.
 pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
     colour_within(
         who,
@@ -66,7 +66,7 @@ pub fn triple(v: DVec3) -> String {
     format!("({}, {}, {})", number(v.x), number(v.y), number(v.z))
 }
 
-/// A number as an author would write it: with an exponent where it would have too many digits to be read.
+/// A number as an author would write it, with an exponent where it would have too many digits to read.
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_finite() && size != 0.0 && !(1e-6..1e9).contains(&size) {
@@ -76,7 +76,7 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// The one entity that carries a component of which a scene may have one, or none.
+/// The one entity that carries a component that a scene may have once, or none.
 pub fn at_most_one<C: Component>(
     scene: &Census<'_>,
     field: &'static str,

@@ -9,43 +9,43 @@ use crate::scene::{Cuboid, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
-/// How many times as long one way as another a cuboid may be.
+/// The greatest ratio of a cuboid's longest to its shortest edge.
 ///
-/// Normals with parts that are exact in f32 turn a face by up to 2⁻²⁵, which moves its far end by that share of the
-/// cuboid's length: with this ratio, by less than a third of the thickness.
+/// Normals whose components are exact in f32 rotate a face by up to 2⁻²⁵, which moves its far end by that fraction of
+/// the cuboid's length: with this ratio, by less than a third of the thickness.
 const LARGEST_RATIO: f64 = 1e7;
-/// By how much the sphere about it is taken larger, so that no rounding reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
+/// The factor by which its bounding sphere is enlarged, so that no rounding leads outside it.
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
 
 /// The points x of render space with |nᵢ · (x − C)| ≤ hᵢ for three normals: a box, or three slabs at any angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slabs {
-    /// C, from the eye.
+    /// C, relative to the eye.
     pub centre: DVec3,
-    /// n of the faces that the entity has across its x, y and z axes, outward at its +x, +y and +z, each of length 1 to
-    /// within f32, its parts exact in f32, so that a surface's normal and its face's are the same numbers.
+    /// The outward normals n of the faces at the entity's +x, +y and +z, of length 1 to within f32, with components
+    /// exact in f32, so that the normals of surfaces and of faces are the same numbers.
     pub normal: [DVec3; 3],
-    /// h, from the centre to the faces, in lengths of n.
+    /// h, from the centre to the faces, in units of the length of n.
     pub half: [f64; 3],
-    /// No point is farther from the centre than this.
-    pub reach: f64,
+    /// The radius of a bounding sphere about the centre.
+    pub bounding_radius: f64,
 }
 
 impl Slabs {
-    /// The slabs whose faces have these normals and lie half an edge from the centre.
+    /// The slabs whose faces have these normals and are half an edge from the centre.
     pub fn new(centre: DVec3, normals: [DVec3; 3], half_edges: [DVec3; 3]) -> Self {
         let normal = normals.map(unit_in_f32);
         let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
-        let reach = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * REACH_MARGIN;
-        Self { centre, normal, half, reach }
+        let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
+        Self { centre, normal, half, bounding_radius }
     }
 
-    /// Whether the eye, which is the origin of render space, lies inside.
-    pub fn holds_the_eye(&self) -> bool {
+    /// Whether the eye, which is the origin of render space, is inside.
+    pub fn contains_the_eye(&self) -> bool {
         (0..3).all(|axis| self.normal[axis].dot(self.centre).abs() < self.half[axis])
     }
 
-    /// From the centre to the middles of the faces at the ends of the three edges.
+    /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.
     pub fn half_edges(&self) -> [DVec3; 3] {
         [0, 1, 2].map(|axis| {
             let along = self.normal[(axis + 1) % 3].cross(self.normal[(axis + 2) % 3]);
@@ -102,8 +102,8 @@ fn slabs(scene: &Census<'_>, entity: Entity, size: DVec3) -> Result<Slabs, Scene
     positive_length(&who, "placed thickness", thinnest)?;
     let ratio = longest / thinnest;
     if ratio > LARGEST_RATIO {
-        let value = format!("{}, placed {ratio:.1e} times as long one way as another", triple(size));
-        let accepted = format!("a cuboid may be at most {LARGEST_RATIO:e} times as long one way as another");
+        let value = format!("{}, placed {ratio:.1e} times as long as thick", triple(size));
+        let accepted = format!("a cuboid may be at most {LARGEST_RATIO:e} times as long as thick");
         return Err(SceneError::new(who, "size", value, accepted));
     }
     Ok(slabs)

@@ -8,11 +8,11 @@ use glam::DVec3;
 /// Directional lights in render space, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DirectionalLightTable {
-    /// The way to each light, against its rays: a unit vector.
+    /// The direction to each light, opposite to its rays: a unit vector.
     pub to_light: Vec<DVec3>,
-    /// What a surface that faces it receives, linear Rec. 709.
+    /// The irradiance of a surface that faces the light, linear Rec. 709.
     pub irradiance: Vec<[f64; 3]>,
-    /// Whether things in between keep its light away.
+    /// Whether shapes block its light.
     pub casts_shadows: Vec<bool>,
 }
 
@@ -48,7 +48,7 @@ mod tests {
         DirectionalLightTable::extract(&Census::of(&world)).expect("extracts").to_light[0]
     }
 
-    /// Rays go along −z, so the light is towards +z; turned, looked at, scaled, mirrored, under a parent, moved.
+    /// Rays travel along −z, so the light is towards +z; rotated, looked at, scaled, mirrored, under a parent, moved.
     #[test]
     fn the_light_is_against_the_entity_s_own_minus_z() {
         let light = DirectionalLight::default();

@@ -6,10 +6,11 @@ use crate::plan::{Census, Table};
 use crate::scene::{Disk, SceneError};
 use bevy_ecs::prelude::*;
 
-/// Disks in render space, in spawn order, without those that [move](super::MovingTable): the points of a plane whose two coordinates have squares that sum to 1 at most.
+/// Disks in render space, in spawn order, except for those that [move](super::MovingTable): points of a plane whose two
+/// coordinates have squares that add up to at most 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DiskTable {
-    /// The plane and the coordinates.
+    /// The plane with its two coordinates.
     pub planar: Vec<Planar>,
     /// The shape's number.
     pub shape: Vec<u32>,

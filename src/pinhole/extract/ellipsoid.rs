@@ -7,29 +7,29 @@ use crate::scene::{ChildOf, Placement, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
-/// How many times as long one way as another an ellipsoid may be: the extremes hold up to here.
+/// The greatest ratio of an ellipsoid's longest to its shortest axis, up to which `extremes` has tested it.
 const LARGEST_RATIO: f64 = 1e7;
-/// By how much its bounding sphere is taken larger, so that no rounding of the map reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+/// The factor by which its bounding sphere is enlarged, so that no rounding of the map leads outside it.
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
 
-/// A sphere that its placement scales unevenly: the points x of render space with |A (x − C)| = 1.
+/// A sphere with a non-uniform scale: the points x of render space with |A (x − C)| = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
-    /// C, from the eye.
+    /// C, relative to the eye.
     pub centre: DVec3,
-    /// A: render space to the space in which it is the unit sphere, per scene unit.
+    /// A: from render space to the space in which it is the unit sphere, per scene unit.
     pub unit_from_world: DMat3,
-    /// ‖A‖, the root of the sum of its squares: the most by which A stretches, or a little more.
+    /// The Frobenius norm ‖A‖: an upper bound of the factor by which A lengthens a vector.
     pub norm: f64,
-    /// No point is farther from the centre than this.
-    pub reach: f64,
+    /// The radius of a bounding sphere about the centre.
+    pub bounding_radius: f64,
 }
 
 impl Ellipsoid {
-    /// The ellipsoid of a map whose longest half axis has about this length, or less.
+    /// The ellipsoid of a map whose longest half axis has at most about this length.
     pub fn new(centre: DVec3, unit_from_world: DMat3, longest: f64) -> Self {
         let squares: f64 = unit_from_world.to_cols_array().iter().map(|part| part * part).sum();
-        Self { centre, unit_from_world, norm: squares.sqrt(), reach: longest * REACH_MARGIN }
+        Self { centre, unit_from_world, norm: squares.sqrt(), bounding_radius: longest * RADIUS_MARGIN }
     }
 }
 
@@ -75,21 +75,21 @@ fn ellipsoid(scene: &Census<'_>, entity: Entity, radius: f64, eye: DVec3) -> Res
     if ratio > LARGEST_RATIO {
         let own = scene.get::<Placement>(entity).copied().unwrap_or_default().scale;
         let with = if scene.get::<ChildOf>(entity).is_some() { "with its parents " } else { "" };
-        let value = format!("{}, {with}{ratio:.1e} times as long one way as another", triple(own));
-        let accepted = format!("a sphere may be at most {LARGEST_RATIO:e} times as long one way as another");
+        let value = format!("{}, {with}{ratio:.1e} times as long as thick", triple(own));
+        let accepted = format!("a sphere may be at most {LARGEST_RATIO:e} times as long as thick");
         return Err(SceneError::new(who, "scale", value, accepted));
     }
     Ok(Ellipsoid::new(centre, unit_from_world, longest))
 }
 
-/// The most by which a map makes a vector longer, or up to 1 % more where its columns are not at right angles.
+/// The greatest factor by which a map lengthens a vector, or up to 1 % more where its columns are not perpendicular.
 fn stretch(map: DMat3) -> f64 {
     const ROUNDS: u32 = 5;
     bound_of_eigenvalues(map.transpose() * map, ROUNDS).sqrt()
 }
 
-/// No eigenvalue of a symmetric matrix is larger than the largest sum of a row; each round takes the square of the matrix
-/// for the matrix, which halves the room between the two as a power of ten.
+/// An upper bound of a symmetric matrix's eigenvalues, its largest row sum; each round squares the matrix, which halves
+/// the logarithm of the bound's excess.
 fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
     let bound = [0, 1, 2].map(|row| matrix.row(row).abs().element_sum()).iter().copied().fold(0.0, f64::max);
     if rounds == 0 || bound == 0.0 || !bound.is_finite() {
@@ -142,34 +142,38 @@ mod tests {
         let (world, spheres) = scene(&[scale]);
         let table = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids");
         let pose = pose(&Census::of(&world), "", spheres[0]).expect("a pose");
-        let Ellipsoid { centre, unit_from_world, reach, .. } = table.ellipsoid[0];
+        let Ellipsoid { centre, unit_from_world, bounding_radius, .. } = table.ellipsoid[0];
         assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let pole = pose.world_from_entity.matrix3 * (axis * 2.0);
             assert!((unit_from_world * pole - axis).length() < 1e-7, "{axis}: {}", unit_from_world * pole);
-            assert!(pole.length() <= reach);
+            assert!(pole.length() <= bounding_radius);
         }
-        assert!(reach < 2e3 * 1.0001);
+        assert!(bounding_radius < 2e3 * 1.0001);
     }
 
     #[test]
-    fn a_sheared_sphere_lies_within_its_reach_and_not_far_within() {
+    fn a_sheared_sphere_fills_its_bounding_radius() {
         let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
         let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
         world.entity_mut(spheres[0]).insert(ChildOf(parent));
         let map = pose(&Census::of(&world), "", spheres[0]).expect("a pose").world_from_entity.matrix3;
-        let reach = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids").ellipsoid[0].reach;
+        let bounding_radius =
+            EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids").ellipsoid[0].bounding_radius;
         let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
         let point = |angle: f64| {
             let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
             map * (DVec3::new(libm::cos(angle) * round, libm::sin(angle) * round, height) * 2.0)
         };
         let farthest = steps.map(|angle| point(angle).length()).fold(0.0, f64::max);
-        assert!(farthest <= reach && reach <= farthest * 1.02, "{farthest} within {reach}");
+        assert!(
+            farthest <= bounding_radius && bounding_radius <= farthest * 1.02,
+            "{farthest} within {bounding_radius}"
+        );
     }
 
     #[test]
-    fn what_is_longer_one_way_than_ten_million_times_another_is_refused() {
+    fn an_ellipsoid_longer_than_ten_million_times_its_thickness_is_refused() {
         let table = |ratio: f64| EllipsoidTable::extract(&Census::of(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0));
         assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
         for ratio in [2e7, 1e-8] {

@@ -5,21 +5,21 @@ use crate::scene::{Disabled, Emissive, SceneError, Sides, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
-/// What surfaces emit, in spawn order.
+/// The emission of surfaces, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EmissiveTable {
-    /// The radiance that leaves every point, linear Rec. 709.
+    /// The radiance emitted at every point, linear Rec. 709.
     pub radiance: Vec<[f32; 3]>,
-    /// Whether it leaves on the side of the shape's own normal only.
+    /// Whether it is emitted only on the side of the shape's own normal.
     pub one_sided: Vec<bool>,
 }
 
-/// The enabled entities that carry an [`Emissive`], in spawn order; a row of the table is an entity here.
+/// The enabled entities that carry an [`Emissive`], in spawn order, one for each row of the table.
 pub(super) fn emissive_entities(scene: &Census<'_>) -> Arc<[Entity]> {
     scene.entities::<With<Emissive>>()
 }
 
-/// The entity that says what a shape emits: itself, or else the one whose material it uses.
+/// The entity that holds a shape's emission: itself, or else the one whose material it uses.
 pub(super) fn emissive_of(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();
@@ -53,7 +53,7 @@ pub fn one_sided_evidence(scene: &Census<'_>) -> Evidence {
     if found.needed && emissive_entities(scene).iter().any(one_sided) {
         return Evidence { reason: format!("{}, on one side", found.reason), ..found };
     }
-    Evidence { needed: false, reason: "0 surfaces that shine on one side".into(), count: 0 }
+    Evidence { needed: false, reason: "0 surfaces that emit on one side".into(), count: 0 }
 }
 
 /// Evidence that a shape emits light.

@@ -1,25 +1,26 @@
 use glam::DVec3;
 
-/// Edges whose cosine is no more than this count as across each other.
+/// Edges with a cosine of no more than this between them count as perpendicular.
 const SQUARE: f64 = 1e-9;
 
-/// A shape that emits light and whose points can be aimed at, in render space.
+/// The shape of an area light that can be sampled, in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Emitter {
     /// A sphere.
     Sphere {
-        /// From the eye.
+        /// Relative to the eye.
         centre: DVec3,
-        /// Scene units.
+        /// In scene units.
         radius: f64,
     },
-    /// A rectangle, or the parallelogram that uneven scales make of it.
+    /// A rectangle, or the parallelogram that a non-uniform scale makes of it.
     Rectangle(Parallelogram),
-    /// A disk, or the ellipse that uneven scales make of it, given by a box about it with sides along its axes.
+    /// A disk, or the ellipse that a non-uniform scale makes of it, given by its bounding rectangle with sides along
+    /// its axes.
     Disk(Parallelogram),
     /// A triangle.
     Triangle {
-        /// From the eye.
+        /// Relative to the eye.
         corners: [DVec3; 3],
         /// The unit normal on its own side.
         normal: DVec3,
@@ -28,31 +29,31 @@ pub enum Emitter {
     Cuboid(EmittingCuboid),
 }
 
-/// A flat piece with four corners.
+/// A planar parallelogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parallelogram {
-    /// Its middle, from the eye.
+    /// Its centre, relative to the eye.
     pub centre: DVec3,
-    /// From its middle to the middles of two edges.
+    /// From its centre to the midpoints of two edges.
     pub half_edges: [DVec3; 2],
     /// The unit normal on its own side.
     pub normal: DVec3,
-    /// Whether its edges are across each other.
+    /// Whether its edges are perpendicular.
     pub is_rectangle: bool,
 }
 
 impl Parallelogram {
-    /// The piece with these half edges; `side` is on its own side.
+    /// The parallelogram with these half edges; `side` is on the side of its normal.
     pub fn new(centre: DVec3, half_edges: [DVec3; 2], side: DVec3) -> Self {
         let cross = half_edges[0].cross(half_edges[1]).normalize();
         let normal = if cross.dot(side) < 0.0 { -cross } else { cross };
         Self { centre, half_edges, normal, is_rectangle: across(half_edges[0], half_edges[1]) }
     }
 
-    /// The box about the ellipse whose points are the centre and cos, sin of the two half edges, along the ellipse's axes.
+    /// The bounding rectangle, along the ellipse's axes, of the ellipse with points centre + a cos φ + b sin φ.
     pub fn about_ellipse(centre: DVec3, [a, b]: [DVec3; 2], side: DVec3) -> Self {
         let turn = 0.5 * libm::atan2(2.0 * a.dot(b), a.length_squared() - b.length_squared());
-        // A circle has no axes of its own; it keeps the ones it has.
+        // A circle has no distinguished axes, so it keeps the given ones.
         let turn = if across(a, b) { 0.0 } else { turn };
         let (sin, cos) = (libm::sin(turn), libm::cos(turn));
         Self::new(centre, [a * cos + b * sin, b * cos - a * sin], side)
@@ -65,16 +66,16 @@ impl Parallelogram {
     }
 }
 
-/// A cuboid, as its faces are aimed at.
+/// A cuboid as a light, sampled face by face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmittingCuboid {
-    /// From the eye.
+    /// Relative to the eye.
     pub centre: DVec3,
-    /// From the centre to the middles of three faces.
+    /// From the centre to the midpoints of three faces.
     pub half_edges: [DVec3; 3],
-    /// The outward unit normals there.
+    /// The outward unit normals of these faces.
     pub normals: [DVec3; 3],
-    /// Whether its edges are across each other.
+    /// Whether its edges are perpendicular.
     pub is_square: bool,
 }
 
@@ -89,9 +90,9 @@ impl EmittingCuboid {
         Self { centre, half_edges, normals, is_square }
     }
 
-    /// Whether a point lies inside it.
+    /// Whether a point is inside it.
     #[inline(always)]
-    pub fn holds(&self, point: DVec3) -> bool {
+    pub fn contains(&self, point: DVec3) -> bool {
         (0..3).all(|axis| {
             let normal = self.normals[axis];
             normal.dot(point - self.centre).abs() < normal.dot(self.half_edges[axis])
@@ -100,7 +101,7 @@ impl EmittingCuboid {
 }
 
 impl Emitter {
-    /// How much surface emits, one side of it, in square scene units.
+    /// The area that emits, on one side, in square scene units.
     pub fn area(&self) -> f64 {
         match self {
             Self::Sphere { radius, .. } => 4.0 * std::f64::consts::PI * radius * radius,
@@ -117,19 +118,19 @@ impl Emitter {
         }
     }
 
-    /// Whether a point lies on the side of the shape's own normal, which of a sphere and a cuboid is the outside.
+    /// Whether a point is on the side of the shape's own normal, which is the outside of a sphere or a cuboid.
     #[inline(always)]
     pub fn faces(&self, point: DVec3) -> bool {
         match self {
             Self::Sphere { centre, radius } => (point - *centre).length_squared() > radius * radius,
             Self::Rectangle(planar) | Self::Disk(planar) => planar.normal.dot(point - planar.centre) > 0.0,
             Self::Triangle { corners, normal } => normal.dot(point - corners[0]) > 0.0,
-            Self::Cuboid(cuboid) => !cuboid.holds(point),
+            Self::Cuboid(cuboid) => !cuboid.contains(point),
         }
     }
 }
 
-/// Whether two vectors are across each other.
+/// Whether two vectors are perpendicular.
 fn across(a: DVec3, b: DVec3) -> bool {
     a.dot(b).abs() <= SQUARE * a.length() * b.length()
 }

@@ -6,12 +6,12 @@ use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
-/// The radiance of a background from an image of all directions.
+/// The radiance of an environment from an equirectangular image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentTable {
     /// Linear Rec. 709 radiance.
     pub image: Arc<Texels>,
-    /// Sine and cosine of the turn about +y.
+    /// Sine and cosine of the rotation about +y.
     pub turn: [f64; 2],
 }
 

@@ -5,27 +5,28 @@ use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 
-/// How much light comes from where in an image of all directions, for directions to be chosen by it.
+/// The distribution of an environment's light over directions, for sampling it by importance.
 ///
-/// A cell lies between the middles of four texels, or of two texels and a pole: there the image is blended from the cell's
-/// corners, so a cell whose corners are black is black throughout, and no other is never chosen.
+/// A cell lies between the centres of four texels, or of two texels and a pole: there the image is interpolated from
+/// the cell's corners, so a cell with black corners is black throughout, and only such cells are never chosen.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EnvironmentLightTable {
-    /// Cells from left to right, as many as texels.
+    /// The number of cells from left to right, as many as texels.
     pub columns: usize,
-    /// Cells from top to bottom, one more than texels.
+    /// The number of cells from top to bottom, one more than texels.
     pub rows: usize,
-    /// 1 − cos of the angle from the top of the upper edge of each row, and of the last row's lower edge.
+    /// 1 − cos of the polar angle of each row's upper edge, and of the last row's lower edge.
     pub versine: Vec<f64>,
-    /// The share of all light that comes from above each of these edges.
+    /// The marginal distribution of rows: the fraction of all light above each of these edges.
     pub above: Vec<f64>,
-    /// Row by row, the share of the row's light that comes from left of each cell's left edge, and 1 at the end.
+    /// Row by row, the conditional distribution of columns: the fraction of the row's light to the left of each cell,
+    /// and 1 at the end.
     pub left: Vec<f64>,
 }
 
 impl EnvironmentLightTable {
     // ANCHOR: environment_cells
-    /// The cells of an image, each with the mean luminance of its corners times the solid angle that it fills.
+    /// The distribution of an image: each cell has the mean luminance of its corners times its solid angle.
     pub fn new(image: &Texels) -> Self {
         let (columns, rows) = (image.width, image.height + 1);
         let edge = |line: usize| ((line as f64 - 0.5) / image.height as f64).clamp(0.0, 1.0) * PI;
@@ -59,9 +60,9 @@ impl EnvironmentLightTable {
     }
     // ANCHOR_END: environment_cells
 
-    /// The cell that two numbers from 0 to below 1 choose, and where in it they fall: row, column, and the two shares.
+    /// The cell that two numbers in [0, 1) select, and the position within it: row, column, and two fractions.
     ///
-    /// A row or cell without light has no width among the shares, so none is chosen.
+    /// A row or cell without light has zero width in the distributions, so it is never selected.
     #[inline(always)]
     pub fn chosen(&self, u: [f64; 2]) -> ([usize; 2], [f64; 2]) {
         let (row, down) = between(&self.above, u[1]);
@@ -69,33 +70,33 @@ impl EnvironmentLightTable {
         ([row, column], [down, across])
     }
 
-    /// How likely a direction in a cell is to be chosen, in 1/sr.
+    /// The pdf of directions in a cell, in 1/sr.
     #[inline(always)]
     pub fn pdf(&self, [row, column]: [usize; 2]) -> f64 {
         let left = &self.left[row * (self.columns + 1) + column..];
-        let share = (self.above[row + 1] - self.above[row]) * (left[1] - left[0]);
-        share * self.columns as f64 / (2.0 * PI * (self.versine[row + 1] - self.versine[row]))
+        let probability = (self.above[row + 1] - self.above[row]) * (left[1] - left[0]);
+        probability * self.columns as f64 / (2.0 * PI * (self.versine[row + 1] - self.versine[row]))
     }
 }
 
-/// Which step of a rising list a number lies in, and how far along it.
+/// The step of an increasing list that contains a number, and the fraction of the step at which it is.
 #[inline(always)]
 fn between(edges: &[f64], u: f64) -> (usize, f64) {
-    // A number past the last edge, which rounding may leave below 1, belongs to the last step that has a width.
+    // A number beyond the last edge, which rounding may leave below 1, belongs to the last step with a width.
     let u = u.min(edges[edges.len() - 1].next_down());
     let step = edges.partition_point(|&edge| edge <= u).clamp(1, edges.len() - 1) - 1;
     let width = edges[step + 1] - edges[step];
     (step, if width > 0.0 { ((u - edges[step]) / width).clamp(0.0, 1.0) } else { 0.5 })
 }
 
-/// 1 − cos, without the loss of a small angle's digits.
+/// 1 − cos, without losing the digits of a small angle.
 fn versine_of(angle: f64) -> f64 {
     let sine = libm::sin(0.5 * angle);
     2.0 * sine * sine
 }
 
-/// The luminances along a line through the middles of a row of texels; the first and the last line are the poles, where
-/// each texel meets the one across.
+/// The luminances along the centres of a row of texels; the first and the last line are the poles, where each texel
+/// continues in the one half a turn away.
 fn line_of(image: &Texels, line: usize) -> Vec<f64> {
     let row = line.clamp(1, image.height) - 1;
     let texel = |column: usize| luminance(image.rgb[row * image.width + column % image.width].map(f64::from));
@@ -116,7 +117,7 @@ impl Table for EnvironmentLightTable {
     }
 }
 
-/// Evidence that there is an image of all directions; one colour or a gradient needs no aiming.
+/// Evidence that there is an environment image; a constant background or a gradient needs no light sampling.
 pub fn environment_light_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::among::<With<Environment>>(scene, "environment", |entity| {
         entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)

@@ -1,24 +1,26 @@
-//! Sums and products of f64 without any error: for the few rays and shapes that rounding would misjudge.
+//! Exact sums and products of f64, for the few rays and shapes that rounding would misclassify.
 //!
-//! A number is held as a sum of f64 of falling size that share no binary digit (Shewchuk, *Adaptive precision
-//! floating-point arithmetic and fast robust geometric predicates*, 1997): so the sign of the largest is its sign.
+//! A number is represented as a sum of f64 of decreasing magnitude that do not overlap in any binary digit (Shewchuk,
+//! *Adaptive precision floating-point arithmetic and fast robust geometric predicates*, 1997), so the sign of the
+//! largest is the sign of the number.
 //! No fused multiply-add is used, so every machine gives the same bits.
-//! Right as long as every digit of every product is at least 2⁻¹⁰⁷⁴, the last that f64 can hold.
+//! Exact as long as every digit of every product is at least 2⁻¹⁰⁷⁴, the smallest that f64 can represent.
 
 use glam::DVec3;
 
-/// Parts that a sum has room for; drawn together it needs no more than 41, for f64 spans 2098 binary digits.
+/// The capacity of a sum; compressed, it needs at most 41 parts, since f64 spans 2098 binary digits.
 const ROOM: usize = 64;
 
-/// A sum of f64, exactly.
+/// An exact sum of f64.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactSum {
-    /// Of rising size, none 0, none sharing a digit with another.
+    /// In increasing order of magnitude, nonzero and nonoverlapping.
     parts: [f64; ROOM],
     length: usize,
 }
 
-/// a + b without any error: the rounded sum and what it lost (Knuth, *The Art of Computer Programming* vol. 2, 4.2.2).
+/// a + b without error: the rounded sum and its rounding error (Knuth, *The Art of Computer Programming* vol. 2,
+/// 4.2.2).
 #[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -26,7 +28,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - b_seen)) + (b - b_seen))
 }
 
-/// a · b without any error (Dekker 1971), each factor cut into halves of 26 bits.
+/// a · b without error (Dekker 1971), with each factor split into halves of 26 bits.
 #[inline(always)]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     const CUT: f64 = 134_217_729.0;
@@ -52,7 +54,7 @@ impl ExactSum {
         sum
     }
 
-    /// −1, 0 or 1.
+    /// The sign: −1, 0 or 1.
     pub fn sign(&self) -> i32 {
         let largest = self.terms().last().copied().unwrap_or(0.0);
         i32::from(largest > 0.0) - i32::from(largest < 0.0)
@@ -99,46 +101,46 @@ impl ExactSum {
         &self.parts[..self.length]
     }
 
-    /// Appends a part larger than all; a 0 is none.
+    /// Appends a part larger than all others, unless it is 0.
     fn push(&mut self, part: f64) {
         self.parts[self.length] = part;
         self.length += usize::from(part != 0.0);
     }
 
-    /// Adds one f64 (Shewchuk's Grow-Expansion, zeros left out).
+    /// Adds one f64 (Shewchuk's Grow-Expansion with zero elimination).
     fn add(&mut self, term: f64) {
         if self.length == ROOM - 1 {
-            self.draw_together();
+            self.compress();
         }
-        let (terms, mut carried) = (self.length, term);
+        let (terms, mut rest) = (self.length, term);
         self.length = 0;
         for term in 0..terms {
-            let (sum, lost) = two_sum(carried, self.parts[term]);
+            let (sum, lost) = two_sum(rest, self.parts[term]);
             self.push(lost);
-            carried = sum;
+            rest = sum;
         }
-        self.push(carried);
+        self.push(rest);
     }
 
-    /// The same number in as few parts as can be (Shewchuk's Compress).
-    fn draw_together(&mut self) {
-        let (mut larger, mut carried) = ([0.0; ROOM], 0.0);
+    /// The same number in the fewest parts (Shewchuk's Compress).
+    fn compress(&mut self) {
+        let (mut larger, mut rest) = ([0.0; ROOM], 0.0);
         let mut count = 0;
         for &part in self.terms().iter().rev() {
-            let (sum, lost) = two_sum(carried, part);
-            carried = sum;
+            let (sum, lost) = two_sum(rest, part);
+            rest = sum;
             if lost != 0.0 {
-                (larger[count], carried) = (sum, lost);
+                (larger[count], rest) = (sum, lost);
                 count += 1;
             }
         }
         self.length = 0;
         for &part in larger[..count].iter().rev() {
-            let (sum, lost) = two_sum(part, carried);
+            let (sum, lost) = two_sum(part, rest);
             self.push(lost);
-            carried = sum;
+            rest = sum;
         }
-        self.push(carried);
+        self.push(rest);
     }
 }
 
@@ -165,20 +167,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_sum_and_a_product_lose_is_in_the_second_half() {
+    fn the_rounding_error_of_a_sum_or_product_is_the_second_half() {
         assert_eq!(two_sum(1e16, 1.0), (1e16, 1.0));
         let x = 1.0 + 2.0 * f64::EPSILON;
         assert_eq!(two_product(x, x).1, 4.0 * f64::EPSILON * f64::EPSILON);
     }
 
     #[test]
-    fn nothing_is_lost_however_far_apart() {
+    fn nothing_is_lost_at_any_ratio_of_magnitudes() {
         let mut sum = ExactSum::ZERO;
         let terms: Vec<f64> = (-900..900).step_by(7).map(|power| libm::ldexp(1.0, power)).collect();
         terms.iter().for_each(|&term| sum.add(term));
         assert_eq!(sum.sign(), 1);
         terms.iter().rev().for_each(|&term| sum.add(-term));
-        assert_eq!((sum.sign(), sum.length), (0, 0), "all that went in came out, over {} terms", terms.len());
+        assert_eq!((sum.sign(), sum.length), (0, 0), "everything cancels, over {} terms", terms.len());
     }
 
     #[test]

@@ -5,43 +5,43 @@ use crate::scene::{Filter, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// Cells on each lobe of a filter's table.
+/// Cells for each lobe of a filter's table.
 ///
-/// With so many the area under |f| up to a sampled place is right to 1e-6 of the whole; a test measures it.
+/// With this many, the area under |f| up to a sampled position is accurate to 1e-6 of the whole, as a test measures.
 const CELLS: usize = 192;
 
-/// How samples are spread about a pixel's centre.
+/// The reconstruction filter, by which samples are distributed about a pixel's centre.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilterTable {
-    /// The filter as the author gave it.
+    /// The filter as the author wrote it.
     pub filter: Filter,
-    /// Its table, where the place of a sample has no closed form; else empty.
+    /// Its table, where its sampling has no closed form; otherwise empty.
     pub cells: FilterCells,
 }
 
-/// The area under |f| from the pixel's centre to one side, cut into cells.
+/// The area under |f| from the pixel's centre to one side, divided into cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilterCells {
-    /// For equal steps of the area, the first cell that reaches beyond.
+    /// For equal steps of the area, the first cell that ends beyond the step.
     pub first: Vec<u16>,
-    /// The cells, outward.
+    /// The cells, from the centre outwards.
     pub cells: Vec<Span>,
 }
 
 /// A cell of a filter's table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// The area before it, as a part of the whole.
+    /// The area before it, as a fraction of the whole.
     pub start: f64,
-    /// The area at its end; the last cell's lies beyond the whole.
+    /// The area at its end; that of the last cell is beyond the whole.
     pub end: f64,
-    /// 1 / its own area.
+    /// The reciprocal of its own area.
     pub per_area: f64,
     /// Where it begins, in pixels from the centre.
     pub x: f64,
-    /// How wide it is, in pixels.
+    /// Its width, in pixels.
     pub width: f64,
-    /// |f| where it begins, as a part of the sum of |f| at both its ends: 1/2 where |f| is level.
+    /// |f| at its beginning, as a fraction of the sum of |f| at both ends: 1/2 where |f| is constant.
     pub slope: f64,
     /// Whether f is negative in it.
     pub negative: bool,
@@ -81,7 +81,7 @@ fn check(who: &str, filter: Filter) -> Result<(), SceneError> {
     }
 }
 
-/// Where a filter ends, in pixels.
+/// The radius of a filter, in pixels.
 pub fn radius_of(filter: Filter) -> f64 {
     match filter {
         Filter::Box { radius }
@@ -92,7 +92,7 @@ pub fn radius_of(filter: Filter) -> f64 {
     }
 }
 
-/// What a filter is at a distance of x ≥ 0 pixels from the centre along one axis; its scale is of no account.
+/// The value of a filter at a distance of x ≥ 0 pixels from the centre along one axis; it is not normalised.
 pub fn filter_value(filter: Filter, x: f64) -> f64 {
     if x >= radius_of(filter) {
         return 0.0;
@@ -117,17 +117,17 @@ pub fn filter_value(filter: Filter, x: f64) -> f64 {
     }
 }
 
-/// The four weights of the window (Harris 1978, minimum 4-term).
+/// The four coefficients of the window (Blackman–Harris, minimum 4-term; Harris 1978).
 const HARRIS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
 
-/// The coefficients of Mitchell and Netravali's two cubics, constant first: up to 1 and from 1 to 2.
+/// The coefficients of Mitchell and Netravali's two cubics, constant term first: for x up to 1, and from 1 to 2.
 fn mitchell(b: f64, c: f64) -> [[f64; 4]; 2] {
     let near = [6.0 - 2.0 * b, 0.0, -18.0 + 12.0 * b + 6.0 * c, 12.0 - 9.0 * b - 6.0 * c];
     let far = [8.0 * b + 24.0 * c, -12.0 * b - 48.0 * c, 6.0 * b + 30.0 * c, -b - 6.0 * c];
     [near, far].map(|cubic| cubic.map(|part| part / 6.0))
 }
 
-/// The area under a filter from the centre to x ≥ 0, signed.
+/// The signed area under a filter from the centre to x ≥ 0.
 pub fn filter_area(filter: Filter, x: f64) -> f64 {
     let x = x.min(radius_of(filter));
     match filter {
@@ -151,10 +151,10 @@ pub fn filter_area(filter: Filter, x: f64) -> f64 {
     }
 }
 
-/// Where a filter turns from positive to negative, or its end.
+/// Where a filter changes sign from positive to negative, or its radius.
 ///
 /// The outer cubic is (2 − t)² (b(2 − t) − 6c(t − 1)) / 6.
-pub fn turning_place(filter: Filter) -> f64 {
+pub fn sign_change(filter: Filter) -> f64 {
     match filter {
         Filter::Mitchell { radius, b, c } if c > 0.0 => radius / 2.0 * (2.0 * b + 6.0 * c) / (b + 6.0 * c),
         _ => radius_of(filter),
@@ -162,12 +162,12 @@ pub fn turning_place(filter: Filter) -> f64 {
 }
 
 impl FilterCells {
-    /// The table of a filter, empty where none is needed.
+    /// The table of a filter; empty where none is needed.
     pub fn of(filter: Filter) -> Self {
         if matches!(filter, Filter::Box { .. } | Filter::Tent { .. }) {
             return Self::default();
         }
-        let (turn, radius) = (turning_place(filter), radius_of(filter));
+        let (turn, radius) = (sign_change(filter), radius_of(filter));
         let positive = filter_area(filter, turn);
         let whole = positive + (filter_area(filter, radius) - positive).abs();
         let mut cells = Vec::new();
@@ -216,20 +216,20 @@ mod tests {
             }
             assert!(worst < 1e-9 * radius, "{filter:?}: area off by {worst:e}");
         }
-        assert!((2.0 * filter_area(Filter::MITCHELL, 2.0) - 1.0).abs() < 1e-15, "Mitchell's own scale is 1");
+        assert!((2.0 * filter_area(Filter::MITCHELL, 2.0) - 1.0).abs() < 1e-15, "Mitchell's filter is normalised");
     }
 
-    /// The sign is the filter's own on both sides of where it turns, and only there.
+    /// The sign of a filter changes where it should, and only there.
     #[test]
-    fn filters_turn_where_it_is_said() {
+    fn filters_change_sign_where_they_should() {
         for (b, c) in [(1.0 / 3.0, 1.0 / 3.0), (0.0, 0.5), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (0.5, 0.1)] {
             let filter = Filter::Mitchell { radius: 2.0, b, c };
-            let turn = turning_place(filter);
+            let turn = sign_change(filter);
             for step in 1..2000 {
                 let x = f64::from(step) / 1000.0;
                 let value = filter_value(filter, x);
                 let right = if x < turn { value >= -1e-12 } else { value <= 1e-12 };
-                assert!(right, "B = {b}, C = {c}: f({x}) = {value:e}, but it turns at {turn}");
+                assert!(right, "B = {b}, C = {c}: f({x}) = {value:e}, but the sign changes at {turn}");
             }
             assert_eq!(filter.is_signed(), c > 0.0);
         }

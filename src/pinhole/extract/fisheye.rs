@@ -6,7 +6,7 @@ use crate::plan::{Census, Evidence, Table};
 use crate::scene::{FisheyeCamera, Layers, SceneError};
 use bevy_ecs::prelude::*;
 
-/// What a fisheye camera does to screen points.
+/// The image circle of a fisheye camera, on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ImageCircle {
     /// Its radius in half heights of the image.
@@ -43,8 +43,8 @@ impl Table for ImageCircle {
         }
         if !scene.entities::<With<Layers>>().is_empty() {
             let accepted =
-                "a fisheye camera has none, for outside its circle there is nothing to keep: take another kind";
-            return Err(SceneError::new(who, "layers", "asked for", accepted));
+                "a fisheye camera has none, for outside its circle there is nothing to record: use another kind";
+            return Err(SceneError::new(who, "layers", "requested", accepted));
         }
         Ok(circle)
     }
@@ -55,7 +55,7 @@ impl Table for ImageCircle {
 }
 
 impl ImageCircle {
-    /// How far from the axis a step of one pixel away from the centre leads, in radians; the same everywhere.
+    /// The angle between the rays of neighbouring pixels along the radius, in radians; the same everywhere.
     pub fn pixel(&self, image: ImageFrame) -> f64 {
         self.half_angle / self.radius * 2.0 / f64::from(image.height)
     }

@@ -5,17 +5,17 @@ use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
 use bevy_ecs::prelude::*;
 
-/// The least index of refraction that is accepted, and one over the largest.
+/// The least accepted index of refraction, and the reciprocal of the greatest.
 const LEAST_INDEX: f64 = 1e-3;
 
-/// Kinds of glass, in spawn order.
+/// Kinds of glass (dielectrics), in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlassTable {
-    /// The index of refraction against the vacuum.
+    /// The index of refraction relative to a vacuum.
     pub ior: Vec<f64>,
-    /// The absorption a scene unit: red, green, blue, at least 0.
+    /// The absorption coefficient per scene unit: red, green, blue, at least 0.
     pub absorption: Vec<[f64; 3]>,
-    /// Which is there where two overlap: the higher.
+    /// Where two overlap, the one with the higher priority is present.
     pub priority: Vec<u32>,
 }
 
@@ -51,7 +51,7 @@ pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, 
     Ok((glass.ior, absorption, glass.priority))
 }
 
-/// Checks that no shape without an inside is made of glass.
+/// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
     let mut open: Vec<(Entity, &str)> = of("disk", numbered::<Disk>(scene)).collect();
@@ -62,7 +62,7 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
-        let accepted = "glass needs a shape with an inside: a sphere, a cuboid, a plane or triangles that close";
+        let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
         return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
     }
     Ok(())

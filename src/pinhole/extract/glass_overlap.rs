@@ -1,4 +1,4 @@
-use super::material_kind::reached_of;
+use super::material_kind::in_use_of;
 use super::{
     Bounds, CuboidTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable,
     TriangleTable, shape_entities,
@@ -10,31 +10,31 @@ use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// A shape of glass and the box about it.
-struct Piece {
+/// A glass shape with its bounding box.
+struct BoundedGlass {
     /// Its number.
     shape: usize,
     /// The row of its glass.
     of: u32,
-    /// Whether it is a part of a surface rather than all of one.
+    /// Whether it is part of a larger surface, such as a triangle of a mesh.
     part: bool,
     bounds: Bounds,
 }
 
-/// Evidence that a shape is made of glass such as this.
+/// Evidence of a shape made of glass that passes a test.
 pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
-    reached_of::<Glass>(scene, noun, such)
+    in_use_of::<Glass>(scene, noun, such)
 }
 
-/// Evidence that two shapes of glass may overlap, by the boxes about them.
+/// Evidence that two glass shapes may overlap, according to their bounding boxes.
 ///
-/// Triangles of one kind of glass are taken for parts of one surface.
+/// Triangles of the same glass are taken for parts of one surface.
 pub fn glass_overlaps(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
-        // What cannot be extracted is refused before anything is rendered.
-        let Ok(pieces) = pieces(scene) else { return none() };
-        match first_overlap(pieces) {
+        // A scene that cannot be extracted is reported before anything is rendered.
+        let Ok(shapes) = bounded_glass(scene) else { return none() };
+        match first_overlap(shapes) {
             None => none(),
             Some(pair) => {
                 let entities = shape_entities(scene);
@@ -47,26 +47,26 @@ pub fn glass_overlaps(scene: &Census<'_>) -> Evidence {
     })
 }
 
-/// Evidence that more than so many shapes of glass may hold one point, by the boxes about them.
+/// Evidence that more than this many glass shapes may contain a common point, according to their bounding boxes.
 ///
-/// It may be said of shapes that do not hold a point together, but is never missed of those that do.
+/// It may be wrong for shapes that do not, but never misses shapes that do.
 pub fn deep_glass(scene: &Census<'_>, places: usize) -> Evidence {
     let none = || Evidence { needed: false, reason: format!("no {} shapes of glass overlap", places + 1), count: 0 };
-    // What cannot be extracted is refused before anything is rendered.
-    let Ok(pieces) = pieces(scene) else { return none() };
-    if !overlap_deeply(&surfaces(pieces), places) {
+    // A scene that cannot be extracted is reported before anything is rendered.
+    let Ok(shapes) = bounded_glass(scene) else { return none() };
+    if !overlap_deeply(&surfaces(shapes), places) {
         return none();
     }
     let count = places + 1;
     Evidence { needed: true, reason: format!("{count} shapes of glass or more may overlap"), count }
 }
 
-/// The same with the parts of one surface put together.
-fn surfaces(pieces: Vec<Piece>) -> Vec<Piece> {
-    let (parts, mut whole): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.part);
-    let mut of_glass: BTreeMap<u32, Piece> = BTreeMap::new();
+/// The same with the parts of one surface merged.
+fn surfaces(shapes: Vec<BoundedGlass>) -> Vec<BoundedGlass> {
+    let (parts, mut whole): (Vec<BoundedGlass>, Vec<BoundedGlass>) = shapes.into_iter().partition(|shape| shape.part);
+    let mut of_glass: BTreeMap<u32, BoundedGlass> = BTreeMap::new();
     for part in parts {
-        let surface = of_glass.entry(part.of).or_insert(Piece { ..part });
+        let surface = of_glass.entry(part.of).or_insert(BoundedGlass { ..part });
         surface.bounds.least = surface.bounds.least.min(part.bounds.least);
         surface.bounds.most = surface.bounds.most.max(part.bounds.most);
     }
@@ -74,16 +74,16 @@ fn surfaces(pieces: Vec<Piece>) -> Vec<Piece> {
     whole
 }
 
-/// Whether some point may lie in more than so many of the pieces.
-fn overlap_deeply(pieces: &[Piece], places: usize) -> bool {
-    let mut order: Vec<&Bounds> = pieces.iter().map(|piece| &piece.bounds).collect();
+/// Whether a point may be inside more than this many shapes.
+fn overlap_deeply(shapes: &[BoundedGlass], places: usize) -> bool {
+    let mut order: Vec<&Bounds> = shapes.iter().map(|shape| &shape.bounds).collect();
     order.sort_by(|a, b| a.least.x.partial_cmp(&b.least.x).unwrap_or(Ordering::Equal));
     let mut open: Vec<&Bounds> = Vec::new();
     for bounds in order {
         open.retain(|other| other.most.x >= bounds.least.x);
-        let mut about: Vec<&Bounds> = open.iter().copied().filter(|other| other.meets(bounds)).collect();
+        let mut about: Vec<&Bounds> = open.iter().copied().filter(|other| other.overlaps(bounds)).collect();
         about.push(bounds);
-        if about.len() > places && share_a_point(&about, places) {
+        if about.len() > places && have_a_common_point(&about, places) {
             return true;
         }
         open.push(bounds);
@@ -91,46 +91,47 @@ fn overlap_deeply(pieces: &[Piece], places: usize) -> bool {
     false
 }
 
-/// Beyond so many boxes that overlap with one of them it is taken for granted that some of them share a point, for to
-/// look closer would take long.
+/// With more boxes than this that overlap one of them, some are assumed to have a common point, since a closer look
+/// would take long.
 const MANY: usize = 64;
 
-/// Whether more than so many boxes, which all hold the x at which the last of them begins, share a point: if any point
-/// does, then one at whose y and z some of them begin.
-fn share_a_point(boxes: &[&Bounds], places: usize) -> bool {
-    let holds = |along: usize, at: f64| move |other: &&&Bounds| (other.least[along]..=other.most[along]).contains(&at);
+/// Whether more than this many boxes, which all contain the x at which the last of them begins, have a common point: if
+/// any does, then one at whose y and z some of them begin.
+fn have_a_common_point(boxes: &[&Bounds], places: usize) -> bool {
+    let contains =
+        |along: usize, at: f64| move |other: &&&Bounds| (other.least[along]..=other.most[along]).contains(&at);
     boxes.len() > MANY
         || boxes.iter().any(|first| {
-            let beside: Vec<&Bounds> = boxes.iter().filter(holds(1, first.least.y)).copied().collect();
-            let deepest = beside.iter().map(|own| beside.iter().filter(holds(2, own.least.z)).count()).max();
+            let beside: Vec<&Bounds> = boxes.iter().filter(contains(1, first.least.y)).copied().collect();
+            let deepest = beside.iter().map(|own| beside.iter().filter(contains(2, own.least.z)).count()).max();
             deepest.is_some_and(|deepest| deepest > places)
         })
 }
 
-/// The numbers of two shapes whose boxes meet, the first such pair along x.
-fn first_overlap(mut pieces: Vec<Piece>) -> Option<[usize; 2]> {
-    let by_least = |a: &Piece, b: &Piece| {
+/// The numbers of two shapes whose boxes overlap, the first such pair along x.
+fn first_overlap(mut shapes: Vec<BoundedGlass>) -> Option<[usize; 2]> {
+    let by_least = |a: &BoundedGlass, b: &BoundedGlass| {
         a.bounds.least.x.partial_cmp(&b.bounds.least.x).unwrap_or(Ordering::Equal).then(a.shape.cmp(&b.shape))
     };
-    pieces.sort_by(by_least);
-    let mut open: Vec<&Piece> = Vec::new();
-    for piece in &pieces {
-        open.retain(|other| other.bounds.most.x >= piece.bounds.least.x);
-        let meets = |other: &&&Piece| {
-            let one_surface = piece.part && other.part && piece.of == other.of;
-            !one_surface && other.bounds.meets(&piece.bounds)
+    shapes.sort_by(by_least);
+    let mut open: Vec<&BoundedGlass> = Vec::new();
+    for shape in &shapes {
+        open.retain(|other| other.bounds.most.x >= shape.bounds.least.x);
+        let overlaps = |other: &&&BoundedGlass| {
+            let one_surface = shape.part && other.part && shape.of == other.of;
+            !one_surface && other.bounds.overlaps(&shape.bounds)
         };
-        if let Some(other) = open.iter().find(meets) {
-            let (one, other) = (piece.shape.min(other.shape), piece.shape.max(other.shape));
+        if let Some(other) = open.iter().find(overlaps) {
+            let (one, other) = (shape.shape.min(other.shape), shape.shape.max(other.shape));
             return Some([one, other]);
         }
-        open.push(piece);
+        open.push(shape);
     }
     None
 }
 
-/// Every shape of glass.
-fn pieces(scene: &Census<'_>) -> Result<Vec<Piece>, SceneError> {
+/// Every glass shape.
+fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];
@@ -140,25 +141,25 @@ fn pieces(scene: &Census<'_>) -> Result<Vec<Piece>, SceneError> {
     let spheres = scene.table::<SphereTable>()?;
     let (ellipsoids, cuboids) = (scene.table::<EllipsoidTable>()?, scene.table::<CuboidTable>()?);
     let triangles = scene.table::<TriangleTable>()?;
-    let pieces = glass.into_iter().map(|shape| {
+    let bounded = glass.into_iter().map(|shape| {
         let row = shapes.row[shape] as usize;
         let bounds = match shapes.kind[shape] {
             ShapeKind::Sphere => Bounds::of_sphere(spheres.centre(row), spheres.radius[row]),
             ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
             ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
             ShapeKind::Triangle => {
-                let [a, b, c] = triangles.facet[row].corners;
+                let [a, b, c] = triangles.triangle[row].corners;
                 Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
             }
-            // A plane of glass reaches everywhere, and what moves may; disks and rectangles of glass are refused.
+            // A plane is infinite, and a moving shape may go anywhere; disks and rectangles of glass are invalid.
             ShapeKind::Plane | ShapeKind::Disk | ShapeKind::Rectangle | ShapeKind::Moving => {
                 Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY }
             }
         };
         let part = shapes.kind[shape] == ShapeKind::Triangle;
-        Piece { shape, of: materials.row[shapes.material[shape] as usize], part, bounds }
+        BoundedGlass { shape, of: materials.row[shapes.material[shape] as usize], part, bounds }
     });
-    Ok(pieces.collect())
+    Ok(bounded.collect())
 }
 
 #[cfg(test)]
@@ -194,14 +195,14 @@ mod tests {
         let mut pond = world(&apart[..1]);
         assert!(!glass_overlaps(&Census::of(&pond)).needed);
         pond.spawn((Plane::default(), Glass::default()));
-        assert!(glass_overlaps(&Census::of(&pond)).needed, "a plane reaches everywhere");
+        assert!(glass_overlaps(&Census::of(&pond)).needed, "a plane is infinite");
         let mut stone = world(&apart[..1]);
         stone.spawn((Sphere { radius: 0.5 }, Matte::default()));
-        assert!(!glass_overlaps(&Census::of(&stone)).needed, "matter that is no glass");
+        assert!(!glass_overlaps(&Census::of(&stone)).needed, "a material other than glass");
     }
 
     #[test]
-    fn as_deep_as_boxes_share_a_point() {
+    fn depth_counts_boxes_with_a_common_point() {
         let depth =
             |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&Census::of(&world(balls)), places).needed);
         assert_eq!(depth(&[]), Some(0));

@@ -3,12 +3,12 @@ use crate::plan::{Census, Table};
 use crate::scene::{Gradient, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The radiance of a background that changes from below to above.
+/// The radiance of a background that changes with elevation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GradientTable {
-    /// Straight down, linear Rec. 709.
+    /// Towards −y, linear Rec. 709.
     pub bottom: [f64; 3],
-    /// Straight up.
+    /// Towards +y.
     pub top: [f64; 3],
 }
 

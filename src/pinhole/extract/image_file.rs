@@ -15,9 +15,9 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The most texels of one image.
+/// The greatest number of texels of one image.
 const MOST_TEXELS: u64 = 1 << 24;
-/// What a texel takes with its part of the smaller copies.
+/// The memory of a texel with its part of the pyramid above it, in bytes.
 const BYTES_A_TEXEL: u64 = 16;
 
 /// An image in linear light, its rows from top to bottom.
@@ -37,17 +37,17 @@ impl Texels {
         Self { width: 1, height: 1, rgb: vec![rgb] }
     }
 
-    /// Bytes that they take.
+    /// Their memory, in bytes.
     pub fn bytes(&self) -> usize {
         self.rgb.len() * size_of::<[f32; 3]>()
     }
 }
 
-/// Which numbers an image may hold.
+/// The range of values that an image may hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Numbers {
-    /// Shares of light, from 0 to 1.
-    Shares,
+    /// Reflectances, from 0 to 1.
+    Reflectances,
     /// Radiance: finite, at least 0.
     Radiance,
 }
@@ -55,45 +55,45 @@ enum Numbers {
 impl Numbers {
     fn endings(self) -> (&'static [&'static str], &'static str) {
         match self {
-            Self::Shares => (&["png", "hdr", "exr"], "it must be the name of a .png, .hdr or .exr file"),
+            Self::Reflectances => (&["png", "hdr", "exr"], "it must be the name of a .png, .hdr or .exr file"),
             Self::Radiance => (&["hdr", "exr"], "it must be the name of a .hdr or .exr file"),
         }
     }
 
     fn accepts(self, part: f32) -> bool {
         match self {
-            Self::Shares => (0.0..=1.0).contains(&part),
+            Self::Reflectances => (0.0..=1.0).contains(&part),
             Self::Radiance => (0.0..f32::INFINITY).contains(&part),
         }
     }
 
     fn range(self) -> &'static str {
         match self {
-            Self::Shares => "from 0 to 1, for a surface gives back no more than it gets",
+            Self::Reflectances => "from 0 to 1, for a surface gives back no more than it gets",
             Self::Radiance => "finite and at least 0",
         }
     }
 }
 
-/// The images of textures, in shares of light, and those of backgrounds, in radiance.
+/// The images of textures, which are reflectances, and those of environments, which are radiance.
 static TEXTURES: ImageStore<Pyramid> = ImageStore::new();
 static BACKGROUNDS: ImageStore<Texels> = ImageStore::new();
 
-/// The image of a texture, with its smaller copies.
+/// The image of a texture, with its pyramid.
 ///
-/// Errors: another ending, a file that is not there, cannot be read or is too large, a texel that is out of range.
+/// Errors: another file name extension, a file that is missing, unreadable or too large, a texel out of range.
 pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<Pyramid>, SceneError> {
     let decode = |texels: Texels| {
         let pyramid = Pyramid::on(texels);
         let bytes = pyramid.bytes();
         (pyramid, bytes)
     };
-    decoded(&TEXTURES, scene, who, file, Numbers::Shares, decode)
+    decoded(&TEXTURES, scene, who, file, Numbers::Reflectances, decode)
 }
 
-/// The image of a background.
+/// The image of an environment.
 ///
-/// Errors: as those of a texture.
+/// Errors: the same as those of a texture.
 pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
     let decode = |texels: Texels| {
         let bytes = texels.bytes();
@@ -102,7 +102,7 @@ pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<A
     decoded(&BACKGROUNDS, scene, who, file, Numbers::Radiance, decode)
 }
 
-/// A file's name as a refusal shows it.
+/// A file's name as error messages show it.
 pub(super) fn shown_name(file: &str) -> String {
     format!("\"{}\"", printable(file, 80))
 }
@@ -135,15 +135,15 @@ fn decoded<T>(
     })
 }
 
-/// What all files of textures together need, as far as they are not in memory yet.
+/// Checks the memory that all texture files together need, except for those decoded already.
 ///
-/// Errors: how many files they are, and what they need.
+/// Errors: the number of files, and the memory they need.
 pub(super) fn check_memory_of_textures<'f>(
     scene: &World,
     files: impl Iterator<Item = &'f str>,
 ) -> Result<(), (usize, TooLittleMemory)> {
     let paths: BTreeSet<PathBuf> = files.map(|file| SceneFolder::path_of(scene, file)).collect();
-    // What cannot be read is refused by its own name later.
+    // An unreadable file is reported by its own name later.
     let bytes = |path: &PathBuf| -> Option<u64> {
         let (_, format) = format_of(path)?;
         let file = open_file(path, IMAGE_FILE).ok()?;
@@ -168,18 +168,18 @@ fn check_numbers(texels: &Texels, numbers: Numbers) -> Result<(), String> {
     let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
     let [r, g, b] = texels.rgb[first];
     let (x, y) = (first % texels.width, first / texels.width);
-    let held = format!("it holds {count} other texels, the first at {x}, {y}: ({r}, {g}, {b})");
-    Err(format!("each part of a texel must be {}, and {held}", numbers.range()))
+    let found = format!("it has {count} other texels, the first at {x}, {y}: ({r}, {g}, {b})");
+    Err(format!("each part of a texel must be {}, and {found}", numbers.range()))
 }
 
-/// The texels of a file of these bytes.
+/// Decodes the bytes of a file.
 fn texels(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
     let head = image_head(Cursor::new(bytes), format, bytes.len() as u64)?;
     let ImageHead { width, height, decoded } = head;
     if head.pixels() > MOST_TEXELS {
         return Err(format!("it has {width} × {height} texels, and an image may have {MOST_TEXELS}"));
     }
-    // The decoder's own pixels stand beside the texels for a while.
+    // For a while, the decoder's own pixels exist beside the texels.
     check_memory(head.pixels() * BYTES_A_TEXEL + 2 * decoded)
         .map_err(|too_little| format!("it has {width} × {height} texels, which {too_little}"))?;
     match format {
@@ -195,7 +195,7 @@ fn texels(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
     }
 }
 
-/// Whole numbers are sRGB, floats are linear; alpha is left out.
+/// Converts pixels to linear light: integers are sRGB, floats are linear; alpha is ignored.
 fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
     let bytes_a_part = image.color().bytes_per_pixel() / image.color().channel_count();
     match bytes_a_part {
@@ -211,9 +211,9 @@ fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
     }
 }
 
-/// The channels R, G and B of an EXR's first part that has them, at full size.
+/// The channels R, G and B of the first part of an EXR that has them, at full size.
 ///
-/// Errors: what the library says, on one line.
+/// Errors: the library's message, on one line.
 pub fn read_exr(reader: impl BufRead + Seek) -> Result<Texels, String> {
     let image = read()
         .no_deep_data()

@@ -1,6 +1,6 @@
-//! What an image file says that it holds, looked at before memory is asked for.
+//! The size that an image file states, read before memory is allocated.
 //!
-//! A file of a few hundred bytes can say that it has 10⁹ pixels.
+//! A file of a few hundred bytes can state that it has 10⁹ pixels.
 
 use exr::meta::header::Header;
 use exr::prelude::{Compression, MetaData};
@@ -8,17 +8,17 @@ use image::{ImageDecoder, ImageFormat, ImageReader};
 use std::fmt::Display;
 use std::io::{BufRead, Seek};
 
-/// The most bytes that a byte of deflate stands for.
+/// The greatest number of bytes that a byte of deflate can expand to.
 const DEFLATE: u64 = 1032;
 
-/// The size of an image, and what decoding it takes.
+/// The size of an image, and the memory that decoding it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageHead {
     /// Pixels from left to right.
     pub width: u64,
     /// Pixels from top to bottom.
     pub height: u64,
-    /// Bytes of its pixels as they come out of the decoder.
+    /// The size of its pixels as they come out of the decoder, in bytes.
     pub decoded: u64,
 }
 
@@ -29,9 +29,9 @@ impl ImageHead {
     }
 }
 
-/// Reads the head of an image file of so many bytes; of an EXR of several parts it is the largest part's.
+/// Reads the header of an image file of `length` bytes; for an EXR of several parts, that of the largest part.
 ///
-/// Errors: it is damaged, has no pixels, or says it has more than so few bytes can hold.
+/// Errors: the file is damaged, has no pixels, or states more of them than so few bytes can hold.
 pub fn image_head(reader: impl BufRead + Seek, format: ImageFormat, length: u64) -> Result<ImageHead, String> {
     let head = match format {
         ImageFormat::OpenExr => exr_head(reader, length)?,
@@ -59,7 +59,7 @@ fn exr_head(reader: impl BufRead, length: u64) -> Result<ImageHead, String> {
     for header in &meta.headers {
         let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
         let head = ImageHead { width, height, decoded: bytes_of(header) };
-        // Each block has an entry of 8 bytes in a table, and 8 bytes or more before its pixels.
+        // Each block has an entry of 8 bytes in a table, and at least 8 bytes before its pixels.
         let blocks = (header.chunk_count as u64).saturating_mul(16);
         least = least.saturating_add((head.decoded / most_a_byte(header.compression)).max(blocks));
         check_length(&head, least, length)?;
@@ -70,7 +70,7 @@ fn exr_head(reader: impl BufRead, length: u64) -> Result<ImageHead, String> {
     Ok(largest)
 }
 
-/// Bytes of a part's pixels before compression, those of smaller copies not counted.
+/// The size of a part's pixels before compression, in bytes, without lower-resolution levels.
 fn bytes_of(header: &Header) -> u64 {
     let samples = |channel: &exr::prelude::ChannelDescription| {
         let along = |pixels: usize, step: usize| (pixels / step.max(1)) as u64;
@@ -81,7 +81,7 @@ fn bytes_of(header: &Header) -> u64 {
     header.channels.list.iter().map(samples).fold(0, u64::saturating_add)
 }
 
-/// The most bytes of pixels that a byte of the file can stand for.
+/// The greatest number of pixel bytes that a byte of the file can represent.
 fn most_a_byte(compression: Compression) -> u64 {
     match compression {
         Compression::Uncompressed => 1,
@@ -90,7 +90,7 @@ fn most_a_byte(compression: Compression) -> u64 {
         // Deflate over three of four bytes.
         Compression::PXR24 => DEFLATE * 4 / 3,
         Compression::ZIP1 | Compression::ZIP16 | Compression::PIZ => DEFLATE,
-        // Cosine transforms of even blocks leave next to nothing, so that no bound is known.
+        // A cosine transform of a constant block leaves next to nothing, so no bound is known.
         _ => u64::MAX,
     }
 }
@@ -103,7 +103,7 @@ fn check_length(head: &ImageHead, least: u64, length: u64) -> Result<(), String>
     Err(format!("it says it has {width} × {height} pixels, which do not fit into its {length} bytes"))
 }
 
-/// What a library says, as a part of one sentence.
+/// A library's message as a part of one sentence.
 pub fn one_line(what: &dyn Display) -> String {
     let what = what.to_string();
     let line = what.lines().next().unwrap_or_default().trim_end_matches('.').replace(". ", ", ");

@@ -1,5 +1,5 @@
-//! Images that were decoded, so that each is decoded once, however many entities name it and however often it is asked
-//! for: by validation, by the tables, by the preflight.
+//! A cache of decoded images, so that each file is decoded once, however many entities name it and however often it is
+//! requested: by validation, by the tables, by the preflight checks.
 
 use crate::scene::{FileError, IMAGE_FILE, open_file};
 use std::fs::{self, Metadata};
@@ -8,18 +8,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, SystemTime};
 
-/// Images that nobody uses any more are kept up to so many bytes.
+/// Images that are no longer used are kept up to this many bytes.
 const UNUSED: usize = 512 << 20;
-/// A file that was written this shortly before it was read may have been written again without its time being another.
+/// A file written less than this before it was read may be written again with the same time stamp.
 const SETTLED: Duration = Duration::from_secs(2);
 
-/// What tells one state of a file from another without reading it.
+/// What distinguishes the states of a file without reading it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct FileState {
     path: PathBuf,
     length: u64,
     modified: Option<SystemTime>,
-    /// The file's number and when anything about it was changed, where the system has them.
+    /// The inode number and the time of the last change, where the system has them.
     inode: [i64; 4],
 }
 
@@ -36,7 +36,7 @@ impl FileState {
         Self { path, length: metadata.len(), modified: metadata.modified().ok(), inode }
     }
 
-    /// Whether it has been as it is for a while.
+    /// Whether it has been unchanged for long enough that its time stamp identifies it.
     fn is_settled(&self) -> bool {
         let age = self.modified.and_then(|modified| SystemTime::now().duration_since(modified).ok());
         age.is_some_and(|age| age > SETTLED)
@@ -46,27 +46,27 @@ impl FileState {
 /// An image, and the state of the file that it was decoded from.
 struct Kept<T> {
     state: FileState,
-    /// Where the file was too young to be told by its time: the hash of its bytes.
+    /// The hash of the bytes, where the file was too recent to be identified by its time stamp.
     hash: Option<u64>,
     bytes: usize,
     image: Weak<T>,
-    /// What keeps an image that nobody uses.
+    /// Keeps an image that is no longer used.
     unused: Option<Arc<T>>,
 }
 
-/// Decoded images of one kind, the last used at the end.
+/// Decoded images of one kind, the most recently used at the end.
 pub struct ImageStore<T>(Mutex<Vec<Kept<T>>>);
 
 impl<T> ImageStore<T> {
-    /// An empty one.
+    /// An empty cache.
     pub const fn new() -> Self {
         Self(Mutex::new(Vec::new()))
     }
 
-    /// The image that a file holds: the one that was decoded before, or what `decode` makes of its bytes, with the bytes
-    /// that it takes.
+    /// The image of a file: the one decoded before, or the result of `decode` for its bytes, together with the image's
+    /// memory in bytes.
     ///
-    /// Errors: the file cannot be read, or what `decode` says.
+    /// Errors: the file cannot be read, or the error of `decode`.
     pub fn get(
         &self,
         path: &Path,
@@ -106,7 +106,7 @@ fn take<T>(kept: &mut Vec<Kept<T>>, state: &FileState) -> Option<Kept<T>> {
     Some(kept.remove(at))
 }
 
-/// Puts an image at the end, and lets go of those before it that are too much.
+/// Adds an image at the end, and drops unused ones before it that exceed the limit.
 fn keep<T>(kept: &mut Vec<Kept<T>>, state: FileState, hash: Option<u64>, image: Arc<T>, bytes: usize) -> Arc<T> {
     let unused = Some(Arc::clone(&image));
     kept.push(Kept { state, hash, bytes, image: Arc::downgrade(&image), unused });
@@ -127,12 +127,12 @@ fn hash_of(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// Why there is no image.
+/// The reason why there is no image.
 #[derive(Debug)]
 pub enum Undecoded {
-    /// The file was not read.
+    /// The file could not be read.
     File(FileError),
-    /// What it holds is no image that can be used.
+    /// Its content is not an image that can be used.
     Image(String),
 }
 
@@ -170,11 +170,11 @@ mod tests {
         // Of the same length, and perhaps within one tick of the file system's clock.
         fs::write(file("a"), b"two").expect("written");
         assert_eq!((get("a").as_slice(), decoded.get()), (&b"two"[..], 3));
-        assert_eq!(first.as_slice(), b"one", "who uses the old one keeps it");
+        assert_eq!(first.as_slice(), b"one", "a user of the old image keeps it");
     }
 
     #[test]
-    fn what_is_in_use_is_never_decoded_again_and_what_is_not_is_let_go() {
+    fn an_image_in_use_is_never_decoded_again_and_an_unused_one_is_dropped() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let store: ImageStore<usize> = ImageStore::new();
         let decoded = Cell::new(0);
@@ -196,6 +196,6 @@ mod tests {
         get(5);
         assert_eq!(decoded.get(), 6, "the last is still there");
         get(1);
-        assert_eq!(decoded.get(), 7, "the first that nobody uses is not");
+        assert_eq!(decoded.get(), 7, "the oldest unused one is not");
     }
 }

@@ -9,18 +9,18 @@ use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The materials that are coloured by an image, in spawn order.
+/// The image textures of materials, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImageTable {
     /// The row of each material's image; [`NO_TEXTURE`](super::NO_TEXTURE) where it has none.
     pub of_material: Vec<u32>,
-    /// The images, in linear light; one that several materials name is one in memory.
+    /// The images in linear light; an image used by several materials is in memory once.
     pub pyramid: Vec<Arc<Pyramid>>,
-    /// How often the image is as high as its texture's unit: its width over its height by space, 1 by uv.
+    /// The image's width in units of its texture: its aspect ratio for object-space mapping, 1 for uv mapping.
     pub aspect: Vec<f64>,
-    /// What there is beyond their edges.
+    /// How each continues beyond its edges.
     pub wrap: Vec<Wrap>,
-    /// Whether a pixel gets a mean of what it covers.
+    /// Whether each is filtered over a pixel's footprint.
     pub filter: Vec<bool>,
 }
 

@@ -6,20 +6,21 @@ use crate::plan::{Census, Evidence};
 use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
-/// How light is followed in a scene, and why so.
+/// The integrator of a scene, and the reason for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChosenIntegrator {
-    /// The camera's own, or what the scene needs.
+    /// The one named on the camera, or the one that the scene needs.
     pub integrator: Integrator,
-    /// Why, in words.
+    /// The reason, in words.
     pub reason: String,
 }
 
 // ANCHOR: integrator_of
-/// The integrator of a scene: the one that its camera names, or the least that shows what the scene holds.
+/// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Rough metal, and matter beside a surface that emits, need points and directions by chance, so ways of light; mirrors
-/// and glass lit by lights without an area need nothing by chance; all else is seen straight from the camera.
+/// Rough metal, and other materials in the light of emitting surfaces, need sampled points and directions, hence path
+/// tracing; mirrors and glass lit by lights without an area need none, hence Whitted's method; everything else is seen
+/// by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
         let chosen = |integrator, reason: String| ChosenIntegrator { integrator, reason };
@@ -30,9 +31,9 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
             return chosen(named, format!("named on the camera {}", called(scene, camera)));
         }
         let metal = metal_evidence(scene);
-        let lamps = emissive_evidence(scene).and(|| material_evidence(scene));
+        let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
         let specular = mirror_evidence(scene).or(glass_evidence(scene));
-        let by_bsdf = metal.or(lamps);
+        let by_bsdf = metal.or(emitters);
         if by_bsdf.needed {
             return chosen(Integrator::PATH, by_bsdf.reason);
         }
@@ -54,25 +55,25 @@ fn has_points(scene: &Census<'_>) -> bool {
         || !scene.entities::<With<SpotLight>>().is_empty()
 }
 
-/// Evidence that light is followed beyond the first surface.
+/// Evidence that rays are traced beyond the first surface.
 pub fn followed_evidence(scene: &Census<'_>) -> Evidence {
     let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
     needed_if(scene, goes_on)
 }
 
-/// Evidence that the picture shows how much of the sky each point sees.
+/// Evidence that the picture shows ambient occlusion.
 pub fn occlusion_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
 }
 
-/// What is needed for light, which ambient occlusion does not show.
+/// The evidence of something that lighting needs, except with ambient occlusion, which has no lights.
 pub fn unless_occlusion(scene: &Census<'_>, evidence: Evidence) -> Evidence {
     let occlusion = occlusion_evidence(scene);
     let instead = || Evidence { needed: false, reason: format!("{} shows no other light", occlusion.reason), count: 0 };
     if occlusion.needed && evidence.needed { instead() } else { evidence }
 }
 
-/// Evidence that points on lights with an area are aimed at.
+/// Evidence that area lights are sampled (next-event estimation).
 pub fn light_sampling_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| match integrator {
         Integrator::Distribution { .. } => true,
@@ -81,20 +82,20 @@ pub fn light_sampling_evidence(scene: &Census<'_>) -> Evidence {
     })
 }
 
-/// Evidence that two ways to find a light are weighed against each other.
+/// Evidence that light sampling and BSDF sampling are combined by multiple importance sampling.
 pub fn mis_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightStrategy::Mis, .. }))
 }
 
-/// Evidence that the integrator of a scene is of a kind.
+/// Evidence that the scene's integrator is of a kind.
 pub fn needed_if(scene: &Census<'_>, is_of_kind: impl Fn(Integrator) -> bool) -> Evidence {
     let ChosenIntegrator { integrator, reason } = integrator_of(scene);
     let word = match integrator {
         Integrator::RayCasting => "ray casting",
-        Integrator::Whitted { .. } => "Whitted's rays",
+        Integrator::Whitted { .. } => "Whitted's method",
         Integrator::AmbientOcclusion { .. } => "ambient occlusion",
         Integrator::Distribution { .. } => "distribution ray tracing",
-        Integrator::Path { .. } => "paths",
+        Integrator::Path { .. } => "path tracing",
     };
     Evidence { needed: is_of_kind(integrator), reason: format!("{word}: {reason}"), count: 0 }
 }

@@ -6,20 +6,20 @@ use crate::plan::{Census, Table};
 use crate::scene::{Integrator, LightStrategy, SceneError};
 use bevy_ecs::prelude::*;
 
-/// How far light is followed.
+/// The integrator's parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IntegratorTable {
-    /// The most legs of a way, the one from the camera included.
+    /// The greatest number of path segments, camera ray included: 1 for emitted light only, 2 for direct light.
     pub max_depth: u32,
-    /// The leg from which ways end by chance.
+    /// The depth from which Russian roulette terminates paths.
     pub roulette: u32,
-    /// Whether points on lights are aimed at.
-    pub aimed: bool,
-    /// How many times as large radiance is in the densest glass as outside: its index of refraction squared, at least 1.
-    pub narrowing: f64,
-    /// Whether two ways to find a light are weighed against each other.
-    pub weighed: bool,
-    /// How far something still hides the sky, in scene units.
+    /// Whether area lights are sampled (next-event estimation).
+    pub samples_lights: bool,
+    /// The factor by which radiance is scaled in the densest glass: its index of refraction squared, at least 1.
+    pub eta_scale: f64,
+    /// Whether light sampling and BSDF sampling are combined by multiple importance sampling.
+    pub mis: bool,
+    /// The distance within which a shape occludes the sky, in scene units.
     pub distance: f32,
 }
 
@@ -35,8 +35,8 @@ impl Table for IntegratorTable {
             let who = kind_and_name(scene, "integrator", other);
             return Err(SceneError::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
-        // Without more, light comes from a light by one surface to the camera.
-        let mut table = Self { max_depth: 2, narrowing: narrowing_in_glass(scene)?, ..Self::default() };
+        // By default, light travels from a light by one surface to the camera.
+        let mut table = Self { max_depth: 2, eta_scale: eta_scale_in_glass(scene)?, ..Self::default() };
         match integrator_of(scene).integrator {
             Integrator::RayCasting => {}
             Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
@@ -44,15 +44,15 @@ impl Table for IntegratorTable {
                 table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
             }
             Integrator::Whitted { max_depth } => table.max_depth = max_depth,
-            Integrator::Distribution { max_depth } => (table.max_depth, table.aimed) = (max_depth, true),
+            Integrator::Distribution { max_depth } => (table.max_depth, table.samples_lights) = (max_depth, true),
             Integrator::Path { max_depth, roulette, lights } => {
-                (table.max_depth, table.roulette, table.weighed) = (max_depth, roulette, lights == LightStrategy::Mis);
-                table.aimed = lights != LightStrategy::Bsdf;
+                (table.max_depth, table.roulette, table.mis) = (max_depth, roulette, lights == LightStrategy::Mis);
+                table.samples_lights = lights != LightStrategy::Bsdf;
             }
         }
         if table.max_depth == 0 {
-            let accepted = "it must be at least 1, and 2 for light that comes by one surface";
-            return Err(SceneError::new(who(), "integrator legs", "0", accepted));
+            let accepted = "it must be at least 1, for emitted light, or 2, for direct light";
+            return Err(SceneError::new(who(), "integrator max_depth", "0", accepted));
         }
         Ok(table)
     }
@@ -62,8 +62,8 @@ impl Table for IntegratorTable {
     }
 }
 
-/// The largest index of refraction squared among the kinds of glass that shapes are made of; 1 without any.
-fn narrowing_in_glass(scene: &Census<'_>) -> Result<f64, SceneError> {
+/// The largest squared index of refraction among the kinds of glass in use; 1 without any.
+fn eta_scale_in_glass(scene: &Census<'_>) -> Result<f64, SceneError> {
     if !glass_evidence(scene).needed {
         return Ok(1.0);
     }

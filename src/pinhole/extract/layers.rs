@@ -5,23 +5,23 @@ use crate::scene::{LayerKind, Layers, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
-/// Which layers are asked for, and what brings render space back to the world and to the camera.
+/// The layers that are requested, and the transforms from render space to world and camera space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerTable {
     /// The kinds, each once, in the order of a file.
     pub kinds: Vec<LayerKind>,
-    /// Where the origin of render space is in the world.
+    /// The origin of render space in world space.
     pub eye: DVec3,
-    /// Columns: the camera's x, y and z (backward) as unit vectors of the world.
+    /// Columns: the camera's x, y and z (back) axes as unit vectors in world space.
     pub world_from_camera: DMat3,
 }
 
 impl LayerTable {
-    /// The kinds that a scene asks for, each once, in the order of a file.
+    /// The kinds that a scene requests, each once, in the order of a file.
     pub fn kinds_of(scene: &Census<'_>) -> Vec<LayerKind> {
         let found = scene.entities::<With<Layers>>();
-        let asked = found.first().and_then(|&entity| scene.get::<Layers>(entity));
-        let mut kinds = asked.map(|layers| layers.kinds.clone()).unwrap_or_default();
+        let requested = found.first().and_then(|&entity| scene.get::<Layers>(entity));
+        let mut kinds = requested.map(|layers| layers.kinds.clone()).unwrap_or_default();
         kinds.sort();
         kinds.dedup();
         kinds
@@ -47,7 +47,7 @@ impl Table for LayerTable {
     }
 }
 
-/// Evidence that a layer of a kind is asked for.
+/// Evidence that a layer of some kind is requested.
 pub fn layer_evidence(scene: &Census<'_>, noun: &str, of_kind: impl Fn(LayerKind) -> bool) -> Evidence {
     Evidence::among::<With<Layers>>(scene, noun, |entity| {
         entity.get::<Layers>().is_some_and(|layers| layers.kinds.iter().any(|&kind| of_kind(kind)))

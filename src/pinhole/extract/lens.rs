@@ -6,26 +6,26 @@ use crate::scene::{Aperture, Lens, PerspectiveCamera, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-/// The fewest and the most edges of an opening.
+/// The range of numbers of an aperture's blades.
 const BLADES: std::ops::RangeInclusive<u32> = 3..=64;
-/// The widest opening, so that its square is still a number of f32.
+/// The largest aperture radius, such that its square can be represented in f32.
 const WIDEST: f64 = 1e18;
 
-/// The opening of a camera's lens.
+/// The aperture of a thin lens.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LensTable {
-    /// Its radius in scene units; of an opening with edges, its corners'.
+    /// Its radius in scene units; for a polygonal aperture, the radius of its corners.
     pub radius: f64,
-    /// From the eye to the plane in focus, along the camera's axis, in scene units.
+    /// Distance from the eye to the plane of focus along the camera's axis, in scene units.
     pub focus_distance: f64,
-    /// The corners of an opening of radius 1, anticlockwise, the first again at the end; none where it is round.
+    /// The corners of an aperture of radius 1, anticlockwise, the first repeated at the end; empty where it is round.
     pub corners: Vec<DVec2>,
 }
 
 impl LensTable {
-    /// The opening of a lens.
+    /// The aperture of a lens.
     ///
-    /// Errors: a refusal of `who`.
+    /// Errors: a parameter out of range; `who` is the entity's name in messages.
     pub fn of(lens: &Lens, who: &str) -> Result<Self, SceneError> {
         let radius = radius_of(lens.aperture, who)?;
         positive_length(who, "focus_distance", lens.focus_distance)?;
@@ -38,8 +38,8 @@ impl LensTable {
             return Err(SceneError::new(who, "turn", format!("{}°", number(lens.turn.0)), accepted));
         }
         let corner = |blade: u32| {
-            let share = f64::from(blade % lens.blades) / f64::from(lens.blades);
-            let (sine, cosine) = libm::sincos(share * (2.0 * std::f64::consts::PI) + lens.turn.radians());
+            let fraction = f64::from(blade % lens.blades) / f64::from(lens.blades);
+            let (sine, cosine) = libm::sincos(fraction * (2.0 * std::f64::consts::PI) + lens.turn.radians());
             DVec2::new(cosine, sine)
         };
         let corners = if lens.blades == 0 { Vec::new() } else { (0..=lens.blades).map(corner).collect() };
@@ -47,11 +47,12 @@ impl LensTable {
     }
 
     // ANCHOR: circle_of_confusion
-    /// How wide a point at a depth is spread on the plane in focus: the diameter 2R |z − f| / z, in scene units.
+    /// The circle of confusion of a point at a depth z, on the plane of focus: the diameter 2R |z − f| / z, in scene
+    /// units.
     ///
-    /// A ray from the lens point L through the point Q at depth z has gone f / z of the way to Q, or beyond it, where it
-    /// meets the plane in focus: at L + (Q − L) f / z = Q f / z + L (1 − f / z).
-    /// As L runs over an opening of radius R, that runs over one of radius R |1 − f / z|.
+    /// A ray from the lens point L through the point Q at depth z intersects the plane of focus at L + (Q − L) f / z =
+    /// Q f / z + L (1 − f / z).
+    /// As L varies over an aperture of radius R, that point varies over a disk of radius R |1 − f / z|.
     pub fn circle_of_confusion(&self, depth: f64) -> f64 {
         2.0 * self.radius * (depth - self.focus_distance).abs() / depth
     }
@@ -115,10 +116,11 @@ impl Table for LensTable {
     }
 }
 
-/// How wide a pixel of the plane in focus seems to rays from the lens's edge, as f32 can miss it, in radians.
+/// The angle that a pixel on the plane of focus subtends for rays from the lens's edge, scaled to their accuracy in
+/// f32, in radians.
 ///
-/// A ray of f32 misses its point by u (R + √(f² + R²)), one u for its origin and one for its direction's length of way;
-/// that is no more than u (f + 2R), where from the pinhole it is uf, u = 2⁻²⁴.
+/// A ray in f32 misses its point by u (R + √(f² + R²)), one term for its origin and one for its direction over the
+/// distance; that is at most u (f + 2R), where for a pinhole it is uf, with u = 2⁻²⁴.
 fn seen_from_edge(pixel: f64, lens: &LensTable) -> f64 {
     pixel * lens.focus_distance / (lens.focus_distance + 2.0 * lens.radius)
 }
@@ -137,7 +139,7 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Evidence that the camera looks through an opening that is more than a point.
+/// Evidence that the camera has an aperture larger than a point.
 pub fn lens_evidence(scene: &Census<'_>) -> Evidence {
     let open = |camera: EntityRef<'_>| {
         camera.get::<Lens>().and_then(|lens| radius_of(lens.aperture, "").ok()).is_none_or(|radius| radius > 0.0)

@@ -1,4 +1,4 @@
-use super::area_light::share_out;
+use super::area_light::light_distribution;
 use super::{
     AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialKind, MaterialTable, NO_ROW,
     PointLightTable, RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
@@ -9,58 +9,58 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// With more mirrors and pieces of glass than this, one sphere stands for all of them.
+/// With more specular shapes than this, one sphere bounds them all.
 pub const MOST_TARGETS: usize = 16;
-/// By how much a sphere about a shape is taken larger, so that no rounding of a ray leads past it.
+/// The factor by which a bounding sphere is enlarged, so that no rounding of a ray leads past it.
 const MARGIN: f64 = 1.0 + 1e-5;
 
-/// A light that rays start on, in render space.
+/// A light from which light paths start, in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightSource {
     /// A shape that emits.
     Area {
         /// The shape.
         emitter: Emitter,
-        /// The radiance that leaves every point.
+        /// The radiance emitted at every point.
         radiance: [f64; 3],
-        /// Whether it leaves on the side of the shape's own normal only.
+        /// Whether it is emitted only on the side of the shape's own normal.
         one_sided: bool,
     },
-    /// A point, or a cone of its light.
+    /// A point light, or a spot light.
     Point {
-        /// From the eye.
+        /// Relative to the eye.
         position: DVec3,
-        /// Radiant intensity, along the axis.
+        /// Radiant intensity, along the axis for a spot light.
         intensity: [f64; 3],
-        /// The cone's axis, and 1 − cos of its inner and outer half angle; none for light to all sides.
+        /// The axis of a spot light and 1 − cos of its inner and outer half angles; none for a point light.
         cone: Option<(DVec3, [f64; 2])>,
     },
 }
 
-/// A sphere about mirrors or glass.
+/// A bounding sphere of mirrors or glass, towards which light paths start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// From the eye.
+    /// Relative to the eye.
     pub centre: DVec3,
     /// In scene units.
     pub radius: f64,
 }
 
-/// The lights that rays start on, and what they are sent to.
+/// The lights from which light paths start, and their targets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightPathTable {
-    /// The lights: those with an area, then points, then spots, each in spawn order.
+    /// The lights: area lights, then point lights, then spot lights, each in spawn order.
     pub light: Vec<LightSource>,
-    /// Up to which of 2³² equal parts of chance a light or one before it is chosen.
+    /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
-    /// How likely it is to be chosen: half by its power, half evenly.
-    pub random: Vec<f64>,
-    /// Spheres that hold all mirrors and glass; none where one of them has no end.
+    /// The probability of choosing each light: half in proportion to its power, half uniform.
+    pub probability: Vec<f64>,
+    /// Spheres that together bound all mirrors and glass; none where one of these is infinite.
     pub target: Vec<Target>,
 }
 
 impl LightPathTable {
-    /// The light that a fraction of 32 bits chooses.
+    /// The light chosen by a 32-bit fraction.
     #[inline(always)]
     pub fn chosen(&self, fraction: u32) -> usize {
         self.until.partition_point(|&until| until <= u64::from(fraction))
@@ -79,7 +79,7 @@ impl Table for LightPathTable {
             powers.push(luminance(radiance) * emitter.area() * PI * sides);
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
-        // A light without shadows shines through everything, so nothing bends its rays.
+        // The light of a light without shadows passes through everything, so glass does not bend its rays.
         let points = scene.table::<PointLightTable>()?;
         for number in (0..points.position.len()).filter(|&number| points.casts_shadows[number]) {
             let (position, intensity) = (points.position[number], points.intensity[number]);
@@ -93,8 +93,8 @@ impl Table for LightPathTable {
             powers.push(luminance(intensity) * PI * (edges[0] + edges[1]));
             light.push(LightSource::Point { position, intensity, cone: Some((spots.axis[number], edges)) });
         }
-        let (until, random) = share_out(&powers);
-        Ok(Self { light, until, random, target: targets(scene)? })
+        let (until, probability) = light_distribution(&powers);
+        Ok(Self { light, until, probability, target: targets(scene)? })
     }
 
     fn bytes(&self) -> usize {
@@ -102,7 +102,7 @@ impl Table for LightPathTable {
     }
 }
 
-/// Spheres about all mirrors and glass; none where one has no end.
+/// Bounding spheres of all mirrors and glass; none where one of these is infinite.
 fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let (spheres, ellipsoids) = (scene.table::<SphereTable>()?, scene.table::<EllipsoidTable>()?);
@@ -125,7 +125,7 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
             ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.planar[row]),
             ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
             ShapeKind::Triangle => {
-                let [a, b, c] = triangles.facet[row].corners;
+                let [a, b, c] = triangles.triangle[row].corners;
                 Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
             }
             ShapeKind::Plane | ShapeKind::Moving => return Ok(Vec::new()),
@@ -134,8 +134,8 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     }
     if found.len() > MOST_TARGETS {
         let ends = |target: &Target| {
-            let reach = DVec3::splat(target.radius);
-            (target.centre - reach, target.centre + reach)
+            let radius = DVec3::splat(target.radius);
+            (target.centre - radius, target.centre + radius)
         };
         let (least, most) = found
             .iter()
@@ -151,7 +151,7 @@ impl Target {
         Self { centre, radius: radius * MARGIN }
     }
 
-    /// About a box.
+    /// The bounding sphere of a box.
     fn about(least: DVec3, most: DVec3) -> Self {
         Self::new(0.5 * (least + most), 0.5 * (most - least).length())
     }

@@ -8,13 +8,13 @@ use crate::plan::{Census, ComponentKind, Evidence, Table};
 use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 
-/// The most rays from the lights for a ray of the camera.
+/// The greatest number of light paths per camera path.
 const MOST_PATHS: f64 = 1024.0;
 
-/// How many ways start on lights.
+/// The number of light paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightTracingTable {
-    /// Ways from the lights for every sample of every pixel.
+    /// Light paths per sample of every pixel.
     pub paths: f64,
 }
 
@@ -38,19 +38,19 @@ impl Table for LightTracingTable {
         }
         let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
         if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {
-            return refused("without paths", "light from the lights joins the camera's paths: give it Path(…)");
+            return refused("without paths", "light tracing complements the camera's paths: give it Path(…)");
         }
         let [fisheye, around] =
             [scene.get::<FisheyeCamera>(camera).is_some(), scene.get::<EquirectangularCamera>(camera).is_some()];
         if fisheye || around {
             let camera = if fisheye { "on a fisheye camera" } else { "on an equirectangular camera" };
-            return refused(camera, "light is joined to a perspective or an orthographic camera");
+            return refused(camera, "light paths are connected to a perspective or an orthographic camera");
         }
         if motion_evidence(scene).needed {
-            return refused("while something moves", "light is joined to what stands still: take off the Motion");
+            return refused("while something moves", "light paths need a scene without motion: remove the Motion");
         }
         if adaptive_of(scene)?.is_some() {
-            let accepted = "a ray from a light may reach any pixel, so none can ask for more: take off the Adaptive";
+            let accepted = "a light path may contribute to any pixel, so none can request more: remove the Adaptive";
             return refused("with adaptive sampling", accepted);
         }
         scene.table::<ImageFrame>()?;
@@ -62,21 +62,21 @@ impl Table for LightTracingTable {
     }
 }
 
-/// Evidence that caustics are traced from the lights: that the camera asks for it, and that there are a light to start
-/// on, mirrors or glass, and surfaces that spread light.
+/// Evidence that caustics are traced from the lights: the camera requests it, and there are a light to start on,
+/// mirrors or glass, and non-specular surfaces.
 pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
-    let asked = Evidence::of::<LightTracing>(scene, "light-tracing camera");
-    if !asked.needed {
-        return asked;
+    let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
+    if !requested.needed {
+        return requested;
     }
     let specular = || {
         let (mirrors, glass) = (mirror_evidence(scene), glass_evidence(scene));
         mirrors.or(glass)
     };
-    asked.and(specular).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
+    requested.and(specular).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
 }
 
-/// Evidence of a light that rays can start on.
+/// Evidence of a light on which light paths can start.
 pub fn started_on_evidence(scene: &Census<'_>) -> Evidence {
     area_light_evidence(scene).or(shadowed_point_evidence(scene))
 }

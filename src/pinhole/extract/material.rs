@@ -1,21 +1,21 @@
 use super::blinn_phong::blinn_phong_colour;
 use super::check::{kind_and_name, reflectance};
 use super::glass::glass_numbers;
-use super::material_kind::{MaterialKind, material_entities, one_material, reached};
+use super::material_kind::{MaterialKind, in_use, material_entities, one_material};
 use super::metal::{metal_evidence, metal_numbers};
 use super::phong::phong_colour;
 use crate::plan::{Census, ComponentKind, Evidence, Table};
 use crate::scene::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, SceneError};
 use bevy_ecs::prelude::*;
 
-/// What shapes are made of, in spawn order, whatever the kind; kinds with more numbers have a table of their own.
+/// The materials of shapes of all kinds, in spawn order; kinds with further parameters have a table of their own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialTable {
     /// The kind of each.
     pub kind: Vec<MaterialKind>,
-    /// Its row among those of its kind, which is its row in the kind's own table.
+    /// Its row in the table of its kind.
     pub row: Vec<u32>,
-    /// The share of light that each sends on equally in all directions: red, green, blue, from 0 to 1.
+    /// The diffuse albedo of each: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
 }
 
@@ -42,7 +42,7 @@ impl Table for MaterialTable {
     }
 }
 
-/// What a material sends on equally in all directions, with all of its numbers checked.
+/// The diffuse colour of a material, after checking all of its values; black where it has none.
 fn colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let own = scene.entity(entity);
     if let Some(matte) = own.get::<Matte>() {
@@ -69,20 +69,20 @@ fn colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], Sce
 const MATTE: [ComponentKind; 3] =
     [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
 
-/// Evidence that a shape is there whose material spreads the light that falls on it: any but mirrors and glass.
+/// Evidence of a shape whose material is not specular: any but mirrors and glass.
 pub fn material_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let reached = reached(scene);
-        let matte = Evidence::among_any(scene, "material", &MATTE, |entity| reached.contains(&entity.id()));
+        let in_use = in_use(scene);
+        let matte = Evidence::among_any(scene, "material", &MATTE, |entity| in_use.contains(&entity.id()));
         let metal = metal_evidence(scene);
         if metal.needed { matte.or(metal) } else { matte }
     })
 }
 
-/// Evidence that a shape is there that sends on light equally in all directions, whatever else it does.
+/// Evidence of a shape with diffuse reflection, whatever else its material has.
 pub fn matte_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let reached = reached(scene);
-        Evidence::among_any(scene, "matte surface", &MATTE, |entity| reached.contains(&entity.id()))
+        let in_use = in_use(scene);
+        Evidence::among_any(scene, "matte surface", &MATTE, |entity| in_use.contains(&entity.id()))
     })
 }

@@ -8,18 +8,18 @@ use bevy_ecs::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// The least α with which metal is rough; below it, it is a perfect mirror.
+/// The least α of a rough metal; below it, metal is a perfect mirror.
 ///
-/// There its highlight falls to half within 0.07° of its middle.
+/// There its highlight falls to one half within 0.07° of its centre.
 pub const SMOOTHEST_METAL: f64 = 1e-3;
 
-/// In the place of a row of a table: none.
+/// Stands for no row, in a column of row numbers.
 pub const NO_ROW: u32 = u32::MAX;
 
 /// The kinds of material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialKind {
-    /// It sends the light it gets equally in all directions.
+    /// Diffuse reflection, the same in all directions.
     Matte,
     /// A row of the table of Phong highlights.
     Phong,
@@ -34,20 +34,21 @@ pub enum MaterialKind {
 }
 
 impl MaterialKind {
-    /// How many kinds there are.
+    /// The number of kinds.
     pub(super) const COUNT: usize = 6;
 
-    /// Whether it spreads the light of a lamp over many directions, so that light aimed at it from there is seen.
-    pub const fn spreads(self) -> bool {
+    /// Whether it reflects light in a continuous range of directions (not specular), so that light sampling can find
+    /// light for it.
+    pub const fn is_non_specular(self) -> bool {
         !matches!(self, Self::Mirror | Self::Glass)
     }
 }
 
-/// A kind of material as an author writes it.
+/// A component that is a material.
 pub(super) struct Written {
     /// The component's name.
     component: &'static str,
-    /// What messages call it.
+    /// Its name in messages.
     pub(super) word: &'static str,
     pub(super) kind: fn(&Census<'_>, Entity) -> MaterialKind,
     entities: fn(&Census<'_>) -> Arc<[Entity]>,
@@ -65,7 +66,7 @@ impl Written {
     }
 }
 
-/// Every component that is a material; a new one joins with a line.
+/// The components that are materials; a new one is added with a line.
 const WRITTEN: &[Written] = &[
     Written::of::<Matte>("Matte", "matte", |_, _| MaterialKind::Matte),
     Written::of::<Phong>("Phong", "phong", |_, _| MaterialKind::Phong),
@@ -78,7 +79,7 @@ const WRITTEN: &[Written] = &[
     }),
 ];
 
-/// The enabled entities that carry a material, in spawn order; a row of the table is an entity here.
+/// The enabled entities that carry a material, in spawn order, one for each row of the table.
 pub fn material_entities(scene: &Census<'_>) -> Arc<[Entity]> {
     scene.once(|scene| {
         let lists: Vec<Arc<[Entity]>> = WRITTEN.iter().map(|written| (written.entities)(scene)).collect();
@@ -89,13 +90,13 @@ pub fn material_entities(scene: &Census<'_>) -> Arc<[Entity]> {
     })
 }
 
-/// The kind of an entity's material; none where it carries none.
+/// The kind of an entity's material; none where it has none.
 pub(super) fn material_kind(scene: &Census<'_>, entity: Entity) -> Option<MaterialKind> {
     let written = WRITTEN.iter().find(|written| (written.carries)(scene, entity));
     written.map(|written| (written.kind)(scene, entity))
 }
 
-/// The enabled entity whose material a shape is made of: itself, or the one that it uses.
+/// The enabled entity that holds a shape's material: itself, or the one that it uses.
 pub(super) fn used_material(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
     let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
     let is_there = |entity: &Entity| is_material(scene, *entity) && scene.get::<Disabled>(*entity).is_none();
@@ -107,20 +108,20 @@ pub(super) fn is_material(scene: &Census<'_>, entity: Entity) -> bool {
     WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
-/// The components that are a material, in words: `Matte, Phong … or Metal`.
+/// The components that are materials, in words: `Matte, Phong … or Metal`.
 pub(super) fn materials_in_words() -> String {
     let names: Vec<&str> = WRITTEN.iter().map(|written| written.component).collect();
     let (last, others) = names.split_last().unwrap_or((&"", &[]));
     format!("{} or {last}", others.join(", "))
 }
 
-/// The one material that an entity is.
+/// The one material component of an entity.
 pub(super) fn one_material(scene: &Census<'_>, entity: Entity) -> Result<&'static Written, SceneError> {
-    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
-    match carried[..] {
+    let present: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match present[..] {
         [one] => Ok(one),
         _ => {
-            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let names: Vec<&str> = present.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
             let who = kind_and_name(scene, "material", entity);
             Err(SceneError::new(who, "material", value, "an entity may be one material only"))
@@ -128,8 +129,8 @@ pub(super) fn one_material(scene: &Census<'_>, entity: Entity) -> Result<&'stati
     }
 }
 
-/// The entities that shapes are, or use for their material.
-pub(super) fn reached(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
+/// The entities that hold the materials of shapes.
+pub(super) fn in_use(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
     scene.once(|scene| {
         let shapes = shape_entities(scene);
         let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
@@ -137,16 +138,16 @@ pub(super) fn reached(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
     })
 }
 
-/// Evidence that a shape is made of such a material of one kind; those of the kind that are not such count for nothing.
-pub(super) fn reached_of<C: Component>(scene: &Census<'_>, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
-    let reached = reached(scene);
+/// Evidence of a shape whose material is of one kind and passes a test; others of the kind do not count.
+pub(super) fn in_use_of<C: Component>(scene: &Census<'_>, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
+    let in_use = in_use(scene);
     Evidence::of_kind::<With<C>>(scene, noun, |entity| {
-        reached.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
+        in_use.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
     })
 }
 
-/// Evidence that a shape carries this component, or uses a material that does.
+/// Evidence of a shape that carries this component, or uses a material that does.
 pub fn material_kind_evidence<C: Component>(scene: &Census<'_>, noun: &str) -> Evidence {
-    let reached = reached(scene);
-    Evidence::among::<With<C>>(scene, noun, |entity| reached.contains(&entity.id()))
+    let in_use = in_use(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| in_use.contains(&entity.id()))
 }

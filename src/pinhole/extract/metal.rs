@@ -1,5 +1,5 @@
 use super::check::{kind_and_name, number, reflectance};
-use super::material_kind::{MaterialKind, SMOOTHEST_METAL, material_entities, material_kind, reached_of};
+use super::material_kind::{MaterialKind, SMOOTHEST_METAL, in_use_of, material_entities, material_kind};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Metal, SceneError};
 use bevy_ecs::prelude::*;
@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 /// Rough metals, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MetalTable {
-    /// The share of the light that each tiny mirror sends on: red, green, blue, from 0 to 1.
+    /// The reflectance of each metal's microfacets: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
     /// GGX's α, from 0.001 to 1.
     pub alpha: Vec<f64>,
@@ -45,26 +45,26 @@ pub(super) fn metal_numbers(scene: &Census<'_>, entity: Entity) -> Result<([f64;
     }
 }
 
-/// Of each row of [`MetalTable`], whether light that meets several of its tiny mirrors comes out too.
-pub fn metals_of_several_mirrors(scene: &Census<'_>) -> Vec<bool> {
+/// For each row of [`MetalTable`], whether it models multiple scattering between microfacets.
+pub fn multiple_scattering_metals(scene: &Census<'_>) -> Vec<bool> {
     let materials = material_entities(scene);
     let rough = materials.iter().copied().filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
     rough.map(|entity| scene.get::<Metal>(entity).is_some_and(|metal| metal.multiple_scattering)).collect()
 }
 
-/// Evidence of light that meets several tiny mirrors.
+/// Evidence of multiple scattering between microfacets.
 pub fn multiple_scattering_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        reached_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
+        in_use_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
             metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
         })
     })
 }
 
-/// Evidence that a shape is made of rough metal.
+/// Evidence of a shape made of rough metal.
 pub fn metal_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        // What is no number counts, so that it is refused and not overlooked.
-        reached_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+        // NaN counts too, so that it is reported and not overlooked.
+        in_use_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
     })
 }

@@ -1,16 +1,16 @@
 use super::check::{kind_and_name, reflectance};
 use super::material_kind::{
-    MaterialKind, SMOOTHEST_METAL, material_entities, material_kind, material_kind_evidence, reached_of,
+    MaterialKind, SMOOTHEST_METAL, in_use_of, material_entities, material_kind, material_kind_evidence,
 };
 use super::metal::metal_numbers;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Metal, Mirror, SceneError};
 use bevy_ecs::prelude::*;
 
-/// Perfect mirrors, in spawn order; metal too smooth for its roughness to show is one of them.
+/// Perfect mirrors, in spawn order, including metal too smooth for its roughness to show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MirrorTable {
-    /// The share of the light that each sends on: red, green, blue, from 0 to 1.
+    /// The reflectance of each: red, green, blue, from 0 to 1.
     pub colour: Vec<[f64; 3]>,
 }
 
@@ -38,11 +38,11 @@ impl Table for MirrorTable {
     }
 }
 
-/// Evidence that a shape is a perfect mirror, by its name or by metal so smooth that it is one.
+/// Evidence of a perfect mirror, either a Mirror or metal smooth enough to be one.
 pub fn mirror_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let mirror = material_kind_evidence::<Mirror>(scene, "mirror");
-        let smooth = reached_of::<Metal>(scene, "polished metal", |metal| metal.roughness < SMOOTHEST_METAL);
+        let smooth = in_use_of::<Metal>(scene, "smooth metal", |metal| metal.roughness < SMOOTHEST_METAL);
         if smooth.needed { mirror.or(smooth) } else { mirror }
     })
 }

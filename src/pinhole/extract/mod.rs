@@ -1,10 +1,10 @@
-//! Entities → tables: the scene read once, checked, and laid flat for the stages.
+//! Entities → tables: the scene is read once, checked, and stored in plain arrays for the stages.
 //!
 //! Reads: components of the scene world.
-//! Writes: tables (one file a kind), shared by all render worlds.
-//! Space: *render space*, which has the world's axes and the eye at its origin; the eye is subtracted here, once, in
-//! f64, so that a scene far from the world's origin loses nothing.
-//! After this no stage looks at a component of the scene again.
+//! Writes: tables, one file for each kind, shared by all render worlds.
+//! Space: *render space*, with the axes of world space and the eye at its origin; the eye is subtracted here, once, in
+//! f64, so that a scene far from the world's origin loses no precision.
+//! After this, no stage reads a component of the scene.
 
 mod adaptive;
 mod area_light;
@@ -86,7 +86,7 @@ pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
-pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, turning_place};
+pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
 pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use glass::{GlassTable, glass_evidence};
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
@@ -105,7 +105,7 @@ pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
 pub use material::{MaterialTable, material_evidence, matte_evidence};
 pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
-pub use metal::{MetalTable, metal_evidence, metals_of_several_mirrors, multiple_scattering_evidence};
+pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
 pub use mirror::{MirrorTable, mirror_evidence};
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{Body, MovingTable};
@@ -139,10 +139,10 @@ pub use velocity::{moves_while_open, velocity_of};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
 
-/// The tables that answer for the components of a scene, in the order in which a scene's mistakes are told: the camera,
+/// The tables whose extraction checks the components of a scene, in the order in which errors are reported: the camera,
 /// shapes, materials, lights, textures, the background, the view.
 ///
-/// A new kind of component joins with a line; every other table is made of what these have found to be right.
+/// A new kind of component is added with a line; every other table is made from what these have checked.
 const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<ImageFrame>,
     answer::<ShutterTable>,
@@ -186,8 +186,8 @@ fn answer<T: Table>(scene: &Census<'_>) -> Result<(), SceneError> {
     scene.table::<T>().map(drop)
 }
 
-/// Extracts what answers for each enabled component of a scene, whether or not the plan will use it; a render of the same
-/// census takes the tables from there.
+/// Checks every enabled component of a scene, whether or not the plan will use it, by extracting its table; a render of
+/// the same census then uses these tables.
 ///
 /// Errors: the first [`SceneError`] in the order camera, shapes, materials, lights, textures, background, view.
 pub fn validate(scene: &Census<'_>) -> Result<(), SceneError> {

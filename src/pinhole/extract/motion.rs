@@ -4,7 +4,7 @@ use super::integrator::light_sampling_evidence;
 use super::pose::unevenly_scaled;
 use super::shape_kind::moving_shapes;
 use super::texture::texture_evidence;
-use super::velocity::{moves_while_open, open_for_some_time, shutter_of, velocity_of};
+use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
     Checker, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError, Shutter,
@@ -14,15 +14,15 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::collections::HashSet;
 
-/// The farthest time, so that times and their differences stay exact enough.
+/// The latest time, such that times and their differences stay sufficiently accurate.
 const FARTHEST_TIME: f64 = 1e9;
 
-/// When the camera gathers light, and how it moves meanwhile.
+/// How long the camera's shutter is open, and how the camera moves meanwhile.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShutterTable {
     /// How long the shutter is open, in units of time.
     pub length: f64,
-    /// The camera's velocity, scene units per unit of time.
+    /// The camera's velocity, in scene units per unit of time.
     pub velocity: DVec3,
 }
 
@@ -62,17 +62,17 @@ pub fn motion_evidence(scene: &Census<'_>) -> Evidence {
 fn said(scene: &Census<'_>, noun: &str, moving: &HashSet<Entity>) -> Evidence {
     let evidence = Evidence::of_kind::<()>(scene, noun, |entity| moving.contains(&entity));
     let declared = scene.entities::<With<Motion>>();
-    if evidence.needed || declared.is_empty() || open_for_some_time(scene) {
+    if evidence.needed || declared.is_empty() || shutter_has_duration(scene) {
         return evidence;
     }
     let reason = format!("{}: the shutter is open for no time", evidence.reason);
     Evidence { reason, ..evidence }
 }
 
-/// Checks what a scene says of time.
+/// Checks the shutter and all motions of a scene.
 ///
-/// Errors: a shutter on what is no camera, one that closes before it opens, a velocity that is not finite, motion of what
-/// cannot move while the shutter is open.
+/// Errors: a shutter on something other than the camera, one that closes before it opens, a velocity that is not
+/// finite, a motion of something that may not move while the shutter is open.
 fn check_motion(scene: &Census<'_>) -> Result<(), SceneError> {
     let camera = camera_of(scene)?;
     for &entity in scene.entities::<With<Shutter>>().iter() {
@@ -100,7 +100,7 @@ fn check_motion(scene: &Census<'_>) -> Result<(), SceneError> {
     check_movers(scene)
 }
 
-/// Whatever moves while the shutter is open must be able to.
+/// Checks that only what may move does move while the shutter is open.
 fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
     let moves = moves_while_open(scene);
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
@@ -119,13 +119,13 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
             "while the shutter is open only shapes and the camera may move, no light",
         );
     }
-    let (textured, aimed) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
+    let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
     for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
         let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);
         if !(round || own.contains::<Disk>() || own.contains::<Rectangle>()) {
             let accepted =
-                "while the shutter is open only evenly scaled spheres, disks, rectangles and the camera may move";
+                "while the shutter is open only uniformly scaled spheres, disks, rectangles and the camera may move";
             return refused(shape, "shape", "given to another kind", accepted);
         }
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
@@ -137,8 +137,8 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
             let accepted = "while the shutter is open nothing with a texture may move";
             return refused(shape, "shape", "given to one with a texture", accepted);
         }
-        if aimed && has(&|own| own.contains::<Emissive>()) {
-            let accepted = "where points on lights are aimed at, nothing that emits may move while the shutter is open";
+        if sampled && has(&|own| own.contains::<Emissive>()) {
+            let accepted = "where area lights are sampled, nothing that emits may move while the shutter is open";
             return refused(shape, "shape", "given to one that emits", accepted);
         }
     }

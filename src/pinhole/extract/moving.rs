@@ -9,14 +9,14 @@ use crate::scene::{Disk, Rectangle, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// What a moving shape is at the moment at which the shutter opens, in render space.
+/// A moving shape at the moment when the shutter opens, in render space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
     /// A sphere.
     Sphere {
         /// Its centre.
         centre: DVec3,
-        /// Its radius, scene units.
+        /// Its radius, in scene units.
         radius: f64,
     },
     /// A disk.
@@ -25,12 +25,12 @@ pub enum Body {
     Rectangle(Planar),
 }
 
-/// Shapes that move while the shutter is open, of every kind, in spawn order; the tables of the kinds hold the others.
+/// Shapes of every kind that move while the shutter is open, in spawn order; the tables of the kinds hold the others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MovingTable {
-    /// What it is, and where when the shutter opens.
+    /// The shape at the moment when the shutter opens.
     pub body: Vec<Body>,
-    /// How it moves, scene units per unit of time.
+    /// Its velocity, in scene units per unit of time.
     pub velocity: Vec<DVec3>,
     /// The shape's number.
     pub shape: Vec<u32>,

@@ -4,26 +4,26 @@ use crate::plan::{Census, Table};
 use crate::scene::{BlinnPhong, Phong, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The largest exponent: its highlight falls to half within 0.002°.
+/// The largest exponent, whose highlight falls to one half within 0.002°.
 const LARGEST_EXPONENT: f64 = 1e9;
 
-/// Highlights about the mirrored light, in spawn order.
+/// Phong highlights, lobes about the direction of mirror reflection, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PhongTable {
-    /// The largest share of the light that each sends on: red, green, blue, from 0 to 1.
+    /// The specular albedo of each: red, green, blue, from 0 to 1.
     pub specular: Vec<[f64; 3]>,
-    /// How narrow each is.
+    /// The exponent n; larger ones give a narrower lobe.
     pub exponent: Vec<f64>,
-    /// What each has at its middle, by [`phong_peak`].
+    /// The value at the centre of the lobe, by [`phong_peak`], in 1/sr.
     pub peak: Vec<f64>,
 }
 
 // ANCHOR: phong_peak
 /// The factor N = (n + 2) / 2π of N cosⁿα, in 1/sr.
 ///
-/// Light that falls squarely has its mirror direction along the normal, α is the angle to the normal too, and
-/// ∫ N cosⁿα cos α dω over the hemisphere is 2πN / (n + 2) = 1: nothing is lost and nothing is gained.
-/// The more slantingly it falls, the more of the lobe lies below the surface, so the sum is less there.
+/// At normal incidence, the reflection is along the normal, α is also the angle to the normal, and ∫ N cosⁿα cos α dω
+/// over the hemisphere is 2πN / (n + 2) = 1: the lobe has an albedo of 1.
+/// At oblique incidence, a part of the lobe is below the surface, and the albedo is lower.
 pub fn phong_peak(exponent: f64) -> f64 {
     (exponent + 2.0) / std::f64::consts::TAU
 }
@@ -37,7 +37,7 @@ impl Table for PhongTable {
         for &entity in scene.entities::<With<Phong>>().iter() {
             let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "phong", entity);
-            table.specular.push(shared_light(&who, phong.colour, phong.specular)?[1]);
+            table.specular.push(diffuse_and_specular(&who, phong.colour, phong.specular)?[1]);
             table.exponent.push(exponent_within(&who, phong.exponent)?);
             table.peak.push(phong_peak(phong.exponent));
         }
@@ -49,14 +49,14 @@ impl Table for PhongTable {
     }
 }
 
-/// The colour of a Phong material, all of whose numbers are checked.
+/// The diffuse colour of a Phong material, after checking all of its values.
 pub(super) fn phong_colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
     exponent_within(who, phong.exponent)?;
-    Ok(shared_light(who, phong.colour, phong.specular)?[0])
+    Ok(diffuse_and_specular(who, phong.colour, phong.specular)?[0])
 }
 
-/// An exponent that a highlight may have.
+/// Checks an exponent.
 pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, SceneError> {
     if (0.0..=LARGEST_EXPONENT).contains(&exponent) {
         Ok(exponent)
@@ -66,8 +66,8 @@ pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, SceneErro
     }
 }
 
-/// Checks that a texture leaves room for the highlight of the material that it colours; `largest` is the largest that each
-/// part of its colour comes to.
+/// Checks that a texture's colour and the specular albedo of its material add up to at most 1; `largest` is the
+/// texture's maximum in each component.
 pub(super) fn beside_highlight(
     scene: &Census<'_>,
     material: Entity,
@@ -81,14 +81,14 @@ pub(super) fn beside_highlight(
     };
     let (specular, largest) = (triple(specular.to_vec()), triple(largest.to_vec()));
     let accepted = format!(
-        "its parts come to {largest} and with the material's specular share {specular} must come to at most 1, for a \
+        "its parts are at most {largest} and with the material's specular colour {specular} must add up to at most 1, for a \
          surface gives back no more than it gets"
     );
     Err(SceneError::new(who, field, value, accepted))
 }
 
-/// Colour and specular share, which may not come to more than all the light.
-pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f64; 3]; 2], SceneError> {
+/// Checks that colour and specular albedo add up to at most 1.
+pub(super) fn diffuse_and_specular(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f64; 3]; 2], SceneError> {
     reflectance(who, "colour", colour)?;
     reflectance(who, "specular", specular)?;
     if (colour.to_vec() + specular.to_vec()).max_element() <= 1.0 {
@@ -96,7 +96,7 @@ pub(super) fn shared_light(who: &str, colour: Rgb, specular: Rgb) -> Result<[[f6
     } else {
         let of_colour = triple(colour.to_vec());
         let accepted = format!(
-            "with the colour {of_colour} each part must come to at most 1, for a surface gives back no more than it gets"
+            "with the colour {of_colour} each part must add up to at most 1, for a surface gives back no more than it gets"
         );
         Err(SceneError::new(who, "specular", triple(specular.to_vec()), accepted))
     }

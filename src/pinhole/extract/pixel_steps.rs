@@ -6,20 +6,21 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The least share of a pixel that a sample stands for, however many there are, as in pbrt-v4: neighbouring samples are
-/// drawn at random, and so further apart than the pixel's side over the root of their number.
-const LEAST_SHARE: f64 = 0.125;
+/// The least fraction of a pixel that a sample stands for, however many samples there are, as in pbrt-v4: neighbouring
+/// samples are random, and so farther apart than the pixel's side over the square root of their number.
+const MIN_FRACTION: f64 = 0.125;
 
-/// How a camera's rays change from one sample to the next: to the right, and down.
+/// The ray differentials of a camera: how its rays change from one sample to the next, to the right and down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelSteps {
-    /// Of the direction, where the image plane is at distance 1; 0 for parallel rays.
+    /// Change of the direction, where the image plane is at distance 1; 0 for parallel rays.
     pub direction: [DVec3; 2],
-    /// Of the origin; 0 where all rays start at the eye.
+    /// Change of the origin; 0 where all rays start at the eye.
     pub origin: [DVec3; 2],
-    /// The direction in which the camera looks, a unit vector.
+    /// The viewing direction, a unit vector.
     pub ahead: DVec3,
-    /// How far apart neighbouring rays are, in radians, where the camera has no image plane: about the same everywhere.
+    /// The angle between neighbouring rays, in radians, for a camera without an image plane; roughly the same
+    /// everywhere.
     pub angle: Option<f64>,
 }
 
@@ -28,9 +29,9 @@ impl Table for PixelSteps {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (image, axes) = (*scene.table::<ImageFrame>()?, scene.table::<CameraAxes>()?.world_from_camera);
-        // A pixel is as wide as it is high, on a screen that is 2 high.
-        let share = (1.0 / f64::from(scene.table::<SamplingTable>()?.samples).sqrt()).max(LEAST_SHARE);
-        let pixel = 2.0 / f64::from(image.height) * share;
+        // Pixels are square, on a screen of height 2.
+        let fraction = (1.0 / f64::from(scene.table::<SamplingTable>()?.samples).sqrt()).max(MIN_FRACTION);
+        let pixel = 2.0 / f64::from(image.height) * fraction;
         let steps = |length: f64| [axes.x_axis * length, -axes.y_axis * length];
         let camera = scene.entity(camera_of(scene)?);
         let none = [DVec3::ZERO; 2];
@@ -38,10 +39,10 @@ impl Table for PixelSteps {
         if camera.contains::<OrthographicCamera>() {
             origin = steps(pixel * scene.table::<OrthographicWindow>()?.half_height);
         } else if camera.contains::<FisheyeCamera>() {
-            angle = Some(scene.table::<ImageCircle>()?.pixel(image) * share);
+            angle = Some(scene.table::<ImageCircle>()?.pixel(image) * fraction);
         } else if camera.contains::<EquirectangularCamera>() {
-            // At the horizon; towards the poles the step to the right is shorter, and that down stays.
-            angle = Some((2.0 * PI / f64::from(image.width)).max(PI / f64::from(image.height)) * share);
+            // At the horizon; towards the poles the step to the right becomes shorter, while that down stays the same.
+            angle = Some((2.0 * PI / f64::from(image.width)).max(PI / f64::from(image.height)) * fraction);
         } else {
             direction = steps(pixel * scene.table::<PerspectiveProjection>()?.tan_half_vertical);
         }

@@ -10,10 +10,10 @@ use glam::DVec3;
 /// Planes in render space, in spawn order: the points x with n·x = k.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlaneTable {
-    /// The normal n, of length 1 to within f32, its parts exact in f32, so that a surface's normal and its plane's are
-    /// the same numbers.
+    /// The normal n, of length 1 to within f32, with components exact in f32, so that the normals of surface and plane
+    /// are the same numbers.
     pub normal: Vec<DVec3>,
-    /// The offset k, scene units.
+    /// The offset k, in scene units.
     pub offset: Vec<f64>,
     /// The shape's number.
     pub shape: Vec<u32>,

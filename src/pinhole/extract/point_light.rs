@@ -8,11 +8,11 @@ use glam::DVec3;
 /// Point lights in render space, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointLightTable {
-    /// Where each stands.
+    /// The position of each.
     pub position: Vec<DVec3>,
     /// Radiant intensity, linear Rec. 709.
     pub intensity: Vec<[f64; 3]>,
-    /// Whether things in between keep its light away.
+    /// Whether shapes block its light.
     pub casts_shadows: Vec<bool>,
 }
 

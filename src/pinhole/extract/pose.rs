@@ -1,37 +1,38 @@
 use super::check::{finite_point, number, triple};
-use super::velocity::way_before_opening;
+use super::velocity::displacement_at_opening;
 use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// How far a quaternion's length may be from 1 before it is taken for a mistake rather than for rounding.
+/// How far a quaternion's length may be from 1 before it is considered a mistake rather than rounding.
 const UNIT_TOLERANCE: f64 = 1e-6;
-/// Sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
+/// The sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
 const LEAST_SINE: f64 = 1e-6;
-/// How far the three scales of a sphere may differ, relative to the first, and still be rounding.
+/// How far the three scales of a sphere may differ, relative to the first, and still be considered equal up to
+/// rounding.
 const EVEN_TOLERANCE: f64 = 1e-9;
-const ONE_OF_THE_TWO: &str = "a LookAt already says where it stands and looks: give one of the two";
+const ONE_OF_THE_TWO: &str = "a LookAt already gives position and orientation: use one of the two";
 
-/// Where an entity's own space lies in the world.
+/// The transform between an entity's object space and world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Takes a point of the entity's space to the world.
+    /// From object space to world space.
     pub world_from_entity: DAffine3,
-    /// The linear part turned round, made of each placement's own inverse.
+    /// The linear part's inverse, the product of each placement's own inverse.
     ///
-    /// An inverse of the whole map by its determinant loses up to four digits more where a stretched parent is turned.
+    /// An inverse of the whole map by its determinant loses up to four digits more where a scaled parent is rotated.
     pub entity_from_world: DMat3,
 }
 
-/// The map from an entity's own space to the world: its placement, its parent's, and so on to the root.
+/// The transform from object space to world space: the entity's placement, then its parent's, and so on to the root.
 ///
-/// `who` is how a refusal calls the entity, such as `sphere "ball"`.
+/// `who` is the entity's name in error messages, such as `sphere "ball"`.
 pub fn world_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
-/// The way an entity looks: its own −z in the world, a unit vector.
+/// The direction in which an entity looks: its own −z in world space, a unit vector.
 pub fn ahead(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
     let along = world_from_entity(scene, who, entity)?.matrix3 * DVec3::NEG_Z;
     let accepted = "its −z must keep a direction";
@@ -40,7 +41,7 @@ pub fn ahead(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DVec3, Sce
 }
 
 // ANCHOR: pose
-/// The same map with its inverse.
+/// The same transform with its inverse.
 pub fn pose(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
     let (mut child, mut seen) = (entity, vec![entity]);
@@ -56,8 +57,8 @@ pub fn pose(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, Scene
         entity_from_world *= above.entity_from_world;
         child = parent;
     }
-    if let Some(way) = way_before_opening(scene, entity) {
-        world_from_entity.translation += way;
+    if let Some(displacement) = displacement_at_opening(scene, entity) {
+        world_from_entity.translation += displacement;
     }
     let determinant = world_from_entity.matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() || !world_from_entity.translation.is_finite() {
@@ -68,7 +69,7 @@ pub fn pose(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, Scene
 }
 // ANCHOR_END: pose
 
-/// The same up to the entity's parent only.
+/// The transform from an entity to its parent only.
 fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
     let look_at = scene.get::<LookAt>(entity);
@@ -109,16 +110,17 @@ fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<P
     })
 }
 
-/// Whether the entity's placement and its parents' together scale unevenly, so that a sphere becomes an ellipsoid.
+/// Whether the entity's placement and its parents' together have a non-uniform scale, so that a sphere becomes an
+/// ellipsoid.
 ///
-/// A placement that is refused counts as even: extraction will say what is wrong with it.
+/// An invalid placement counts as uniform: extraction will report what is wrong with it.
 pub fn unevenly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
     let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
     let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
     !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
 }
 
-/// Whether a map stretches every direction by the same factor, mirrored or not.
+/// Whether a map lengthens every direction by the same factor, mirrored or not.
 fn is_even(world_from_entity: DMat3) -> bool {
     let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
     let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
@@ -128,7 +130,7 @@ fn is_even(world_from_entity: DMat3) -> bool {
 }
 
 // ANCHOR: point_object_from_world
-/// A point: its offset from where the object's origin stands, turned and scaled back.
+/// A point, transformed to object space: its offset from the object's origin, by the inverse linear map.
 #[inline(always)]
 pub fn point_object_from_world(object_from_world: DMat3, origin: DVec3, point: DVec3) -> DVec3 {
     object_from_world * (point - origin)
@@ -136,7 +138,7 @@ pub fn point_object_from_world(object_from_world: DMat3, origin: DVec3, point: D
 // ANCHOR_END: point_object_from_world
 
 // ANCHOR: direction_object_from_world
-/// A direction: a difference of two points, so the origin falls out.
+/// A direction, transformed to object space: a difference of two points, so the translation cancels.
 ///
 /// Its length changes; a ray whose direction keeps that length has the same t in both spaces.
 #[inline(always)]
@@ -146,11 +148,11 @@ pub fn direction_object_from_world(object_from_world: DMat3, direction: DVec3) -
 // ANCHOR_END: direction_object_from_world
 
 // ANCHOR: normal_world_from_object
-/// A normal: what keeps n · v = 0 for every direction v along the surface.
+/// A normal, transformed to world space such that n · v = 0 is preserved for every tangent v.
 ///
-/// With v in the world and A v in the object, n · (A v) = (Aᵀn) · v, so the transpose of the map *into* the object takes
-/// the normal *out* of it: the inverse transpose of the way that points go.
-/// Outward stays outward, also where the map mirrors; the length changes.
+/// With v in world space and A v in object space, n · (A v) = (Aᵀn) · v, so the transpose of the map *into* object
+/// space takes the normal *out* of it: the inverse transpose of the map for points.
+/// The outside stays outside, even where the map mirrors; the length changes.
 #[inline(always)]
 pub fn normal_world_from_object(object_from_world: DMat3, normal: DVec3) -> DVec3 {
     object_from_world.transpose() * normal
@@ -162,9 +164,9 @@ fn quadruple(q: DQuat) -> String {
 }
 
 // ANCHOR: look_at_axes
-/// The axes of something that stands at `eye` and looks at `target`: x to its right, y up, −z ahead.
+/// The axes of a camera or object at `eye` that looks at `target`: x to its right, y up, −z ahead.
 ///
-/// Errors: a coordinate that is not finite, `eye` at `target`, `up` of length 0 or along the view.
+/// Errors: a coordinate that is not finite, `eye` equal to `target`, `up` of length 0 or along the view.
 pub fn look_at_axes(who: &str, look: &LookAt) -> Result<DMat3, SceneError> {
     finite_point(who, "eye", look.eye)?;
     finite_point(who, "target", look.target)?;
@@ -194,7 +196,7 @@ fn direction(v: DVec3) -> Option<DVec3> {
 mod tests {
     use super::*;
 
-    /// A mirrored, stretched thing under a turned and flattened parent.
+    /// A mirrored, scaled object under a rotated and flattened parent.
     fn nested() -> Pose {
         let mut world = World::new();
         let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
@@ -218,16 +220,16 @@ mod tests {
     }
 
     #[test]
-    fn normals_stay_across_the_surface_and_on_their_side() {
+    fn normals_stay_perpendicular_and_on_their_side() {
         let Pose { world_from_entity, entity_from_world } = nested();
         let normal = DVec3::new(0.6, 0.0, 0.8);
         let there = normal_world_from_object(entity_from_world, normal);
         for along in [DVec3::Y, DVec3::new(0.8, 0.0, -0.6)] {
             assert!(there.dot(world_from_entity.matrix3 * along).abs() < 1e-14);
         }
-        // What lies before the surface still does, though this map mirrors once and once again.
+        // A point in front of the surface stays there, though these maps mirror twice.
         assert!(there.dot(world_from_entity.matrix3 * normal) > 0.0);
         let leaning = (world_from_entity.matrix3 * normal).normalize().dot(there.normalize());
-        assert!(leaning < 0.9, "taken there as a direction is, it would lean: {leaning}");
+        assert!(leaning < 0.9, "transformed like a direction, it would lean: {leaning}");
     }
 }

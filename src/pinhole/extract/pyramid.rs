@@ -1,18 +1,18 @@
 use super::Texels;
 
-/// An image and its ever smaller copies, each half as wide and as high as the one before, down to a single texel.
+/// An image pyramid (mipmap): each level is half as wide and high as the one before, down to a single texel.
 ///
-/// Each texel is the mean of the part of the image that it stands for, in linear light.
+/// Each texel is the mean, in linear light, of the part of the image that it covers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pyramid {
-    /// The image first.
+    /// The levels; the image itself is the first.
     pub levels: Vec<Texels>,
     /// The largest red, green and blue among the image's texels.
     pub brightest: [f32; 3],
 }
 
 impl Pyramid {
-    /// The pyramid that stands on an image.
+    /// The pyramid of an image.
     pub fn on(image: Texels) -> Self {
         let brightest = [0, 1, 2].map(|part| image.rgb.iter().map(|texel| texel[part]).fold(0.0, f32::max));
         let mut levels = vec![image];
@@ -23,15 +23,15 @@ impl Pyramid {
         Self { levels, brightest }
     }
 
-    /// Bytes that its texels take.
+    /// The memory of its texels, in bytes.
     pub fn bytes(&self) -> usize {
         self.levels.iter().map(Texels::bytes).sum()
     }
 }
 
 // ANCHOR: halved
-/// The same image at half the size, rounded down but not to 0; where a side is odd, a texel is split between the two that
-/// it lies in, so that no light is lost.
+/// The image at half the size, rounded down but at least 1; where a side is odd, a texel is divided between the two
+/// that it overlaps, so that the mean is preserved.
 pub fn halved(image: &Texels) -> Texels {
     let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
     let mut rgb = Vec::with_capacity(width * height);
@@ -43,14 +43,14 @@ pub fn halved(image: &Texels) -> Texels {
     Texels { width, height, rgb }
 }
 
-/// From where to where a texel of the smaller side reaches, in texels of the larger one.
+/// The range of the larger side, in texels, that a texel of the smaller side covers.
 fn covered(at: usize, smaller: usize, larger: usize) -> [f64; 2] {
     [at, at + 1].map(|edge| (edge * larger) as f64 / smaller as f64)
 }
 
-/// The mean of a rectangle of an image, texels that lie in it partly counted by that part.
+/// The mean of a rectangle of an image, in which texels count by the part that is covered.
 ///
-/// Differences to one texel are summed, so that the mean of equal texels is that texel to the last bit.
+/// Differences to one texel are summed, so that the mean of equal texels is exact to the last bit.
 fn mean(image: &Texels, across: [f64; 2], down: [f64; 2]) -> [f32; 3] {
     let part = |range: [f64; 2], at: usize| range[1].min(at as f64 + 1.0) - range[0].max(at as f64);
     let whole = |range: [f64; 2]| range[0] as usize..range[1].ceil() as usize;
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn every_level_holds_the_same_light() {
+    fn every_level_has_the_same_mean() {
         let mut levels = 0;
         for (width, height) in [(1, 1), (1, 9), (2, 2), (3, 5), (7, 64), (64, 64), (101, 37), (256, 3)] {
             let pyramid = Pyramid::on(image(width, height));
@@ -103,7 +103,7 @@ mod tests {
             let top = pyramid.levels.last().expect("a level");
             assert_eq!((top.width, top.height), (1, 1));
         }
-        eprintln!("pyramids: {levels} levels hold the light of their images");
+        eprintln!("pyramids: {levels} levels have the means of their images");
     }
 
     #[test]

@@ -6,10 +6,11 @@ use crate::plan::{Census, Table};
 use crate::scene::{Rectangle, SceneError};
 use bevy_ecs::prelude::*;
 
-/// Rectangles in render space, in spawn order, without those that [move](super::MovingTable): the points of a plane whose two coordinates both lie from −1 to 1.
+/// Rectangles in render space, in spawn order, except for those that [move](super::MovingTable): points of a plane
+/// whose two coordinates are both from −1 to 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RectangleTable {
-    /// The plane and the coordinates.
+    /// The plane with its two coordinates.
     pub planar: Vec<Planar>,
     /// The shape's number.
     pub shape: Vec<u32>,

@@ -4,29 +4,29 @@ use crate::plan::{Census, Table};
 use crate::scene::{Sampler, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
-/// The most samples a pixel may have: so many places along an axis does a number of 24 bits tell apart.
+/// The greatest number of samples per pixel: the number of positions along an axis that 24 bits distinguish.
 pub const MOST_SAMPLES: u32 = 1 << 24;
 
 /// How the camera samples its pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SamplingTable {
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     /// The seed of all random numbers.
     pub seed: u64,
-    /// Where they come from.
+    /// The sampler that makes them.
     pub sampler: Sampler,
 }
 
 impl SamplingTable {
-    /// The same with another seed, for samples that are to be independent of these whatever the sampler.
+    /// The same with another seed, for samples that must be independent of these with any sampler.
     pub fn for_pilot(self) -> Self {
         Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x50_494C_4F54, ..self }
     }
 
-    /// The numbers of ways that start on lights: another seed's.
+    /// The random numbers of light paths, from another seed.
     ///
-    /// Strata are counted by a pixel's samples, which such a way has none of; its numbers are then independent.
+    /// Stratification counts the samples of a pixel, which a light path does not have, so its numbers are independent.
     pub fn for_light_paths(self) -> Self {
         let sampler = if self.sampler == Sampler::Sobol { Sampler::Sobol } else { Sampler::Independent };
         Self { seed: self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x4C_4947_4854, sampler, ..self }

@@ -11,7 +11,7 @@ use crate::scene::{SceneError, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 
 impl ShapeKind {
-    /// The table that it is laid in.
+    /// The table of this kind.
     pub fn table(self) -> TableKind {
         match self {
             Self::Sphere => TableKind::of::<SphereTable>(),
@@ -26,7 +26,7 @@ impl ShapeKind {
     }
 }
 
-/// All shapes in spawn order; a shape's number here is the one that hits carry.
+/// All shapes in spawn order; a shape's index here is the shape number in hits.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeTable {
     /// The table each shape is in.
@@ -35,8 +35,8 @@ pub struct ShapeTable {
     pub row: Vec<u32>,
     /// Its row in the material table; [`NO_ROW`] for a shape that reflects nothing.
     pub material: Vec<u32>,
-    /// Whether it has a material, one that spreads light, so that light may be aimed at it.
-    pub spreads: Vec<bool>,
+    /// Whether its material is not specular, so that lights are sampled for it.
+    pub non_specular: Vec<bool>,
     /// Its row in the table of emissive surfaces; [`NO_ROW`] for a shape that emits nothing.
     pub emissive: Vec<u32>,
 }
@@ -47,7 +47,8 @@ impl Table for ShapeTable {
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let kinds: Vec<_> = materials.iter().map(|&material| material_kind(scene, material)).collect();
-        let spreads = |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(MaterialKind::spreads);
+        let non_specular =
+            |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(MaterialKind::is_non_specular);
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
         for &entity in shape_entities(scene).iter() {
@@ -66,7 +67,7 @@ impl Table for ShapeTable {
             if is_missing || (own != NO_ROW && used.is_some()) {
                 return Err(wrong_material(scene, &kind_and_name(scene, written.word, entity), own != NO_ROW, used));
             }
-            table.spreads.push(spreads(material));
+            table.non_specular.push(non_specular(material));
             table.material.push(material);
             table.emissive.push(if emits == NO_ROW { used_emits } else { emits });
         }

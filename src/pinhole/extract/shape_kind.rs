@@ -30,15 +30,15 @@ pub enum ShapeKind {
 }
 
 impl ShapeKind {
-    /// How many kinds there are.
+    /// The number of kinds.
     pub(super) const COUNT: usize = 8;
 }
 
-/// A kind of shape as an author writes it, and the table that it is laid in.
+/// A component that is a shape, and the table of its kind.
 pub(super) struct Written {
     /// The component's name.
     component: &'static str,
-    /// What messages call it.
+    /// Its name in messages.
     pub(super) word: &'static str,
     entities: fn(&Census<'_>) -> Arc<[Entity]>,
     carries: fn(&Census<'_>, Entity) -> bool,
@@ -56,7 +56,7 @@ impl Written {
     }
 }
 
-/// Every component that is a shape; a new one joins with a line.
+/// The components that are shapes; a new one is added with a line.
 const WRITTEN: &[Written] = &[
     Written::of::<Sphere>("Sphere", "sphere", |scene, entity| {
         if unevenly_scaled(scene, entity) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere }
@@ -94,14 +94,14 @@ pub(super) fn moving_shapes(scene: &Census<'_>) -> Arc<[(usize, Entity)]> {
     })
 }
 
-/// What a message calls the shape of a number: its kind and its name.
+/// The name of a shape in messages, by its number: its kind and its entity's name.
 pub fn shape_name(scene: &Census<'_>, shape: usize) -> String {
     let entity = shape_entities(scene).get(shape).copied();
     let written = entity.and_then(|entity| WRITTEN.iter().find(|written| (written.carries)(scene, entity)));
     entity.zip(written).map_or_else(String::new, |(entity, written)| kind_and_name(scene, written.word, entity))
 }
 
-/// What a message calls each shape, in the order of their numbers.
+/// The names of all shapes in messages, in the order of their numbers.
 pub fn shape_names(scene: &Census<'_>) -> Vec<String> {
     (0..shape_entities(scene).len()).map(|shape| shape_name(scene, shape)).collect()
 }
@@ -111,13 +111,13 @@ pub(super) fn is_shape(scene: &Census<'_>, entity: Entity) -> bool {
     WRITTEN.iter().any(|written| (written.carries)(scene, entity))
 }
 
-/// The one shape that an entity is.
+/// The one shape component of an entity.
 pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<&'static Written, SceneError> {
-    let carried: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
-    match carried[..] {
+    let present: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
+    match present[..] {
         [one] => Ok(one),
         _ => {
-            let names: Vec<&str> = carried.iter().map(|written| written.component).collect();
+            let names: Vec<&str> = present.iter().map(|written| written.component).collect();
             let value = format!("{} at once", names.join(" and "));
             Err(SceneError::new(
                 kind_and_name(scene, "shape", entity),

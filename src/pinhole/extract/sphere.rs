@@ -8,8 +8,8 @@ use crate::scene::{SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// Spheres in render space, in spawn order; those that their placement scales unevenly are
-/// [ellipsoids](super::EllipsoidTable), and those that move are in [another table](super::MovingTable).
+/// Spheres in render space, in spawn order; those with a non-uniform scale are [ellipsoids](super::EllipsoidTable), and
+/// those that move are in [another table](super::MovingTable).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SphereTable {
     /// Centre, x.
@@ -18,7 +18,7 @@ pub struct SphereTable {
     pub y: Vec<f64>,
     /// Centre, z.
     pub z: Vec<f64>,
-    /// Radius, scene units.
+    /// Radius, in scene units.
     pub radius: Vec<f64>,
     /// The shape's number.
     pub shape: Vec<u32>,
@@ -57,7 +57,7 @@ impl Table for SphereTable {
     }
 }
 
-/// Where a sphere's centre is, from the eye, and its radius, both by its placement.
+/// The centre of a sphere, relative to the eye, and its radius, with its placement applied.
 pub(super) fn placed_sphere(
     scene: &Census<'_>,
     entity: Entity,
@@ -67,7 +67,7 @@ pub(super) fn placed_sphere(
     let who = kind_and_name(scene, "sphere", entity);
     let pose = world_from_entity(scene, &who, entity)?;
     positive_length(&who, "radius", sphere.radius)?;
-    // The same along all axes, mirrored or not.
+    // The scale is the same along all axes, mirrored or not.
     let scale = pose.matrix3.x_axis.length();
     let centre = finite_point(&who, "position", pose.translation - eye)?;
     let scaled = |scene_error: SceneError| {

@@ -9,17 +9,17 @@ use glam::DVec3;
 /// Spot lights in render space, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpotLightTable {
-    /// Where each stands.
+    /// The position of each.
     pub position: Vec<DVec3>,
-    /// The way it shines: a unit vector.
+    /// The direction of its axis: a unit vector.
     pub axis: Vec<DVec3>,
     /// Radiant intensity along the axis, linear Rec. 709.
     pub intensity: Vec<[f64; 3]>,
-    /// 1 − cos of the angle between the axis and the edge of the inner cone.
+    /// 1 − cos of the half angle of the inner cone.
     pub inner: Vec<f64>,
-    /// The same of the outer cone.
+    /// 1 − cos of the half angle of the outer cone.
     pub outer: Vec<f64>,
-    /// Whether things in between keep its light away.
+    /// Whether shapes block its light.
     pub casts_shadows: Vec<bool>,
 }
 
@@ -49,7 +49,7 @@ impl Table for SpotLightTable {
     }
 }
 
-/// 1 − cos of half of both angles, inner and outer.
+/// 1 − cos of the half angles of the inner and the outer cone.
 fn cone(who: &str, light: &SpotLight) -> Result<[f64; 2], SceneError> {
     let (Degrees(inner), Degrees(outer)) = (light.inner_angle, light.outer_angle);
     if !(outer > 0.0 && outer <= 180.0) {
@@ -63,7 +63,7 @@ fn cone(who: &str, light: &SpotLight) -> Result<[f64; 2], SceneError> {
     Ok([versine_of_half(light.inner_angle), versine_of_half(light.outer_angle)])
 }
 
-/// 1 − cos of half an angle, as 2 sin² of its quarter, which loses nothing where the angle is small.
+/// 1 − cos of half an angle, as 2 sin² of its quarter, which keeps the digits of a small angle.
 pub fn versine_of_half(angle: Degrees) -> f64 {
     let sine = libm::sin(angle.radians() / 4.0);
     2.0 * sine * sine

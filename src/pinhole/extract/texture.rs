@@ -1,6 +1,6 @@
 use super::camera::eye;
 use super::check::{kind_and_name, positive_length, triple};
-use super::material_kind::{MaterialKind, material_entities, material_kind, reached};
+use super::material_kind::{MaterialKind, in_use, material_entities, material_kind};
 use super::pose::pose;
 use super::shape_kind::shape_entities;
 use crate::plan::{Census, Evidence, Table};
@@ -9,18 +9,18 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
 
-/// The row of a material without a texture of a kind.
+/// The row of a material without a texture of some kind.
 pub const NO_TEXTURE: u32 = u32::MAX;
 
 /// A kind of texture.
 pub trait Texture: Component {
-    /// What messages call it.
+    /// Its name in messages.
     const WORD: &'static str;
-    /// What a plan counts.
+    /// Its name in the plan's counts.
     const NOUN: &'static str;
-    /// What it is laid along.
+    /// How it is mapped.
     fn by(&self) -> TextureBy;
-    /// Whether a pixel gets the mean of what it covers.
+    /// Whether it is filtered over a pixel's footprint.
     fn filter(&self) -> bool;
 }
 
@@ -59,9 +59,9 @@ impl Texture for ImageTexture {
 
 /// Evidence that a shape is made of a material with such a texture.
 pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
-    let reached = reached(scene);
+    let in_use = in_use(scene);
     Evidence::among::<With<T>>(scene, noun, |entity| {
-        reached.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
+        in_use.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
     })
 }
 
@@ -83,7 +83,7 @@ pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
     })
 }
 
-/// Evidence that a texture is laid along uv.
+/// Evidence that a texture is mapped by uv.
 pub fn by_uv_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         texture_of_kind::<Checker>(scene, "checker by uv", |texture| texture.by == TextureBy::Uv)
@@ -92,7 +92,7 @@ pub fn by_uv_evidence(scene: &Census<'_>) -> Evidence {
     })
 }
 
-/// Evidence that a texture is laid along uv and filtered.
+/// Evidence that a texture is mapped by uv and filtered.
 pub fn filtered_by_uv_evidence(scene: &Census<'_>) -> Evidence {
     fn such<T: Texture>(texture: &T) -> bool {
         texture.by() == TextureBy::Uv && texture.filter()
@@ -102,35 +102,35 @@ pub fn filtered_by_uv_evidence(scene: &Census<'_>) -> Evidence {
         .or(texture_of_kind(scene, "filtered image by uv", such::<ImageTexture>))
 }
 
-/// What a texture's coordinates are made of.
+/// The origin of a texture's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TextureMapping {
     /// There is no texture.
     #[default]
     Nowhere,
-    /// u and v.
+    /// The surface parameters u and v.
     AlongUv,
-    /// The point in the shape's own space.
+    /// The point in the shape's object space.
     InSpace,
-    /// The same, seen along the axis that the surface faces most.
+    /// The same, projected along the axis that the surface faces most.
     OnFaces,
 }
 
-/// How a material's texture is laid: from uv or the shape's space to the texture's own coordinates.
+/// The mapping of a material's texture: from uv or object space to the texture's own coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TextureMap {
-    /// What the coordinates are made of.
-    pub laid: TextureMapping,
-    /// Coordinates a unit.
+    /// The origin of the coordinates.
+    pub mapping: TextureMapping,
+    /// The linear part of the map to texture coordinates.
     pub matrix: DMat3,
-    /// The coordinates of the origin.
+    /// The texture coordinates of the origin.
     pub shift: DVec3,
 }
 
-/// How each material's texture is laid, in the order of the materials.
+/// The texture mapping of each material, in the order of the materials.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextureMaps {
-    /// One a material.
+    /// One for each material.
     pub map: Vec<TextureMap>,
 }
 
@@ -149,11 +149,11 @@ impl Table for TextureMaps {
     }
 }
 
-/// How the texture that a material's entity carries is laid.
+/// The texture mapping of a material's entity.
 fn texture_map(scene: &Census<'_>, material: Entity) -> Result<TextureMap, SceneError> {
     if let Some(checker) = scene.get::<Checker>(material) {
         let size = size_of_texture::<Checker>(scene, material, checker.size)?;
-        return Ok(laid_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
+        return Ok(mapping_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
     }
     if let Some(stripes) = scene.get::<Stripes>(material) {
         let size = size_of_texture::<Stripes>(scene, material, stripes.size)?;
@@ -171,13 +171,13 @@ fn texture_map(scene: &Census<'_>, material: Entity) -> Result<TextureMap, Scene
             return Err(SceneError::new(who, "across", triple(stripes.across), accepted));
         }
         let row = (across / longest).normalize() / size;
-        return Ok(laid_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
+        return Ok(mapping_by(stripes.by, DMat3::from_cols(row, DVec3::ZERO, DVec3::ZERO).transpose()));
     }
     if let Some(image) = scene.get::<ImageTexture>(material) {
         let size = size_of_texture::<ImageTexture>(scene, material, image.size)?;
-        let map = laid_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
+        let map = mapping_by(image.by, DMat3::from_diagonal(DVec3::splat(1.0 / size)));
         return Ok(if image.by == TextureBy::Space {
-            TextureMap { laid: TextureMapping::OnFaces, ..map }
+            TextureMap { mapping: TextureMapping::OnFaces, ..map }
         } else {
             map
         });
@@ -185,11 +185,11 @@ fn texture_map(scene: &Census<'_>, material: Entity) -> Result<TextureMap, Scene
     Ok(TextureMap::default())
 }
 
-/// In space a cell's or image's middle is at the origin, along uv its corner.
-fn laid_by(by: TextureBy, matrix: DMat3) -> TextureMap {
+/// In object space the origin is the centre of a cell or image; in uv it is a corner.
+fn mapping_by(by: TextureBy, matrix: DMat3) -> TextureMap {
     match by {
-        TextureBy::Uv => TextureMap { laid: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
-        TextureBy::Space => TextureMap { laid: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
+        TextureBy::Uv => TextureMap { mapping: TextureMapping::AlongUv, matrix, shift: DVec3::ZERO },
+        TextureBy::Space => TextureMap { mapping: TextureMapping::InSpace, matrix, shift: DVec3::splat(0.5) },
     }
 }
 
@@ -197,7 +197,7 @@ fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) 
     positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
 }
 
-/// Every texture must belong to a material, and a material have one texture.
+/// Checks that every texture belongs to a material, and that a material has at most one.
 fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
     let mut owned: Vec<(Entity, &str)> = Vec::new();
@@ -218,7 +218,7 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             _ => "",
         };
         if !colourless.is_empty() {
-            let accepted = "a texture colours light that leaves equally in all directions, as off a Matte, a Phong or a \
+            let accepted = "a texture colours diffuse reflection, as of a Matte, a Phong or a \
                             BlinnPhong";
             return Err(SceneError::new(who, "material", colourless, accepted));
         }
@@ -230,7 +230,7 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The row that each material has among those with a texture of one kind, and the entities that are these rows.
+/// The row of each material among those with a texture of one kind, and the entities of these rows.
 pub(super) fn rows_of_kind<T: Texture>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
     let (mut of_material, mut rows) = (Vec::new(), Vec::new());
     for &material in material_entities(scene).iter() {
@@ -241,14 +241,14 @@ pub(super) fn rows_of_kind<T: Texture>(scene: &Census<'_>) -> (Vec<u32>, Vec<Ent
     (of_material, rows)
 }
 
-/// Each shape's own space, in the order of the shapes.
+/// Each shape's object space, in the order of the shapes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeSpaces {
-    /// Where its origin is, from the eye.
+    /// Its origin, relative to the eye.
     pub origin: Vec<DVec3>,
-    /// Takes a difference of two points into it.
+    /// The linear map into it.
     pub shape_from_world: Vec<DMat3>,
-    /// Takes one out of it.
+    /// The linear map out of it.
     pub world_from_shape: Vec<DMat3>,
 }
 

@@ -9,29 +9,29 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// A triangle whose least height is no more than this share of its longest edge has lost its normal to rounding.
+/// A triangle whose least height is at most this fraction of its longest edge has lost its normal to rounding.
 const LEAST_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
 /// Coordinates below this, 2⁻²⁰⁰ scene units, count as 0, so that exact arithmetic has room below them.
 const SMALLEST_COORDINATE: f64 = f64::from_bits((1023 - 200) << 52);
-/// By how much the sphere about a triangle is taken larger, so that no rounding reaches beyond it.
-const REACH_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
-/// Texture coordinates where the author gives none: b₁ and b₂.
+/// The factor by which a triangle's bounding sphere is enlarged, so that no rounding leads outside it.
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 65_536.0;
+/// The texture coordinates of a triangle without any: b₁ and b₂.
 const OWN_UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
-/// A triangle as the kernels read it.
+/// A triangle as the intersection kernels read it.
 ///
-/// Its corners stand in an order of their own, whatever the author's, so that the same three corners give every ray the
-/// same distance to the last bit.
+/// Its corners are sorted, whatever the author's order, so that the same three corners give every ray the same distance
+/// to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleRow {
-    /// The corners, from the eye.
+    /// The corners, relative to the eye.
     pub corners: [DVec3; 3],
     /// The largest |x| + |y| + |z| of a corner.
     pub size: f64,
-    /// The middle of the longest edge.
+    /// The midpoint of the longest edge.
     pub centre: DVec3,
-    /// No corner is farther from the centre than this.
-    pub reach: f64,
+    /// The radius of a bounding sphere about the centre.
+    pub bounding_radius: f64,
 }
 
 impl TriangleRow {
@@ -42,19 +42,20 @@ impl TriangleRow {
         let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j]));
         let longest = edges.into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)));
         let centre = longest.map_or(corners[0], |(a, b)| a.midpoint(b));
-        let reach = corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * REACH_MARGIN;
-        Self { corners, size, centre, reach }
+        let bounding_radius =
+            corners.map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max) * RADIUS_MARGIN;
+        Self { corners, size, centre, bounding_radius }
     }
 
-    /// (B − A) × (C − A), each part right to within two roundings however thin the triangle; all 0 where the corners lie
-    /// on one line.
+    /// (B − A) × (C − A), each component accurate to within two roundings however thin the triangle; all 0 for
+    /// collinear corners.
     pub fn cross(&self) -> DVec3 {
         let [a, b, c] = self.corners;
         DVec3::from(exact_cross(&exact_difference(b, a), &exact_difference(c, a)).map(|part| part.rounded()))
     }
 }
 
-/// By x, then y, then z.
+/// The order of corners: by x, then y, then z.
 fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
@@ -63,30 +64,30 @@ fn order(a: &DVec3, b: &DVec3) -> std::cmp::Ordering {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleTable {
     /// The triangles.
-    pub facet: Vec<TriangleRow>,
-    /// The unit normal on the side to which the author's normals point, or else from which the author's corners go
-    /// round anticlockwise in the world.
+    pub triangle: Vec<TriangleRow>,
+    /// The unit normal, on the side of the author's vertex normals, or else on the side from which the author's corners
+    /// appear anticlockwise in world space.
     pub normal: Vec<DVec3>,
-    /// Whether it points the other way from (B − A) × (C − A) of the facet's corners.
+    /// Whether it is opposite to (B − A) × (C − A) of the sorted corners.
     pub turned: Vec<bool>,
-    /// Texture coordinates of the facet's corners.
+    /// Texture coordinates of the sorted corners.
     pub uvs: Vec<[DVec2; 3]>,
     /// The shape's number.
     pub shape: Vec<u32>,
 }
 
 impl TriangleTable {
-    /// Appends a triangle without normals of its own, its corners in the author's order.
+    /// Appends a triangle without vertex normals, its corners in the author's order.
     pub fn push(&mut self, corners: [DVec3; 3], uvs: [DVec2; 3], shape: u32) {
         let mut order_of_corners = [0, 1, 2];
         order_of_corners.sort_by(|&i, &j| order(&corners[i], &corners[j]));
-        let facet = TriangleRow::new(corners);
-        // Every exchange of two corners turns the normal round.
+        let triangle = TriangleRow::new(corners);
+        // Every exchange of two corners reverses the normal.
         let turned = !matches!(order_of_corners, [0, 1, 2] | [1, 2, 0] | [2, 0, 1]);
-        let cross = facet.cross();
-        // Corners that rounding has put on one line are met by no ray; any normal serves them.
+        let cross = triangle.cross();
+        // No ray hits corners that rounding made collinear, so any normal will do.
         let along = (cross / cross.abs().max_element()).try_normalize().unwrap_or(DVec3::Z);
-        self.facet.push(facet);
+        self.triangle.push(triangle);
         self.normal.push(if turned { -along } else { along });
         self.turned.push(turned);
         self.uvs.push(order_of_corners.map(|corner| uvs[corner]));
@@ -102,7 +103,7 @@ impl Table for TriangleTable {
         for triangle in placed_triangles(scene)?.iter() {
             table.push(triangle.corners, triangle.uvs, triangle.shape);
             let last = table.normal.len() - 1;
-            // A mirror turns corners round, and normals not.
+            // A mirroring placement reverses the order of corners, but not the normals.
             if triangle.normals.is_some_and(|normals| normals[0].dot(table.normal[last]) < 0.0) {
                 table.normal[last] = -table.normal[last];
                 table.turned[last] = !table.turned[last];
@@ -113,14 +114,14 @@ impl Table for TriangleTable {
 
     fn bytes(&self) -> usize {
         let row = size_of::<TriangleRow>() + size_of::<DVec3>() + size_of::<bool>() + size_of::<[DVec2; 3]>();
-        self.facet.len() * (row + size_of::<u32>())
+        self.triangle.len() * (row + size_of::<u32>())
     }
 }
 
-/// Normals of corners in the world, a row a triangle, in the order of [`TriangleTable`] and of its facets' corners.
+/// Vertex normals in world space, one row per triangle, in the order of [`TriangleTable`] and its sorted corners.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexNormalTable {
-    /// Unit vectors, on the side of the table's normal; all 0 where the author gave none.
+    /// Unit vectors on the side of the table's normal; all 0 where the author gave none.
     pub normals: Vec<[DVec3; 3]>,
 }
 
@@ -164,9 +165,10 @@ fn placed_triangles(scene: &Census<'_>) -> Result<Arc<[PlacedTriangle]>, SceneEr
     })
 }
 
-/// Corners and normals of a triangle in render space, in the author's order.
+/// Corners and vertex normals of a triangle in render space, in the author's order.
 ///
-/// A corner depends on its own coordinates and on the placement alone: triangles that share one share its last bit.
+/// A corner depends only on its own coordinates and the placement, so triangles with a common corner agree to the last
+/// bit.
 fn placed(
     scene: &Census<'_>,
     entity: Entity,

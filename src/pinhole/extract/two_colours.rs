@@ -5,16 +5,16 @@ use crate::plan::{Census, Table};
 use crate::scene::{Checker, Rgb, SceneError, Stripes};
 use bevy_ecs::prelude::*;
 
-/// Textures of one kind that are made of two colours, in spawn order.
+/// Textures of one kind that consist of two colours, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TwoColours {
     /// The row of each material's texture; [`NO_TEXTURE`](super::NO_TEXTURE) where it has none of this kind.
     pub of_material: Vec<u32>,
-    /// The one colour, as a share of light from 0 to 1.
+    /// The first colour, an albedo from 0 to 1.
     pub first: Vec<[f64; 3]>,
-    /// The other.
+    /// The second colour.
     pub second: Vec<[f64; 3]>,
-    /// Whether a pixel gets the mean of what it covers.
+    /// Whether each is filtered over a pixel's footprint.
     pub filter: Vec<bool>,
 }
 
@@ -41,11 +41,11 @@ impl TwoColours {
     }
 }
 
-/// The materials that are checkered.
+/// The checker textures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CheckerTable(pub TwoColours);
 
-/// The materials that are striped.
+/// The stripe textures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StripesTable(pub TwoColours);
 

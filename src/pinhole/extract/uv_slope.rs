@@ -5,21 +5,21 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// How u and v change along a shape's surface.
+/// The gradients of u and v along a shape's surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum UvSlope {
-    /// They do not.
+    /// There are none.
     #[default]
     Nowhere,
-    /// By the same everywhere: by these a step of the world.
+    /// Constant gradients, per scene unit in world space.
     Planar([DVec3; 2]),
-    /// As longitude and latitude do about the origin of the shape's own space.
+    /// Those of longitude and latitude about the origin of the shape's object space.
     Round,
-    /// As on the face across one of three axes: by these a step of the world.
+    /// Those of cuboid faces, by axis, per scene unit in world space.
     Faces([DVec3; 3]),
 }
 
-/// The axis that a vector has most of; y where there is no telling.
+/// The axis of a vector's largest component; y where none is.
 #[inline(always)]
 pub fn most_of(v: DVec3) -> usize {
     let size = v.abs();
@@ -33,10 +33,10 @@ pub fn most_of(v: DVec3) -> usize {
 }
 
 impl UvSlope {
-    /// How much u and v change where a hit moves by a step, of the world and in the shape's own space; `own` is the hit
-    /// there, `normal` the surface's in the world.
+    /// The change of u and v where a hit moves by an offset, given in world and object space; `own` is the hit in
+    /// object space, `normal` the surface normal in world space.
     ///
-    /// Not finite where there is no telling, such as at the poles of a sphere.
+    /// Not finite where it is undefined, such as at the poles of a sphere.
     #[inline(always)]
     pub fn step(&self, own: DVec3, normal: DVec3, step: DVec3, own_step: DVec3) -> DVec3 {
         match self {
@@ -53,9 +53,9 @@ impl UvSlope {
     }
 }
 
-/// How much longitude over 2π and the angle from the top over π change along a step from a point.
+/// The change of longitude over 2π and of the polar angle over π along an offset from a point.
 ///
-/// The derivatives of the two arc tangents that they are.
+/// These are the derivatives of the two arc tangents.
 #[inline(always)]
 fn round_step(own: DVec3, step: DVec3) -> DVec3 {
     let across_squared = own.x * own.x + own.z * own.z;
@@ -66,20 +66,20 @@ fn round_step(own: DVec3, step: DVec3) -> DVec3 {
     DVec3::new(longitude / TAU, from_top / PI, 0.0)
 }
 
-/// That of a triangle with these two edges from its first corner, by u and v of its corners.
+/// The gradients of a triangle with these two edges from its first corner, from u and v of its corners.
 fn planar_slope([one, other]: [DVec3; 2], uvs: [DVec2; 3]) -> UvSlope {
     let across = one.cross(other);
     let area_squared = across.length_squared();
-    // Along the one edge the first changes by 1 and the second by 0, along the other the other way round.
+    // Along the first edge, the first coordinate changes by 1 and the second by 0; along the second edge, vice versa.
     let (first, second) = (other.cross(across) / area_squared, across.cross(one) / area_squared);
     let (along_one, along_other) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
     UvSlope::Planar([0, 1].map(|part| first * along_one[part] + second * along_other[part]))
 }
 
-/// How u and v change along each shape, in the order of the shapes.
+/// The gradients of u and v along each shape, in the order of the shapes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvSlopes {
-    /// One a shape.
+    /// One for each shape.
     pub slope: Vec<UvSlope>,
 }
 
@@ -98,7 +98,7 @@ impl Table for UvSlopes {
                 slope[shape] = UvSlope::Round;
             }
         }
-        // Their coordinates go from −1 to 1 where u and v go from 0 to 1.
+        // Their plane coordinates run from −1 to 1 where u and v run from 0 to 1.
         let (disks, rectangles) = (scene.table::<DiskTable>()?, scene.table::<RectangleTable>()?);
         let planar_shapes =
             disks.planar.iter().zip(&disks.shape).chain(rectangles.planar.iter().zip(&rectangles.shape));
@@ -111,7 +111,7 @@ impl Table for UvSlopes {
         }
         let triangles = scene.table::<TriangleTable>()?;
         for (triangle, &shape) in triangles.shape.iter().enumerate() {
-            let [a, b, c] = triangles.facet[triangle].corners;
+            let [a, b, c] = triangles.triangle[triangle].corners;
             slope[shape as usize] = planar_slope([b - a, c - a], triangles.uvs[triangle]);
         }
         Ok(Self { slope })

@@ -6,19 +6,19 @@ use crate::scene::{Plane, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
-/// The space that u and v of each sphere and plane are read off; a shape's row is its number.
+/// The space from which u and v of each sphere and plane are computed, one row per shape.
 ///
-/// A sphere's is its own space; in a plane's, x is u and y is v.
+/// For a sphere it is its object space; for a plane, x is u and y is v.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvSpaceTable {
-    /// The origin of the shape's own space, from the eye.
+    /// The origin of the shape's object space, relative to the eye.
     pub origin: Vec<DVec3>,
-    /// Takes directions of the world there.
+    /// The linear map from world space.
     pub uv_from_world: Vec<DMat3>,
 }
 
 impl UvSpaceTable {
-    /// A point of render space in a shape's space.
+    /// A point of render space, transformed to a shape's uv space.
     #[inline(always)]
     pub fn point(&self, shape: usize, point: DVec3) -> DVec3 {
         point_object_from_world(self.uv_from_world[shape], self.origin[shape], point)
@@ -51,9 +51,9 @@ impl Table for UvSpaceTable {
     }
 }
 
-/// The two unit vectors, in a plane's own space, along which its u and v grow.
+/// The two unit vectors, in a plane's object space, along which its u and v increase.
 ///
-/// They are those of the face of a cuboid that looks the same way as the normal, or nearly, laid onto the plane.
+/// They are those of the cuboid face with the same normal or nearly so, projected onto the plane.
 pub fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     let unit = (normal / normal.abs().max_element()).normalize();
     let size = unit.abs();
@@ -69,8 +69,8 @@ pub fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     [u, u.cross(unit)]
 }
 
-/// The directions of u and v on the face of a cuboid across an axis, at its negative or positive end: u to the right and
-/// v down as seen from outside with +y up; on top u along +x and v along +z, below v along −z.
+/// The directions of u and v on the face of a cuboid across an axis, at its negative or positive end: u to the right
+/// and v down as seen from outside with +y up; on top u along +x and v along +z, on the bottom v along −z.
 #[inline(always)]
 pub fn face_axes(axis: usize, negative: bool) -> [DVec3; 2] {
     let outward = DVec3::AXES[axis] * if negative { -1.0 } else { 1.0 };
@@ -84,7 +84,7 @@ mod tests {
     use crate::scene::{Matte, PerspectiveCamera, Placement, Sphere};
 
     #[test]
-    fn a_plane_is_measured_in_its_own_units() {
+    fn a_plane_is_parametrised_in_its_own_units() {
         assert_eq!(plane_axes(DVec3::Y * 3.0), [DVec3::X, DVec3::Z]);
         assert_eq!(plane_axes(DVec3::Z), [DVec3::X, DVec3::NEG_Y]);
         assert_eq!(plane_axes(DVec3::X * 1e-20), [DVec3::NEG_Z, DVec3::NEG_Y]);
@@ -93,13 +93,13 @@ mod tests {
             let unit = normal.normalize();
             assert!((u.length() - 1.0).abs() < 1e-15 && (v.length() - 1.0).abs() < 1e-15);
             assert!(u.dot(v).abs() < 1e-15 && u.dot(unit).abs() < 1e-15);
-            // u to the right and v down: the third axis looks at the viewer.
+            // u is to the right and v down, so the third axis points at the viewer.
             assert!((v.cross(u) - unit).length() < 1e-15);
         }
     }
 
     #[test]
-    fn points_come_back_from_a_placement_that_scales_and_mirrors() {
+    fn points_are_recovered_from_a_placement_that_scales_and_mirrors() {
         let mut world = World::new();
         world.spawn((PerspectiveCamera::default(), Placement::at(1.0, 2.0, 3.0)));
         let placement = Placement { scale: DVec3::new(-2.0, 3.0, 0.5), ..Placement::at(4.0, 5.0, 6.0) };

@@ -15,10 +15,10 @@ pub(super) fn shutter_of(scene: &Census<'_>) -> Shutter {
         .unwrap_or(Shutter { open: 0.0, close: 0.0 })
 }
 
-/// How an entity moves: by its own motion and its parents'.
+/// The velocity of an entity: its own and its parents' added.
 pub fn velocity_of(scene: &Census<'_>, entity: Entity) -> DVec3 {
     let (mut velocity, mut next, mut steps) = (DVec3::ZERO, Some(entity), 0);
-    // A circle of parents is refused with every placement; here it only must come to an end.
+    // Cyclic parents are an error of every placement; here the loop must only end.
     while let Some(own) = next.filter(|_| steps < 1 << 16) {
         velocity += scene.get::<Motion>(own).map_or(DVec3::ZERO, |motion| motion.velocity);
         next = scene.get::<ChildOf>(own).map(ChildOf::parent);
@@ -27,20 +27,20 @@ pub fn velocity_of(scene: &Census<'_>, entity: Entity) -> DVec3 {
     velocity
 }
 
-/// How far an entity has come when the shutter opens.
-pub fn way_before_opening(scene: &Census<'_>, entity: Entity) -> Option<DVec3> {
+/// The displacement of an entity at the moment when the shutter opens.
+pub fn displacement_at_opening(scene: &Census<'_>, entity: Entity) -> Option<DVec3> {
     let velocity = velocity_of(scene, entity);
     (velocity != DVec3::ZERO).then(|| velocity * shutter_of(scene).open)
 }
 
-/// Whether the shutter is open for some time.
-pub fn open_for_some_time(scene: &Census<'_>) -> bool {
+/// Whether the shutter is open for a positive time.
+pub fn shutter_has_duration(scene: &Census<'_>) -> bool {
     let Shutter { open, close } = shutter_of(scene);
     close > open
 }
 
-/// The shapes that move while the shutter is open, as a question that is asked of each.
+/// A predicate for the shapes that move while the shutter is open.
 pub fn moves_while_open(scene: &Census<'_>) -> impl Fn(Entity) -> bool {
-    let open = open_for_some_time(scene) && !scene.entities::<With<Motion>>().is_empty();
+    let open = shutter_has_duration(scene) && !scene.entities::<With<Motion>>().is_empty();
     move |entity| open && velocity_of(scene, entity) != DVec3::ZERO
 }

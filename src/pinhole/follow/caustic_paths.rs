@@ -5,23 +5,24 @@ use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;
 
 column! {
-    /// Which of a way's kind are found from the lights; exists where caustics are traced from there.
+    /// Whether the caustics on a camera path's first surface are computed from the lights; exists where light tracing
+    /// is on.
     pub struct CausticPaths("caustic path", "light", "1 or 0", Path) {
-        /// 1 where the first surface that the camera sees spreads light, so that what reaches it from a light by mirrors
-        /// or glass is left to the rays from the light; by the row of the first leg.
+        /// 1 where the first surface that the camera sees is not specular, so that light that reaches it through
+        /// mirrors or glass is left to light tracing; indexed by the row of the first bounce.
         spread: u32,
     }
 }
 
 impl CausticPaths {
-    /// White where light by mirrors or glass is left to the rays from the lights.
+    /// White where light through mirrors or glass is left to light tracing.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.spread[row] as f32; 3]
     }
 }
 
-/// Notes which of the camera's rays met a surface that spreads light.
-pub fn note_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
+/// Marks the camera rays that hit a non-specular surface.
+pub fn mark_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut CausticPaths)>) {
     for (rays, list, mut caustic) in &mut tiles {
         let spread = caustic.slices_mut(crate::plan::Column::rows(rays));
         spread.fill(0);
@@ -29,9 +30,9 @@ pub fn note_caustic_paths(mut tiles: Query<(&WorldRays, &MaterialRows, &mut Caus
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`mark_caustic_paths`].
 pub fn caustic_paths_stage() -> Stage {
-    Stage::new("Mark caustic paths", TileSystems::Classify, note_caustic_paths)
+    Stage::new("Mark caustic paths", TileSystems::Classify, mark_caustic_paths)
         .on_camera_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)

@@ -4,36 +4,36 @@ use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 
 column! {
-    /// The rows that met a perfect mirror, ascending.
+    /// The rows that hit a perfect mirror, ascending.
     pub struct MirrorRows("mirror rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
-        /// The row of the table of mirrors.
+        /// The row of the mirror table.
         of: u32,
     }
 }
 
 column! {
-    /// The rows that met glass, from either side, ascending.
+    /// The rows that hit glass, from either side, ascending.
     pub struct GlassRows("glass rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
-        /// The row of the table of glass.
+        /// The row of the glass table.
         of: u32,
     }
 }
 
 column! {
-    /// The rows that met rough metal, ascending.
+    /// The rows that hit rough metal, ascending.
     pub struct MetalRows("metal rows", "rows of the tile", "rows", Ray) {
         /// A row of the surfaces.
         row: u32,
-        /// The row of the table of metals.
+        /// The row of the metal table.
         of: u32,
     }
 }
 
-/// Lists the rows of each kind of matter; after this each kind visits its own rows only.
+/// Lists the rows of each kind of material; from here on, each kind's stage visits its own rows only.
 pub fn classify_materials(
     shapes: Res<Shared<ShapeTable>>,
     materials: Res<Shared<MaterialTable>>,
@@ -60,7 +60,8 @@ pub fn classify_materials(
     }
 }
 
-/// Writes every row and keeps those whose shape has a row of its kind's table.
+/// Lists the rows whose shape has a row in this kind's table: every candidate is written, and the next overwrites it
+/// unless it counts.
 fn list_rows(hits: &Hits, [rows, of]: [&mut Vec<u32>; 2], row_of: impl Fn(usize) -> u32) {
     rows.resize(hits.rows(), 0);
     of.resize(hits.rows(), 0);
@@ -92,7 +93,7 @@ impl MetalRows {
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`classify_materials`].
 pub fn classify_materials_stage() -> Stage {
     Stage::new("Classify materials", TileSystems::Classify, classify_materials).when(shape_evidence)
 }

@@ -2,20 +2,21 @@ use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
 use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
 
-/// What else each ray's origin lies in beyond the four kinds of glass that [`Media`] names, in order of rank; exists only
-/// where more than four shapes of glass may lie in one another.
+/// The media around each ray's origin beyond the four that [`Media`] holds, in order of rank; exists only where more
+/// than four glass shapes may overlap.
 ///
-/// All rows share one list, so that a ray in a hundred glasses needs no memory of its own and one in none needs no place.
+/// All rows share one list, so that a ray inside a hundred glasses needs no allocation of its own, and one outside
+/// needs no space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeeperMedia {
-    /// Where in the list each row's part ends; it begins where that of the row before ends.
+    /// The end of each row's range in the list; it begins where the previous row's ends.
     end: Vec<u32>,
-    /// Rows of the table of glass.
+    /// Rows of the glass table.
     glass: Vec<u32>,
 }
 
 impl DeeperMedia {
-    /// What a row's ray starts in beyond the fourth.
+    /// The media of a row's ray beyond the fourth.
     #[inline(always)]
     pub fn get(&self, row: usize) -> &[u32] {
         let Some(&end) = self.end.get(row) else { return &[] };
@@ -23,7 +24,7 @@ impl DeeperMedia {
         &self.glass[start as usize..end as usize]
     }
 
-    /// Leaves nothing beyond the fourth on so many rows.
+    /// Sets so many rows to no media beyond the fourth.
     pub(super) fn start(&mut self, rows: usize) {
         self.glass.clear();
         self.end.clear();
@@ -37,8 +38,8 @@ impl DeeperMedia {
     }
 }
 
-/// The glass on the near side of a surface of glass, and on the far side: as [`MediumStack::crossing`] has it, with what
-/// lies beyond the fourth in mind.
+/// The glass on the near side of a glass surface and on the far side: like [`MediumStack::crossing`], but including the
+/// media beyond the fourth.
 #[inline(always)]
 pub(super) fn near_and_far(
     stack: MediumStack,
@@ -47,7 +48,7 @@ pub(super) fn near_and_far(
     from_outside: bool,
     priorities: &[u32],
 ) -> [u32; 2] {
-    // Whoever leaves a glass that was not among the first four stays in the first.
+    // A ray that leaves a glass not among the first four stays in the first one.
     if !from_outside && !stack.rows.contains(&row) && beyond.contains(&row) {
         return [stack.top(); 2];
     }
@@ -55,7 +56,7 @@ pub(super) fn near_and_far(
     [crossing.near, crossing.far]
 }
 
-/// Carries over what rays lie in, first to last, one ray after another.
+/// Collects the media of the scattered rays, one ray after another.
 #[derive(Default)]
 pub struct Carrier {
     whole: Vec<u32>,
@@ -63,12 +64,13 @@ pub struct Carrier {
 }
 
 impl Carrier {
-    /// Forgets the rays of the tile before.
+    /// Clears the rays of the previous tile.
     pub(super) fn start(&mut self) {
         self.kept.start(0);
     }
 
-    /// Appends what a ray lies in that comes from another and has, or has not, crossed a surface of glass; its first four.
+    /// Appends the media of a ray scattered from another, which crossed a glass surface or did not; returns the first
+    /// four.
     pub(super) fn push(
         &mut self,
         (stack, beyond): (MediumStack, &[u32]),
@@ -99,7 +101,7 @@ impl Carrier {
         MediumStack { rows }
     }
 
-    /// Puts what was carried over in the place of what was there.
+    /// Exchanges the collected media with those of the column.
     pub(super) fn swap(&mut self, with: &mut DeeperMedia) {
         std::mem::swap(&mut self.kept, with);
     }
@@ -126,7 +128,7 @@ impl Column for DeeperMedia {
     }
 }
 
-/// Evidence that a ray may lie in more than four shapes of glass at once.
+/// Evidence that a ray may be inside more than four glass shapes at once.
 pub fn deeper_media_evidence(scene: &Census<'_>) -> Evidence {
     glass_evidence(scene).and(|| followed_evidence(scene)).and(|| deep_glass(scene, Media::PLACES))
 }
@@ -136,10 +138,10 @@ mod tests {
     use super::*;
     use crate::measure::ray_aim::Draws;
 
-    /// Walks in and out of nine shapes of glass in every kind of order; what is there is always the one of the highest
-    /// priority, and of equals the first.
+    /// Random walks in and out of nine glass shapes; the medium at each point must be the one of the highest priority,
+    /// and among equals the first.
     #[test]
-    fn what_is_there_is_right_however_deep() {
+    fn the_medium_is_right_at_any_depth() {
         const SHAPES: usize = 9;
         let (mut surfaces, mut deepest) = (0, 0);
         for walk in 0..3000 {
@@ -148,8 +150,8 @@ mod tests {
             let priorities: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, 4) as u32).collect();
             let glass: Vec<u32> = (0..SHAPES).map(|_| below(&mut draws, SHAPES) as u32).collect();
             let rule = |inside: &[bool]| {
-                let held = (0..SHAPES).filter(|&shape| inside[shape]).map(|shape| glass[shape]);
-                held.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
+                let around = (0..SHAPES).filter(|&shape| inside[shape]).map(|shape| glass[shape]);
+                around.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
             };
             let (mut inside, mut stack, mut beyond) = ([false; SHAPES], MediumStack::OUTSIDE, DeeperMedia::default());
             beyond.start(1);

@@ -8,7 +8,7 @@ use crate::shade::{Footprints, Radiance};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: add_bounce
-/// Adds to every way's light the share that reaches the film of what its ray brought back on this leg.
+/// Adds the radiance of this bounce, times the path's throughput, to the light of every path.
 pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
     for (paths, radiance, mut light) in &mut tiles {
         let light = &mut *light;
@@ -22,9 +22,9 @@ pub fn add_bounce(mut tiles: Query<(&Paths, &Radiance, &mut PathLight)>) {
 }
 // ANCHOR_END: add_bounce
 
-// ANCHOR: step_on
-/// Makes the scattered rays the rays of the next leg, in the dark; none where this was the last leg.
-pub fn step_on(
+// ANCHOR: advance_to_next_bounce
+/// Turns the scattered rays into the rays of the next bounce, with no radiance yet; none at the maximum depth.
+pub fn advance_to_next_bounce(
     integrator: Res<Shared<IntegratorTable>>,
     mut kept: Local<Paths>,
     mut tiles: Query<(&mut Depth, &Scattered, &mut WorldRays, &mut Paths, &mut Radiance)>,
@@ -48,10 +48,10 @@ pub fn step_on(
         [r, g, b].into_iter().for_each(|component| component.fill(0.0));
     }
 }
-// ANCHOR_END: step_on
+// ANCHOR_END: advance_to_next_bounce
 
-/// Gives the rays of the next leg the times of those that they come from.
-pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
+/// Gives the rays of the next bounce the times of the rays that they were scattered from.
+pub fn carry_times(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered, &WorldRays, &mut RayTimes)>) {
     for (scattered, rays, mut times) in &mut tiles {
         let next = kept.slices_mut(rays.rows());
         next.iter_mut().zip(&scattered.path).for_each(|(time, &path)| *time = times.time[path as usize]);
@@ -59,9 +59,9 @@ pub fn take_times_along(mut kept: Local<RayTimes>, mut tiles: Query<(&Scattered,
     }
 }
 
-/// Leaves the rays of the next leg no footprints: what a pixel covers is known on the first leg only, and later nothing is
-/// filtered.
-pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
+/// Clears the footprints of the rays of the next bounce: they are known for camera rays only, and later lookups are
+/// unfiltered.
+pub fn drop_footprints(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
     for (rays, mut footprints) in &mut tiles {
         let (rx, ry, rz, dx, dy, dz) = footprints.slices_mut(rays.rows());
         [rx, ry, rz, dx, dy, dz].into_iter().for_each(|component| component.fill(0.0));
@@ -69,8 +69,8 @@ pub fn take_footprints_away(mut tiles: Query<(&WorldRays, &mut Footprints)>) {
 }
 
 // ANCHOR: trace_bounces
-/// Runs the schedule of a leg for every further one that a way may have, until no tile has a ray left; where nobody waits any
-/// longer, those that are left are dropped.
+/// Runs the schedule of a bounce until no tile has a ray left or the maximum depth is reached; where the render is
+/// stopped, the remaining rays are dropped.
 pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, With<Depth>>) {
     let max_depth = world.resource::<Shared<IntegratorTable>>().max_depth;
     for _ in 1..max_depth {
@@ -86,8 +86,8 @@ pub fn trace_bounces(world: &mut World, tiles: &mut QueryState<&mut WorldRays, W
 }
 // ANCHOR_END: trace_bounces
 
-/// Goes back to the first leg and gives its rows the light that their ways brought, as their radiance.
-pub fn gather_light(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
+/// Returns to the first bounce and gives its rows the light of their whole paths as radiance.
+pub fn sum_bounces(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
     for (mut depth, light, mut radiance) in &mut tiles {
         *depth = Depth(0);
         let (r, g, b) = radiance.slices_mut(light.rows());
@@ -97,31 +97,31 @@ pub fn gather_light(mut tiles: Query<(&mut Depth, &PathLight, &mut Radiance)>) {
     }
 }
 
-/// The stage that adds a leg's light.
+/// The stage that adds a bounce's light.
 pub fn add_bounce_stage() -> Stage {
     Stage::new("Add the bounce's light to its path", TileSystems::AddBounce, add_bounce).when(followed_evidence)
 }
 
-/// The stage that steps on to the next leg.
-pub fn step_stage() -> Stage {
-    Stage::new("Advance to the next bounce", TileSystems::Step, step_on).when(followed_evidence)
+/// The stage that advances to the next bounce.
+pub fn next_bounce_stage() -> Stage {
+    Stage::new("Advance to the next bounce", TileSystems::Step, advance_to_next_bounce).when(followed_evidence)
 }
 
-/// The stage that takes times along.
+/// The stage that carries ray times over.
 pub fn times_stage() -> Stage {
-    Stage::new("Carry times to the next bounce", TileSystems::Step, take_times_along)
+    Stage::new("Carry times to the next bounce", TileSystems::Step, carry_times)
         .when(|scene| motion_evidence(scene).and(|| followed_evidence(scene)))
 }
 
-/// The stage that takes footprints away.
+/// The stage that drops footprints.
 pub fn footprints_stage() -> Stage {
-    Stage::new("Drop footprints", TileSystems::Step, take_footprints_away)
+    Stage::new("Drop footprints", TileSystems::Step, drop_footprints)
         .on_camera_paths()
         .when(|scene| filtered_evidence(scene).and(|| followed_evidence(scene)))
 }
 
-/// The stage that is all later legs.
-pub fn follow_stage() -> Stage {
+/// The stage that traces all later bounces.
+pub fn remaining_bounces_stage() -> Stage {
     Stage::new("Trace the remaining bounces", TileSystems::RemainingBounces, trace_bounces)
         .on_first_bounce()
         .reads::<WorldRays>()
@@ -135,9 +135,9 @@ pub fn follow_stage() -> Stage {
         .when(followed_evidence)
 }
 
-/// The stage that gathers.
-pub fn gather_stage() -> Stage {
-    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, gather_light)
+/// The stage that sums the light of all bounces.
+pub fn sum_bounces_stage() -> Stage {
+    Stage::new("Sum the light of all bounces", TileSystems::SumBounces, sum_bounces)
         .on_first_bounce()
         .when(followed_evidence)
 }

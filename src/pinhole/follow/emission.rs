@@ -10,10 +10,10 @@ use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radian
 use bevy_ecs::prelude::*;
 
 // ANCHOR: power_heuristic
-/// How much a way counts that was found by one of two chances, by how dense each is there: the power heuristic,
-/// p² / (p² + q²) (Veach and Guibas 1995).
+/// The MIS weight of a sample taken with pdf `own` that the other strategy would take with pdf `other`: the power
+/// heuristic p² / (p² + q²) (Veach and Guibas 1995).
 ///
-/// Only the densities' ratio is squared, so that neither of them can be too large or too small for it.
+/// Only the ratio of the pdfs is squared, so that neither overflows or underflows.
 #[inline(always)]
 pub fn power_heuristic(own: f64, other: f64) -> f64 {
     if own == 0.0 {
@@ -25,11 +25,12 @@ pub fn power_heuristic(own: f64, other: f64) -> f64 {
 // ANCHOR_END: power_heuristic
 
 // ANCHOR: add_mis_emission
-/// Adds what the surface that a ray met emits, as far as nobody aimed at it, and no ray from the light finds the same way.
+/// Adds the emission of the surface that a ray hit, weighted against light sampling, unless light tracing finds the
+/// same path.
 ///
-/// Where no chance was in the ray's direction, or the surface cannot be aimed at, all of it counts.
-/// Else the surface that the ray came from has aimed at lights too; then the two ways to find this one are weighed, or the
-/// aimed one alone counts.
+/// After a specular bounce, or where the surface cannot be sampled as a light, the emission counts in full.
+/// Otherwise the previous surface has sampled lights too, so the emission gets its MIS weight, or none where light
+/// sampling is used alone.
 pub fn add_mis_emission(
     emissive: Res<Shared<EmissiveTable>>,
     lights: Res<Shared<AreaLightTable>>,
@@ -51,25 +52,25 @@ pub fn add_mis_emission(
             let from_light = |caustic: &CausticPaths| {
                 by_mirror && depth.0 > 0 && light != NO_ROW && caustic.spread[paths.first[row] as usize] != 0
             };
-            let share = if caustic.is_some_and(from_light) {
+            let weight = if caustic.is_some_and(from_light) {
                 0.0
-            } else if by_mirror || light == NO_ROW || !integrator.aimed {
+            } else if by_mirror || light == NO_ROW || !integrator.samples_lights {
                 1.0
-            } else if integrator.weighed {
+            } else if integrator.mis {
                 let (from, at) = (rays.origin_of(row), rays.point_at(row, hits.t[row]));
                 power_heuristic(paths.pdf[row], area_light_pdf(&lights, light as usize, from, at))
             } else {
                 0.0
             } as f32;
-            radiance.r[row] += share * r;
-            radiance.g[row] += share * g;
-            radiance.b[row] += share * b;
+            radiance.r[row] += weight * r;
+            radiance.g[row] += weight * g;
+            radiance.b[row] += weight * b;
         }
     }
 }
 // ANCHOR_END: add_mis_emission
 
-/// The stage on offer: the alternative to adding all that surfaces emit.
+/// The stage that runs [`add_mis_emission`], the alternative to adding emission in full.
 pub fn mis_emission_stage() -> Stage {
     Stage::new("Add emission, weighted by MIS", TileSystems::Shade, add_mis_emission)
         .on_camera_paths()
@@ -79,14 +80,14 @@ pub fn mis_emission_stage() -> Stage {
         .when(mis_emission_evidence)
 }
 
-/// Evidence that some of what surfaces emit is aimed at, and so must not be added twice.
+/// Evidence that some emitting surfaces are sampled as lights, so that their emission must not be counted twice.
 fn mis_emission_evidence(scene: &Census<'_>) -> Evidence {
     let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
     let traced = emits.clone().and(|| traced_evidence(scene));
     if traced.needed { traced } else { emits.and(|| light_sampling_evidence(scene)) }
 }
 
-/// Adds what comes from the environment to the rays that met nothing, as far as nobody aimed at it.
+/// Adds the environment's radiance to the rays that hit nothing, weighted against light sampling.
 pub fn add_mis_environment(
     environment: Res<Shared<EnvironmentTable>>,
     light: Res<Shared<EnvironmentLightTable>>,
@@ -96,14 +97,14 @@ pub fn add_mis_environment(
     for (paths, rays, hits, mut radiance) in &mut tiles {
         for row in (0..rays.rows()).filter(|&row| hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE)) {
             let direction = rays.direction_of(row);
-            let share = if paths.pdf[row] == f64::INFINITY {
+            let weight = if paths.pdf[row] == f64::INFINITY {
                 1.0
-            } else if integrator.weighed {
+            } else if integrator.mis {
                 power_heuristic(paths.pdf[row], environment_pdf(&light, environment.turn, direction))
             } else {
                 0.0
             };
-            let [r, g, b] = environment_radiance(&environment, direction).map(|part| (share * part) as f32);
+            let [r, g, b] = environment_radiance(&environment, direction).map(|part| (weight * part) as f32);
             radiance.r[row] += r;
             radiance.g[row] += g;
             radiance.b[row] += b;
@@ -111,7 +112,7 @@ pub fn add_mis_environment(
     }
 }
 
-/// The stage on offer: the alternative to adding all of the environment.
+/// The stage that runs [`add_mis_environment`], the alternative to adding the environment in full.
 pub fn mis_environment_stage() -> Stage {
     Stage::new("Add the environment, weighted by MIS", TileSystems::Background, add_mis_environment)
         .kind(StageKind::Alternative)

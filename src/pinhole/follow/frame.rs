@@ -2,9 +2,9 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 // ANCHOR: frame_of
-/// Two directions across a unit normal, and the normal: the columns of a rotation.
+/// An orthonormal frame about a unit normal: two tangents and the normal, the columns of a rotation.
 ///
-/// The sign of the normal's z keeps the divisor at 1 or more, so no normal is a special case (Duff and others 2017).
+/// The sign of the normal's z keeps the divisor at 1 or more, so no normal is a special case (Duff et al. 2017).
 #[inline(always)]
 pub fn frame_of(normal: DVec3) -> DMat3 {
     let sign = 1.0_f64.copysign(normal.z);
@@ -19,22 +19,22 @@ pub fn frame_of(normal: DVec3) -> DMat3 {
 // ANCHOR_END: frame_of
 
 // ANCHOR: cosine_direction
-/// A direction about +z, as densely as its cosine: two numbers from 0 to below 1 make a point of the unit disk, and the
-/// hemisphere's point above it is the direction (Malley).
+/// A cosine-weighted direction about +z: two numbers in [0, 1) give a uniform point of the unit disk, which is
+/// projected up to the hemisphere (Malley's method).
 #[inline(always)]
 pub fn cosine_direction([u, v]: [f64; 2]) -> DVec3 {
     let (radius, angle) = (u.sqrt(), TAU * v);
     DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), (1.0 - u).sqrt())
 }
 
-/// How densely [`cosine_direction`] gives directions of this cosine, in 1/sr; 0 at the horizon and below.
+/// The pdf of [`cosine_direction`] for directions of this cosine, in 1/sr; 0 at the horizon and below.
 #[inline(always)]
 pub fn cosine_pdf(cosine: f64) -> f64 {
     cosine.max(0.0) * FRAC_1_PI
 }
 // ANCHOR_END: cosine_direction
 
-/// Whether two directions leave a surface on the same side of it.
+/// Whether two directions are on the same side of a surface.
 #[inline(always)]
 pub fn same_side(normal: DVec3, a: DVec3, b: DVec3) -> bool {
     normal.dot(a) * normal.dot(b) > 0.0
@@ -46,7 +46,7 @@ mod tests {
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::ray_aim::Draws;
 
-    /// f64's rounding unit.
+    /// The rounding unit of f64.
     const U: f64 = 0.5 * f64::EPSILON;
 
     #[test]
@@ -82,7 +82,7 @@ mod tests {
                 assert!(local.z >= 1.0 / 4096.0 && (local.length() - 1.0).abs() < 4.0 * U, "{u} {v}: {local}");
                 assert!(cosine_pdf(local.z) > 0.0);
                 for index in 0..500 {
-                    // As the stages have them: the normal and the direction rounded to f32.
+                    // As in the stages, the normal and the direction are rounded to f32.
                     let normal = Draws::new(193, index).unit_vector().as_vec3();
                     let world = (frame_of(normal.as_dvec3().normalize()) * local).as_vec3();
                     assert!(normal.as_dvec3().dot(world.as_dvec3()) > 0.0, "{normal} {world}");
@@ -95,22 +95,22 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_as_likely_as_their_pdf() {
-        const DRAWN: u64 = 200_000;
-        // Rings of cos and sectors; ∫ cos θ / π over each is a difference of squares.
+    fn directions_have_their_pdf() {
+        const SAMPLES: u64 = 200_000;
+        // Bins of cosine and azimuth; ∫ cos θ / π over each is a difference of squares.
         let (rings, sectors) = (20, 30);
         let mut bins = Bins::new(rings * sectors);
         for ring in 0..rings {
             let [low, high] = [ring, ring + 1].map(|at| at as f64 / rings as f64);
-            let share = (high * high - low * low) / sectors as f64;
-            (0..sectors).for_each(|sector| bins.expect(ring * sectors + sector, share * DRAWN as f64));
+            let fraction = (high * high - low * low) / sectors as f64;
+            (0..sectors).for_each(|sector| bins.expect(ring * sectors + sector, fraction * SAMPLES as f64));
         }
-        for index in 0..DRAWN {
+        for index in 0..SAMPLES {
             let mut draws = Draws::new(194, index);
-            let way = cosine_direction([draws.unit(), draws.unit()]);
-            let turn = libm::atan2(way.y, way.x) / TAU;
+            let direction = cosine_direction([draws.unit(), draws.unit()]);
+            let turn = libm::atan2(direction.y, direction.x) / TAU;
             let sector = ((turn - turn.floor()) * sectors as f64) as usize;
-            bins.count((way.z * rings as f64) as usize * sectors + sector.min(sectors - 1));
+            bins.count((direction.z * rings as f64) as usize * sectors + sector.min(sectors - 1));
         }
         let (statistic, freedom) = bins.statistic();
         let p = p_value(statistic, freedom);

@@ -1,26 +1,26 @@
 use glam::DVec3;
 
 // ANCHOR: mirror_direction
-/// The direction in which light goes on that comes along `direction` and meets a mirror with this unit normal.
+/// The direction of specular reflection: `direction` points towards the surface, both are unit vectors.
 #[inline(always)]
 pub fn mirror_direction(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 // ANCHOR_END: mirror_direction
 
-/// (η − 1)(η + 1) + c²: the square of η times the cosine on the far side, below 0 where nothing passes.
+/// (η − 1)(η + 1) + c²: the square of η cos θt, below 0 for total internal reflection.
 ///
-/// As η² − 1 + c² it would lose the digits of a thin difference between the two media.
+/// Written as η² − 1 + c², it would lose digits where the two media hardly differ.
 #[inline(always)]
 fn far_cosine_squared(cosine: f64, eta: f64) -> f64 {
     (eta - 1.0) * (eta + 1.0) + cosine * cosine
 }
 
 // ANCHOR: refract
-/// The direction in which light goes on that passes into a medium η times as dense; none where all is reflected.
+/// The direction of refraction into a medium of relative index η; none for total internal reflection.
 ///
-/// `direction` and `normal` are unit vectors and the normal is on the side the light came from.
-/// The part along the surface is divided by η (Snell), the rest follows from the length of 1.
+/// `direction` and `normal` are unit vectors, and the normal is on the side that the light comes from.
+/// The component along the surface is divided by η (Snell's law), and the rest follows from the length of 1.
 #[inline(always)]
 pub fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     let cosine = -direction.dot(normal);
@@ -33,12 +33,11 @@ pub fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
 // ANCHOR_END: refract
 
 // ANCHOR: fresnel
-/// The shares that a smooth surface of clear matter reflects of light that swings across the plane of incidence and in
-/// it (s and p); `cosine` is that of the angle of incidence, at least 0, and η is the far medium's index over the near
-/// one's.
+/// The Fresnel reflectances of a smooth dielectric surface for s- and p-polarised light; `cosine` is that of the angle
+/// of incidence, at least 0, and η is the index of the far medium over that of the near one.
 ///
-/// With g, η times the cosine on the far side: r_s = (c − g)/(c + g) and r_p = r_s · (c(c + g) − 1)/(c(g − c) + 1).
-/// c − g is written as (1 − η²)/(c + g), which loses nothing where the two are nearly equal.
+/// With g = η cos θt, the amplitudes are r_s = (c − g)/(c + g) and r_p = r_s · (c(c + g) − 1)/(c(g − c) + 1).
+/// c − g is computed as (1 − η²)/(c + g), which loses nothing where the two are nearly equal.
 #[inline(always)]
 pub fn fresnel_parts(cosine: f64, eta: f64) -> [f64; 2] {
     let squared = far_cosine_squared(cosine, eta);
@@ -47,7 +46,7 @@ pub fn fresnel_parts(cosine: f64, eta: f64) -> [f64; 2] {
     }
     let sum = cosine + squared.sqrt();
     if sum == 0.0 {
-        // Along the surface between two media that are one.
+        // At grazing incidence between equal media.
         return [0.0; 2];
     }
     let difference = (eta - 1.0) * (eta + 1.0) / sum;
@@ -56,7 +55,7 @@ pub fn fresnel_parts(cosine: f64, eta: f64) -> [f64; 2] {
     [(across * across).min(1.0), (within * within).min(1.0)]
 }
 
-/// The share that is reflected of light that swings both ways alike.
+/// The Fresnel reflectance of unpolarised light: the mean of the two reflectances.
 #[inline(always)]
 pub fn fresnel(cosine: f64, eta: f64) -> f64 {
     let [across, within] = fresnel_parts(cosine, eta);
@@ -72,7 +71,7 @@ mod tests {
 
     const ONE: f64 = 1.0;
 
-    /// The reflected share in exact arithmetic but for roots and quotients below 2⁻³⁰⁰.
+    /// The reflectance in exact arithmetic, but for roots and quotients with errors below 2⁻³⁰⁰.
     fn exact_fresnel(cosine: f64, eta: f64) -> f64 {
         let (c, one) = (Dyadic::of(cosine), Dyadic::of(ONE));
         let eta = Dyadic::of(eta);
@@ -83,13 +82,13 @@ mod tests {
         let g = squared.square_root();
         // η t = g: r_s = (c − g)/(c + g), r_p = (η² c − g)/(η² c + g).
         let dense = &eta.squared() * &c;
-        let share = |a: &Dyadic| (a - &g).divided_by(&(a + &g)).squared();
-        (&share(&c) + &share(&dense)).scaled(-1).to_f64()
+        let reflectance = |a: &Dyadic| (a - &g).divided_by(&(a + &g)).squared();
+        (&reflectance(&c) + &reflectance(&dense)).scaled(-1).to_f64()
     }
 
     #[test]
-    fn shares_against_exact_arithmetic() {
-        // η ≥ 1, η < 1 off the critical angle, within 200 units in the last place of it.
+    fn reflectances_against_exact_arithmetic() {
+        // η ≥ 1; η < 1 away from the critical angle; within 200 units in the last place of the critical angle.
         let mut worst = [0.0_f64; 3];
         let mut tried = [0; 3];
         for index in 0..6000 {
@@ -109,7 +108,7 @@ mod tests {
                 (worst[2], tried[2]) = (worst[2].max(off(thin, near)), tried[2] + 1);
             }
         }
-        eprintln!("fresnel: {tried:?} shares, worst {worst:?} off: denser, thinner, at the critical angle");
+        eprintln!("fresnel: {tried:?} reflectances, worst errors {worst:?}: denser, thinner, at the critical angle");
         assert!(worst[0] <= 1e-14 && worst[1] <= 1e-12 && worst[2] <= 3e-4, "{worst:?}");
         assert!(tried.iter().all(|tried| *tried > 5000), "{tried:?}");
     }
@@ -120,16 +119,16 @@ mod tests {
             let mut draws = Draws::new(1942, index);
             assert_eq!(fresnel(draws.unit(), 1.0), 0.0, "one medium");
             let eta = draws.power_of_ten(-2.0, 2.0);
-            let squarely = (eta - 1.0) / (eta + 1.0);
-            assert!((fresnel(1.0, eta) - squarely * squarely).abs() < 1e-15 / eta.min(1.0), "η {eta}, squarely");
+            let normal = (eta - 1.0) / (eta + 1.0);
+            assert!((fresnel(1.0, eta) - normal * normal).abs() < 1e-15 / eta.min(1.0), "η {eta}, normal incidence");
             if eta != 1.0 {
-                assert!((fresnel(0.0, eta) - 1.0).abs() < 1e-15, "η {eta}, along the surface");
+                assert!((fresnel(0.0, eta) - 1.0).abs() < 1e-15, "η {eta}, grazing incidence");
             }
-            // tan of Brewster's angle is η.
+            // The tangent of Brewster's angle is η.
             let brewster = 1.0 / libm::sqrt(1.0 + eta * eta);
             let [across, within] = fresnel_parts(brewster, eta);
             assert!(within < 1e-15 && across > 0.0 || (eta - 1.0).abs() < 1e-9, "η {eta}: {across} {within}");
-            // The same share both ways.
+            // The reflectance is the same from either side.
             let cosine = draws.between(0.05, 1.0);
             let far = libm::sqrt((eta - 1.0) * (eta + 1.0) + cosine * cosine) / eta;
             if far > 1e-3 {
@@ -137,7 +136,7 @@ mod tests {
             }
         }
         assert_eq!([fresnel(0.0, 1.0), fresnel(0.1, 0.5), fresnel(0.0, 0.5)], [0.0, 1.0, 1.0]);
-        eprintln!("fresnel: 10000 indices squarely, along, at Brewster's angle and backwards");
+        eprintln!("fresnel: 10000 indices at normal and grazing incidence, at Brewster's angle and reversed");
     }
 
     #[test]
@@ -155,7 +154,7 @@ mod tests {
             assert!((mirrored.cross(normal) - direction.cross(normal)).length() < 4e-15);
             let Some(bent) = refract(direction, normal, eta) else {
                 let sine = direction.cross(normal).length();
-                assert!(sine / eta > 1.0 - 1e-12, "{index}: all reflected at sin {sine}, η {eta}");
+                assert!(sine / eta > 1.0 - 1e-12, "{index}: total internal reflection at sin {sine}, η {eta}");
                 assert_eq!(fresnel(-direction.dot(normal), eta), 1.0);
                 back += 1;
                 continue;
@@ -165,17 +164,18 @@ mod tests {
             let length = (bent.length() - 1.0).abs();
             (worst[0], worst[1]) = (worst[0].max(snell), worst[1].max(length));
             assert!(bent.dot(normal) <= 0.0);
-            // Backwards from the far side; near the critical angle and near grazing a rounding is worth its root.
+            // Reversed from the far side; near the critical angle and near grazing, a rounding error grows to its
+            // square root.
             let leaves = -bent.dot(normal);
             if let Some(again) = refract(-bent, -normal, 1.0 / eta) {
                 let doubt = 2e-13 / leaves.min(cosine).max(1e-6);
                 assert!((again + direction).length() < doubt, "{index}: {again} {direction}");
                 worst[2] = worst[2].max((again + direction).length() * leaves.min(cosine));
             } else {
-                assert!(eta > 1.0 && cosine < 1e-7, "{index}: no way back");
+                assert!(eta > 1.0 && cosine < 1e-7, "{index}: no refraction back");
             }
         }
-        eprintln!("refraction: {through} through, {back} reflected whole; Snell, length, reversal {worst:?}");
+        eprintln!("refraction: {through} transmitted, {back} totally reflected; Snell, length, reversal {worst:?}");
         assert!(worst[0] < 1e-12 && worst[1] < 1e-12, "{worst:?}");
         assert!(through > 20_000 && back > 5_000);
     }

@@ -15,29 +15,30 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: glass_samples
-/// A way on from a surface of glass.
+/// A direction sampled at a glass surface, by reflection or by refraction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GlassSample {
-    /// Where it goes, a unit vector.
+    /// The direction, a unit vector.
     pub direction: DVec3,
-    /// What is left, on this side, of the radiance that comes from there.
-    pub share: f64,
-    /// Whether it goes through the surface.
+    /// The factor of the radiance that arrives along it, on this side of the surface.
+    pub weight: f64,
+    /// Whether it is refracted, through the surface.
     pub through: bool,
 }
 
-/// Both ways on from a smooth surface to a medium η times as dense: mirrored, and bent, which takes the rest.
+/// Both directions at a smooth surface to a medium of relative index η: specular reflection, and refraction with the
+/// rest of the light.
 ///
-/// A beam that enters the denser medium narrows, so its radiance is η² times as large in there; seen from here, 1/η² of
-/// it is left.
-/// Where all is mirrored the second way has no share.
+/// A beam that enters a denser medium becomes narrower, so its radiance in there is η² times as large; seen from this
+/// side, the factor is 1/η².
+/// For total internal reflection, the second sample has weight 0.
 #[inline(always)]
 pub fn glass_samples(direction: DVec3, normal: DVec3, eta: f64) -> [GlassSample; 2] {
     let reflected = fresnel((-direction.dot(normal)).max(0.0), eta);
-    let mirrored = GlassSample { direction: mirror_direction(direction, normal), share: reflected, through: false };
+    let mirrored = GlassSample { direction: mirror_direction(direction, normal), weight: reflected, through: false };
     let bent = refract(direction, normal, eta).map_or_else(GlassSample::default, |direction| GlassSample {
         direction,
-        share: (1.0 - reflected) / (eta * eta),
+        weight: (1.0 - reflected) / (eta * eta),
         through: true,
     });
     [mirrored, bent]
@@ -45,21 +46,21 @@ pub fn glass_samples(direction: DVec3, normal: DVec3, eta: f64) -> [GlassSample;
 // ANCHOR_END: glass_samples
 
 // ANCHOR: glass_event
-/// One of the two ways by chance: mirrored as often as light is, by a number from 0 to below 1; so what is left of it is
-/// all of the mirrored light, or 1/η² of the bent.
+/// One of the two at random: reflection with the Fresnel reflectance as its probability, by a number in [0, 1); divided
+/// by the probability, the weight is 1 for reflection and 1/η² for refraction.
 #[inline(always)]
 pub fn glass_event(direction: DVec3, normal: DVec3, eta: f64, number: f64) -> GlassSample {
     let [mirrored, bent] = glass_samples(direction, normal, eta);
-    if number < mirrored.share || !bent.through {
-        GlassSample { share: 1.0, ..mirrored }
+    if number < mirrored.weight || !bent.through {
+        GlassSample { weight: 1.0, ..mirrored }
     } else {
-        GlassSample { share: 1.0 / (eta * eta), ..bent }
+        GlassSample { weight: 1.0 / (eta * eta), ..bent }
     }
 }
 // ANCHOR_END: glass_event
 
-/// The columns of a tile that glass is met with.
-struct Met<'a> {
+/// The columns of a tile that the stages at glass read.
+struct GlassColumns<'a> {
     glass: &'a GlassTable,
     rays: &'a WorldRays,
     paths: &'a Paths,
@@ -71,9 +72,9 @@ struct Met<'a> {
     list: &'a GlassRows,
 }
 
-impl Met<'_> {
-    /// How many times as dense the far side of a row's surface is; without a column of media all that is not this glass
-    /// is empty.
+impl GlassColumns<'_> {
+    /// The relative index η of a row's surface, the far side's over the near side's; without a column of media,
+    /// everything outside this glass is a vacuum.
     #[inline(always)]
     fn eta(&self, number: usize, row: usize) -> f64 {
         let (own, from_outside) = (self.list.of[number], self.sides.outside[row] != 0);
@@ -89,32 +90,32 @@ impl Met<'_> {
         }
     }
 
-    /// The ray that a way is; none of it where a normal to shade by sends it to the wrong side.
+    /// The scattered ray of a sample; of throughput 0 where a shading normal sends it to the wrong side.
     #[inline(always)]
-    fn ray(&self, row: usize, way: GlassSample) -> ScatteredRay {
+    fn ray(&self, row: usize, sample: GlassSample) -> ScatteredRay {
         let surface = self.surfaces.get(row);
-        let side = if way.through { -surface.normal } else { surface.normal };
-        let leaves = way.direction.dot(side.as_dvec3()) > 0.0;
-        let share = if leaves { way.share } else { 0.0 };
+        let side = if sample.through { -surface.normal } else { surface.normal };
+        let leaves = sample.direction.dot(side.as_dvec3()) > 0.0;
+        let weight = if leaves { sample.weight } else { 0.0 };
         ScatteredRay {
             origin: offset_origin(surface.position, side, surface.bound),
-            direction: way.direction,
-            share: self.paths.throughput(row).map(|part| part * share),
+            direction: sample.direction,
+            throughput: self.paths.throughput(row).map(|part| part * weight),
             pdf: f64::INFINITY,
         }
     }
 
-    /// The direction in which a row's surface was met, and the normal that it bends light by.
+    /// The ray's direction and the normal that it is refracted by.
     #[inline(always)]
-    fn met(&self, row: usize) -> (DVec3, DVec3) {
+    fn incidence(&self, row: usize) -> (DVec3, DVec3) {
         let direction = self.rays.direction_of(row);
         (direction, mirroring_normal(self.shading, row, self.surfaces.get(row).normal.as_dvec3(), direction))
     }
 }
 
-/// Sends a ray on from every surface of glass, mirrored or bent by chance; one that comes from a light with all of its
-/// power, which no surface spreads or gathers, where radiance has its 1/η² (Veach 1997, 5.2).
-pub fn scatter_glass<const FROM_LIGHT: bool>(
+/// Samples reflection or refraction at every glass surface; a ray from a light keeps all of its power, where radiance
+/// would get its 1/η² (Veach 1997, 5.2).
+pub fn sample_glass<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     glass: Res<Shared<GlassTable>>,
     mut numbers: Local<Vec<f64>>,
@@ -134,22 +135,22 @@ pub fn scatter_glass<const FROM_LIGHT: bool>(
     {
         let draws = Draws { sampling: &sampling, tile, number, samples, paths: Some(paths), depth };
         draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut numbers);
-        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
+        let columns = GlassColumns { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         scattered.append(&list.row, |number, row| {
-            let (direction, normal) = met.met(row);
-            let way = glass_event(direction, normal, met.eta(number, row), numbers[number]);
-            met.ray(row, if FROM_LIGHT { GlassSample { share: 1.0, ..way } } else { way })
+            let (direction, normal) = columns.incidence(row);
+            let sample = glass_event(direction, normal, columns.eta(number, row), numbers[number]);
+            columns.ray(row, if FROM_LIGHT { GlassSample { weight: 1.0, ..sample } } else { sample })
         });
     }
 }
 
-/// The least share of a ray that is followed where both are: with two rays a surface their number doubles, and most bring
-/// next to nothing.
-const LEAST_SHARE: f64 = 1.0 / 512.0;
+/// The least throughput of a ray that is traced where both are: their number doubles at every surface, and most
+/// contribute next to nothing.
+const MIN_THROUGHPUT: f64 = 1.0 / 512.0;
 
-// ANCHOR: split_at_glass
-/// Sends both rays on from every surface of glass (Whitted 1980), but for those that bring too little to be seen.
-pub fn split_at_glass(
+// ANCHOR: split_rays_at_glass
+/// Traces both rays at every glass surface (Whitted 1980), except for those with too little throughput to be seen.
+pub fn split_rays_at_glass(
     glass: Res<Shared<GlassTable>>,
     mut tiles: Query<(
         (&WorldRays, &Paths, Option<&Media>, Option<&DeeperMedia>),
@@ -158,30 +159,30 @@ pub fn split_at_glass(
     )>,
 ) {
     for ((rays, paths, media, deeper), (surfaces, shading, sides, list), mut scattered) in &mut tiles {
-        let met = Met { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
+        let columns = GlassColumns { glass: &glass, rays, paths, surfaces, shading, sides, media, deeper, list };
         for which in [0, 1] {
             scattered.append(&list.row, |number, row| {
-                let (direction, normal) = met.met(row);
-                let ray = met.ray(row, glass_samples(direction, normal, met.eta(number, row))[which]);
-                let seen = ray.share.iter().any(|part| *part >= LEAST_SHARE);
+                let (direction, normal) = columns.incidence(row);
+                let ray = columns.ray(row, glass_samples(direction, normal, columns.eta(number, row))[which]);
+                let seen = ray.throughput.iter().any(|part| *part >= MIN_THROUGHPUT);
                 if seen { ray } else { ScatteredRay::default() }
             });
         }
     }
 }
-// ANCHOR_END: split_at_glass
+// ANCHOR_END: split_rays_at_glass
 
-/// The stage that sends both rays on.
+/// The stage that traces both rays.
 pub fn glass_stage() -> Stage {
-    reading(Stage::new("Split rays at glass", TileSystems::SampleBsdfs, split_at_glass))
+    reading(Stage::new("Split rays at glass", TileSystems::SampleBsdfs, split_rays_at_glass))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| glass_evidence(scene).and(|| split_evidence(scene)))
 }
 
-/// The stage that sends one on by chance.
+/// The stage that samples one of them.
 pub fn glass_sample_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, scatter_glass::<false>))
+    reading(Stage::new("Sample BSDFs: glass", TileSystems::SampleBsdfs, sample_glass::<false>))
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(|scene| {
@@ -191,9 +192,9 @@ pub fn glass_sample_stage() -> Stage {
         })
 }
 
-/// The stage that does so with light from lights.
+/// The stage that samples one of them for paths from lights.
 pub fn glass_light_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, scatter_glass::<true>))
+    reading(Stage::new("Sample BSDFs: glass, from lights", TileSystems::SampleBsdfs, sample_glass::<true>))
         .on_light_paths()
         .kind(StageKind::Alternative)
         .when(|scene| traced_evidence(scene).and(|| glass_evidence(scene)))
@@ -203,7 +204,7 @@ fn reading(stage: Stage) -> Stage {
     stage.reads_where::<Media>(media_evidence).reads_where::<DeeperMedia>(deeper_media_evidence).appends::<Scattered>()
 }
 
-/// Evidence that nothing is left to chance at glass.
+/// Evidence that both rays are traced at glass.
 fn split_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Whitted { .. }))
 }
@@ -213,31 +214,31 @@ mod tests {
     use super::*;
     use crate::measure::ray_aim::Draws as Numbers;
 
-    /// What comes of a way by chance is on average what both ways come to, and no light is lost or made.
+    /// The mean of the sampled weights is that of the two rays, and no light is lost or gained.
     #[test]
-    fn chance_agrees_with_both_ways_and_nothing_is_lost() {
+    fn sampling_agrees_with_splitting_and_nothing_is_lost() {
         const STEPS: u32 = 4000;
         for index in 0..400 {
             let mut draws = Numbers::new(1951, index);
             let (normal, eta) = (draws.unit_vector().normalize(), draws.power_of_ten(-0.5, 0.5));
             let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
             let [mirrored, bent] = glass_samples(direction, normal, eta);
-            assert!((mirrored.share + bent.share * eta * eta - 1.0).abs() < 1e-12 || !bent.through);
+            assert!((mirrored.weight + bent.weight * eta * eta - 1.0).abs() < 1e-12 || !bent.through);
             let mut sums = [0.0; 2];
             for step in 0..STEPS {
-                let way = glass_event(direction, normal, eta, (f64::from(step) + 0.5) / f64::from(STEPS));
-                sums[usize::from(way.through)] += way.share / f64::from(STEPS);
-                assert_eq!(way.direction, if way.through { bent.direction } else { mirrored.direction });
+                let sample = glass_event(direction, normal, eta, (f64::from(step) + 0.5) / f64::from(STEPS));
+                sums[usize::from(sample.through)] += sample.weight / f64::from(STEPS);
+                assert_eq!(sample.direction, if sample.through { bent.direction } else { mirrored.direction });
             }
             let step = 1.0 / f64::from(STEPS) / (eta * eta).min(1.0);
-            assert!((sums[0] - mirrored.share).abs() <= step && (sums[1] - bent.share).abs() <= step, "{index}");
+            assert!((sums[0] - mirrored.weight).abs() <= step && (sums[1] - bent.weight).abs() <= step, "{index}");
         }
-        eprintln!("glass: 400 surfaces, by chance and both ways");
+        eprintln!("glass: 400 surfaces, sampled and split");
     }
 
-    /// In and out again through parallel faces: the direction comes back, and the factors 1/η² and η² cancel.
+    /// In and out again through parallel faces, the direction comes back and the factors 1/η² and η² cancel.
     #[test]
-    fn through_a_pane_nothing_is_narrowed() {
+    fn through_a_pane_radiance_is_unscaled() {
         for index in 0..2000 {
             let mut draws = Numbers::new(1952, index);
             let (normal, eta) = (draws.unit_vector().normalize(), draws.between(1.0, 3.0));
@@ -245,19 +246,19 @@ mod tests {
             let [_, inward] = glass_samples(direction, normal, eta);
             let [mirrored, outward] = glass_samples(inward.direction, normal, 1.0 / eta);
             assert!((outward.direction - direction).length() < 1e-13, "{index}");
-            let once = 1.0 - mirrored.share;
+            let once = 1.0 - mirrored.weight;
             assert!(
-                (inward.share * outward.share - once * once).abs() < 1e-12,
-                "{index}: both faces let as much through"
+                (inward.weight * outward.weight - once * once).abs() < 1e-12,
+                "{index}: both faces transmit the same fraction"
             );
         }
-        eprintln!("panes: 2000 ways through, none bent, none brightened");
+        eprintln!("panes: 2000 paths through, none bent, none brightened");
     }
 
     #[test]
     fn a_surface_between_equals_is_none() {
         let direction = DVec3::new(0.6, 0.0, -0.8);
-        let way = glass_event(direction, DVec3::Z, 1.0, 0.0);
-        assert!(way.through && way.share == 1.0 && (way.direction - direction).length() < 1e-15);
+        let sample = glass_event(direction, DVec3::Z, 1.0, 0.0);
+        assert!(sample.through && sample.weight == 1.0 && (sample.direction - direction).length() < 1e-15);
     }
 }

@@ -4,9 +4,9 @@ use crate::plan::{Shared, Stage, TileSystems};
 use crate::rays::Depth;
 use bevy_ecs::prelude::*;
 
-/// On the last leg light is only found, not sought: its surfaces are lit by nothing.
+/// At the maximum depth, surfaces are not lit: emission still counts, but no shadow ray is traced.
 ///
-/// A ray to a light would be a leg more than a way may have.
+/// A shadow ray would add a segment beyond the maximum depth.
 pub fn end_at_max_depth(integrator: Res<Shared<IntegratorTable>>, mut tiles: Query<(&Depth, &mut MaterialRows)>) {
     for (depth, mut list) in &mut tiles {
         if depth.0 + 1 >= integrator.max_depth {
@@ -15,7 +15,7 @@ pub fn end_at_max_depth(integrator: Res<Shared<IntegratorTable>>, mut tiles: Que
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`end_at_max_depth`].
 pub fn max_depth_stage() -> Stage {
     Stage::new("End at the maximum depth", TileSystems::Classify, end_at_max_depth)
         .changes::<MaterialRows>()

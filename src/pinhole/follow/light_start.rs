@@ -5,17 +5,19 @@ use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};
 use crate::scene::Sampler;
-use crate::shade::emitter::{WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
-use crate::shade::{Radiance, spot_share, versine};
+use crate::shade::emitter::{
+    MAX_TARGETS_SOLID_ANGLE, cone_direction, direction_to_targets, leaving_point, sphere_direction,
+};
+use crate::shade::{Radiance, spot_falloff, versine};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
-/// Rows of a batch of ways that start on lights.
+/// The number of light paths in a batch.
 pub const LIGHT_PATHS: u32 = 1024;
 
 column! {
-    /// The power that each way of light starts with on its light, the chances of having started so divided out.
+    /// The power with which each light path leaves its light, divided by the pdf of that start.
     pub struct LightPower("light power", "light", "linear Rec. 709", Path) {
         /// Red.
         r: f64,
@@ -27,55 +29,54 @@ column! {
 }
 
 impl LightPower {
-    /// The colour of the light, as bright as it is.
+    /// The light's colour at its full brightness.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
     }
 }
 
-/// A ray that starts on a light, and the power that goes with it.
+/// A ray sampled on a light, and its power.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightStart {
-    /// Off the light by its bound.
+    /// The origin, moved off the light by its error bound.
     pub origin: Vec3,
     /// A unit vector.
     pub direction: DVec3,
-    /// Over the chance of having started so; a ray of none is left out.
+    /// Power over the pdf of this ray; a ray of power 0 is left out.
     pub power: [f64; 3],
 }
 
-/// The random numbers that a way starts with.
+/// The random numbers that start a light path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartDraws {
-    /// Which light.
+    /// Selects the light.
     pub light: u32,
-    /// Where on it.
+    /// Selects the point on it.
     pub point: [f64; 2],
-    /// Which way.
+    /// Selects the direction.
     pub direction: [f64; 2],
-    /// To which of the mirrors and glass.
+    /// Selects one of the specular targets.
     pub target: f64,
-    /// On which side of the light.
+    /// Selects the side of the light.
     pub side: f64,
 }
 
 // ANCHOR: light_start
-/// Starts a ray on a light, towards mirrors and glass where these are small as seen from there.
+/// Samples a ray that leaves a light, towards mirrors and glass where these subtend a small solid angle.
 ///
-/// An area sends L cos θ from each unit of it to each steradian, a point I to each steradian: over the densities with
-/// which point and direction were chosen, that is the ray's power.
-/// No way that is sought leads anywhere else, for its first surface is a mirror or glass.
+/// An area light emits L cos θ per unit area and steradian, a point light I per steradian; divided by the pdfs of point
+/// and direction, that is the ray's power.
+/// No caustic is missed, since the first surface of a caustic path is a mirror or glass.
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let light = table.chosen(draws.light);
-    let chosen = 1.0 / table.random[light];
-    let aimed = |from: DVec3, double_double: f64| {
-        direction_to_targets(&table.target, from, double_double, draws.target, draws.direction)
-    };
+    let chosen = 1.0 / table.probability[light];
+    let to_targets =
+        |from: DVec3, limit: f64| direction_to_targets(&table.target, from, limit, draws.target, draws.direction);
     match table.light[light] {
         LightSource::Area { emitter, radiance, one_sided } => {
             let point = leaving_point(&emitter, one_sided, draws.point, draws.side);
-            let (direction, share) = match aimed(point.position, WIDE) {
+            let (direction, weight) = match to_targets(point.position, MAX_TARGETS_SOLID_ANGLE) {
                 Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
                 None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
             };
@@ -83,27 +84,27 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
             LightStart {
                 origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
                 direction,
-                power: radiance.map(|part| part * point.area * share * chosen),
+                power: radiance.map(|part| part * point.area * weight * chosen),
             }
         }
         LightSource::Point { position, intensity, cone: None } => {
             let (direction, weight) =
-                aimed(position, 2.0 * PI).unwrap_or_else(|| (sphere_direction(draws.direction), 4.0 * PI));
+                to_targets(position, 2.0 * PI).unwrap_or_else(|| (sphere_direction(draws.direction), 4.0 * PI));
             let power = intensity.map(|part| part * weight * chosen);
             LightStart { origin: position.as_vec3(), direction, power }
         }
         LightSource::Point { position, intensity, cone: Some((axis, [inner, outer])) } => {
             let whole = 2.0 * PI * outer;
             let (direction, weight) =
-                aimed(position, whole).unwrap_or_else(|| (cone_direction(axis, outer, draws.direction), whole));
-            let share = spot_share(versine(direction, axis), inner, outer) * weight * chosen;
-            LightStart { origin: position.as_vec3(), direction, power: intensity.map(|part| part * share) }
+                to_targets(position, whole).unwrap_or_else(|| (cone_direction(axis, outer, draws.direction), whole));
+            let weight = spot_falloff(versine(direction, axis), inner, outer) * weight * chosen;
+            LightStart { origin: position.as_vec3(), direction, power: intensity.map(|part| part * weight) }
         }
     }
 }
 // ANCHOR_END: light_start
 
-/// Starts the rays of a batch of ways on lights, in the dark.
+/// Samples the rays with which a batch of light paths starts, and clears their radiance.
 pub fn start_on_lights(
     table: Res<Shared<LightPathTable>>,
     sampling: Res<Shared<SamplingTable>>,
@@ -127,10 +128,10 @@ pub fn start_on_lights(
     }
 }
 
-/// The columns that a way's start is written to.
+/// The columns that a path's start is written to.
 type StartColumns<'a> = (&'a mut WorldRays, &'a mut Paths, &'a mut LightPower);
 
-/// Every row is written and the next one overwrites it unless it has power, so that no branch depends on the light.
+/// Every row is written, and the next one overwrites it unless it has power, so that no branch depends on the light.
 #[inline(always)]
 fn start_rows<D: Draw>(
     (table, tile, seed): (&LightPathTable, &Tile, u64),
@@ -159,7 +160,7 @@ fn start_rows<D: Draw>(
     paths.slices_mut(at);
 }
 
-/// The stage on offer.
+/// The stage that runs [`start_on_lights`].
 pub fn light_start_stage() -> Stage {
     Stage::new("Sample emitted rays", TileSystems::World, start_on_lights)
         .on_light_paths()

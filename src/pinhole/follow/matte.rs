@@ -11,24 +11,22 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
 
-/// What part of the light from `to_light` falls on a surface by the normal to shade by, of what falls on it by its own;
-/// 0 from behind.
+/// The factor between the cosines of incidence by the shading normal and by the geometric normal; 0 from behind.
 ///
-/// A ray from a light brings what falls on the true surface; one from the camera counts it by the other normal (Veach
-/// 1997, 5.3.2).
+/// A path from a light delivers power by the geometric normal, while a path from the camera counts it by the shading
+/// normal (Veach 1997, 5.3.2).
 #[inline(always)]
 fn falls_by_shading(own: DVec3, shading: DVec3, to_light: DVec3) -> f64 {
     let falls = own.dot(to_light);
     if falls > 0.0 { (shading.dot(to_light) / falls).max(0.0) } else { 0.0 }
 }
 
-// ANCHOR: scatter_matte
-/// Sends a ray on from every matte surface, as densely as the cosine to its normal.
+// ANCHOR: sample_matte
+/// Samples a cosine-weighted direction at every matte surface.
 ///
-/// The surface sends on colour / π of what comes from there, times that cosine; divided by the density, cosine / π, the
-/// colour is left.
-/// A ray that comes from a light leaves the true surface, whatever normal the light fell by.
-pub fn scatter_matte<const FROM_LIGHT: bool>(
+/// The BRDF colour / π times the cosine, divided by the pdf cosine / π, leaves the colour as weight.
+/// A ray from a light leaves by the geometric normal, whatever normal the incident light was counted by.
+pub fn sample_matte<const FROM_LIGHT: bool>(
     sampling: Res<Shared<SamplingTable>>,
     materials: Res<Shared<MaterialTable>>,
     mut points: Local<Vec<[f64; 2]>>,
@@ -52,32 +50,32 @@ pub fn scatter_matte<const FROM_LIGHT: bool>(
             let material = surface.material as usize;
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
             let leaves = direction.dot(true_normal) > 0.0 && local.z > 0.0;
-            let mut share = if leaves { paths.throughput(row) } else { [0.0; 3] };
+            let mut throughput = if leaves { paths.throughput(row) } else { [0.0; 3] };
             if FROM_LIGHT && shading.is_some() {
                 let falls = falls_by_shading(true_normal, by_shading, -rays.direction_of(row));
-                share = share.map(|part| part * falls);
+                throughput = throughput.map(|part| part * falls);
             }
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
-                share: [0, 1, 2].map(|part| share[part] * colour[part]),
+                throughput: [0, 1, 2].map(|part| throughput[part] * colour[part]),
                 pdf: local.z * FRAC_1_PI,
             }
         });
     }
 }
-// ANCHOR_END: scatter_matte
+// ANCHOR_END: sample_matte
 
-/// The stage on offer for rays from the camera.
+/// The stage for paths from the camera.
 pub fn matte_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: matte", TileSystems::SampleBsdfs, scatter_matte::<false>))
+    reading(Stage::new("Sample BSDFs: matte", TileSystems::SampleBsdfs, sample_matte::<false>))
         .on_camera_paths()
         .when(scattered_evidence)
 }
 
-/// The stage on offer for rays from lights.
+/// The stage for paths from lights.
 pub fn matte_light_stage() -> Stage {
-    reading(Stage::new("Sample BSDFs: matte, from lights", TileSystems::SampleBsdfs, scatter_matte::<true>))
+    reading(Stage::new("Sample BSDFs: matte, from lights", TileSystems::SampleBsdfs, sample_matte::<true>))
         .on_light_paths()
         .when(|scene| traced_evidence(scene).and(|| scattered_evidence(scene)))
 }
@@ -86,7 +84,7 @@ fn reading(stage: Stage) -> Stage {
     stage.kind(StageKind::Estimator).appends::<Scattered>()
 }
 
-/// Evidence that matte surfaces light each other.
+/// Evidence that light is scattered from matte surfaces to others.
 pub(super) fn scattered_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(|| material_evidence(scene))
 }

@@ -8,29 +8,30 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 column! {
-    /// The glass that each ray goes through, as a stack of what its origin lies in; exists where glass absorbs or overlaps.
+    /// The glass that each ray travels through, as a stack of the media around its origin; exists where glass absorbs
+    /// or overlaps.
     pub struct Media("media", "light", "rows of the table of glass", Path, begun in Media) {
-        /// The one that is there.
+        /// The medium at the origin.
         first: u32,
-        /// The one that would be there without it.
+        /// The medium that would be there without the first.
         second: u32,
-        /// The next.
+        /// The third.
         third: u32,
-        /// And the last here; what else there is stands in the column of deeper media, where that exists.
+        /// The fourth; any others are in the column of deeper media, where that exists.
         fourth: u32,
     }
 }
 
 impl Media {
-    /// How many kinds of glass a row names.
+    /// The number of media in a row.
     pub(super) const PLACES: usize = 4;
 
-    /// White in glass.
+    /// White inside glass.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [f32::from(u8::from(self.first[row] != NO_ROW)); 3]
     }
 
-    /// What a row's ray starts in; nothing where no stage has carried it over.
+    /// The media around a row's ray origin; none before any stage has set them.
     #[inline(always)]
     pub fn get(&self, row: usize) -> MediumStack {
         if row >= self.first.len() {
@@ -44,9 +45,9 @@ impl Media {
     }
 }
 
-/// Starts every ray outside all glass, but for those that meet glass from within: these started in it.
+/// Starts every camera ray outside all glass, except those that hit glass from within, which start in it.
 ///
-/// What else lies in the glass that a ray started in hides its wall, and then it is not known.
+/// Other objects inside the glass hide its wall, and then the medium is unknown.
 pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut Media, Option<&mut DeeperMedia>)>) {
     for (rays, sides, list, mut media, deeper) in &mut tiles {
         if let Some(mut deeper) = deeper {
@@ -62,7 +63,7 @@ pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut
     }
 }
 
-/// Leaves of each ray's share what the glass on its way lets through; on a way without end that is nothing.
+/// Multiplies each path's throughput by the transmittance of the glass along its ray, which is 0 for an infinite ray.
 pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, &Media, &mut Paths)>) {
     for (hits, media, mut paths) in &mut tiles {
         let paths = &mut *paths;
@@ -79,8 +80,8 @@ pub fn absorb_in_glass(glass: Res<Shared<GlassTable>>, mut tiles: Query<(&Hits, 
     }
 }
 
-/// Gives each scattered ray the media of the ray that it came of, with what it entered or left where it went through
-/// glass.
+/// Gives each scattered ray the media of the ray it was scattered from, with the glass that it entered or left by
+/// refraction.
 pub fn carry_media(
     glass: Res<Shared<GlassTable>>,
     mut kept: Local<Media>,
@@ -114,7 +115,7 @@ pub fn carry_media(
     }
 }
 
-/// The stage that starts.
+/// The stage that finds the media of camera rays.
 pub fn start_media_stage() -> Stage {
     Stage::new("Find the media that rays start in", TileSystems::Media, start_media)
         .on_first_bounce()
@@ -127,19 +128,19 @@ pub fn absorb_stage() -> Stage {
         .when(|scene| absorption_evidence(scene).and(|| followed_evidence(scene)))
 }
 
-/// The stage that carries media over to the next leg.
+/// The stage that carries media to the next bounce.
 pub fn carry_media_stage() -> Stage {
     Stage::new("Carry media to the next bounce", TileSystems::Step, carry_media)
         .reads_where::<DeeperMedia>(deeper_media_evidence)
         .when(media_evidence)
 }
 
-/// Evidence that a shape is made of glass that absorbs light.
+/// Evidence that a shape is made of absorbing glass.
 fn absorption_evidence(scene: &Census<'_>) -> Evidence {
     glass_that(scene, "absorbing glass surface", |glass| glass.absorption.to_array() != [0.0; 3])
 }
 
-/// Evidence that what a ray goes through must be known: that glass absorbs, or that two shapes of it overlap.
+/// Evidence that the media along rays must be known: glass absorbs, or two glass shapes overlap.
 pub fn media_evidence(scene: &Census<'_>) -> Evidence {
     let glass = glass_evidence(scene).and(|| followed_evidence(scene));
     if !glass.needed {

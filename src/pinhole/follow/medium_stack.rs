@@ -1,58 +1,58 @@
 use crate::extract::NO_ROW;
 
 // ANCHOR: MediumStack
-/// The kinds of glass that a point lies in, the one that is there first; the first four of them.
+/// The media around a point in order of rank, the one that is present first; at most four of them.
 ///
-/// Of those whose shapes hold the point the one of the highest priority is there, and of equals the one that was
-/// spawned first, whichever was entered first (Schmidt and Budge 2002).
-/// Where more than four shapes of glass may hold a point, [`DeeperMedia`](super::DeeperMedia) knows the others.
+/// Where glass shapes overlap, the one of the highest priority is present, and among equals the one spawned first,
+/// whichever was entered first (Schmidt and Budge 2002).
+/// Where more than four glass shapes may overlap, [`DeeperMedia`](super::DeeperMedia) holds the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MediumStack {
-    /// Rows of the table of glass in order of rank, each as often as its shapes hold the point; [`NO_ROW`] after them.
+    /// Rows of the glass table in order of rank, each as often as its shapes contain the point; [`NO_ROW`] after them.
     pub rows: [u32; 4],
 }
 
-/// What is on both sides of a surface of glass, and what the far side's point lies in.
+/// The media on both sides of a glass surface, and the stack on its far side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crossing {
     /// The glass on the near side; [`NO_ROW`] for none.
     pub near: u32,
-    /// That on the far side; where it is the same, the surface is none.
+    /// The glass on the far side; where it is the same, the surface has no effect.
     pub far: u32,
-    /// What the far side's point lies in.
+    /// The media around a point on the far side.
     pub beyond: MediumStack,
 }
 
 impl MediumStack {
-    /// Outside all glass.
+    /// The stack outside all glass.
     pub const OUTSIDE: Self = Self { rows: [NO_ROW; 4] };
 
-    /// The glass that is there; [`NO_ROW`] for none.
+    /// The medium that is present; [`NO_ROW`] for none.
     #[inline(always)]
     pub fn top(self) -> u32 {
         self.rows[0]
     }
 
-    /// With one more shape of this glass about it.
+    /// The stack after entering a shape of this glass.
     #[inline(always)]
     fn entered(self, row: u32, priorities: &[u32]) -> Self {
         let outranks =
             |other: u32| other == NO_ROW || (priorities[row as usize], other) > (priorities[other as usize], row);
         let mut rows = self.rows;
-        let (mut at, mut carried) = (0, row);
-        // Once the place is found, each is pushed one further down.
+        let (mut at, mut moved) = (0, row);
+        // From its place on, every entry is pushed down by one.
         let mut found = false;
         while at < rows.len() {
             found = found || outranks(rows[at]);
             if found {
-                std::mem::swap(&mut rows[at], &mut carried);
+                std::mem::swap(&mut rows[at], &mut moved);
             }
             at += 1;
         }
         Self { rows }
     }
 
-    /// With one shape of this glass less about it; the same where there is none.
+    /// The stack after leaving a shape of this glass; unchanged where the glass is not in it.
     #[inline(always)]
     fn left(self, row: u32) -> Self {
         let Some(place) = self.rows.iter().position(|own| *own == row) else { return self };
@@ -62,9 +62,9 @@ impl MediumStack {
         Self { rows }
     }
 
-    /// What a ray finds that comes from this stack's point and meets a surface of this glass, from outside or not.
+    /// What a ray with this stack crosses at a surface of this glass, hit from outside or from inside.
     ///
-    /// Who leaves a shape without having entered it was inside from the start.
+    /// A ray that leaves a shape without having entered it was inside from the start.
     #[inline(always)]
     pub fn crossing(self, row: u32, from_outside: bool, priorities: &[u32]) -> Crossing {
         if from_outside {
@@ -82,7 +82,7 @@ impl MediumStack {
 mod tests {
     use super::*;
 
-    /// All orders in which intervals can begin and end along a ray, as a list of who begins or ends.
+    /// All orders in which intervals along a ray can begin and end, each a list of the intervals that begin or end.
     fn orders(left: &mut Vec<u32>, order: &mut Vec<u32>, all: &mut Vec<Vec<u32>>) {
         if left.iter().all(|ends| *ends == 0) {
             all.push(order.clone());
@@ -98,14 +98,14 @@ mod tests {
         }
     }
 
-    /// What is there by the rule: of the shapes about a point the first of the highest priority.
+    /// The medium by the rule: of the shapes around a point, the first of the highest priority.
     fn rule(inside: &[bool], glass: &[u32], priorities: &[u32]) -> u32 {
-        let held = (0..inside.len()).filter(|&shape| inside[shape]).map(|shape| glass[shape]);
-        held.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
+        let around = (0..inside.len()).filter(|&shape| inside[shape]).map(|shape| glass[shape]);
+        around.min_by_key(|&row| (std::cmp::Reverse(priorities[row as usize]), row)).unwrap_or(NO_ROW)
     }
 
-    /// Shapes that overlap in every order, with every priority, each of its own glass or some of the same; walked from
-    /// outside, and begun at every place on the way without knowing where.
+    /// Shapes that overlap in every order and with every priority, each of its own glass or some of the same; rays
+    /// start outside, and also at every point between, with an unknown stack.
     #[test]
     fn every_order_and_priority() {
         let (mut walks, mut surfaces) = (0, 0);
@@ -127,7 +127,7 @@ mod tests {
                         let shape = shape as usize;
                         let crossing = stack.crossing(glass[shape], !inside[shape], &priorities);
                         assert_eq!(crossing.near, rule(&inside, &glass, &priorities), "{order:?} {priorities:?}");
-                        // The way back over the same surface is the same crossing.
+                        // Crossing the same surface backwards gives the same media.
                         let back = crossing.beyond.crossing(glass[shape], inside[shape], &priorities);
                         assert_eq!((back.near, back.far, back.beyond), (crossing.far, crossing.near, stack));
                         inside[shape] = !inside[shape];
@@ -140,25 +140,27 @@ mod tests {
                 }
             }
         }
-        eprintln!("media: {walks} walks through 1 to 4 shapes, {surfaces} surfaces, all by the rule both ways");
+        eprintln!(
+            "media: {walks} walks through 1 to 4 shapes, {surfaces} surfaces, all by the rule in both directions"
+        );
     }
 
-    /// A drink in a glass: the drink reaches into the wall, and of the wall's higher priority only three media are left
-    /// on the way, air, wall, drink, without an air gap.
+    /// Water in a glass whose sides overlap: with the higher priority of the wall, a ray finds air, wall and water,
+    /// without an air gap.
     #[test]
     fn a_glass_of_water() {
         let (wall, water) = (0, 1);
         let priorities = [2, 1];
-        // Outer side of the wall, the water's own side within the wall, inner side of the wall.
-        let way = [(wall, true), (water, true), (wall, false)];
+        // The outer side of the wall, the water's own side within the wall, the inner side of the wall.
+        let surfaces = [(wall, true), (water, true), (wall, false)];
         let mut stack = MediumStack::OUTSIDE;
-        let mut met = Vec::new();
-        for (row, from_outside) in way {
+        let mut crossed = Vec::new();
+        for (row, from_outside) in surfaces {
             let crossing = stack.crossing(row, from_outside, &priorities);
-            met.push((crossing.near, crossing.far));
+            crossed.push((crossing.near, crossing.far));
             stack = crossing.beyond;
         }
-        assert_eq!(met, [(NO_ROW, wall), (wall, wall), (wall, water)], "the second surface is none");
+        assert_eq!(crossed, [(NO_ROW, wall), (wall, wall), (wall, water)], "the second surface has no effect");
     }
 
     #[test]

@@ -15,17 +15,17 @@ use crate::shade::{LightRays, Radiance, ShadowHits, lit_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// How rough metals answer light, in a surface's frame: off one tiny mirror, and where a scene asks for it off several.
+/// The BSDF of rough metals in a surface's frame: single scattering, and multiple scattering where a scene asks for it.
 #[derive(Clone, Copy)]
 pub struct RoughMetals<'a> {
     /// Colours and roughness.
     pub metals: &'a MetalTable,
-    /// What comes off several; none where it stays lost.
+    /// The multiple-scattering lobe; none where that energy is lost.
     pub several: Option<&'a MultipleScatteringTable>,
 }
 
 impl RoughMetals<'_> {
-    /// What a metal sends to `to_eye` of each unit of irradiance from `to_light`, in 1/sr: red, green, blue.
+    /// The BRDF of a metal in 1/sr: red, green, blue.
     #[inline(always)]
     pub fn brdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let once = ggx_brdf(to_light, to_eye, self.metals.alpha[metal]);
@@ -35,17 +35,17 @@ impl RoughMetals<'_> {
         [0, 1, 2].map(|part| once[part] + again[part])
     }
 
-    /// How densely chance sends rays to `to_light`, in 1/sr.
+    /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
     #[inline(always)]
     pub fn pdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
         let visible = visible_pdf(to_light, to_eye, self.metals.alpha[metal]);
         self.several.map_or(visible, |several| several.pdf(metal, to_light, to_eye, visible))
     }
 
-    /// A direction to the light, the density of having it, and BRDF · cosine / density; none where it leads below the
+    /// Samples a direction to the light: the direction, its pdf, and BRDF · cosine / pdf; none where it leads below the
     /// surface.
     ///
-    /// `choice`, a number from 0 to below 1, decides between one mirror and several.
+    /// `choice`, a number in [0, 1), selects the single- or the multiple-scattering lobe.
     #[inline(always)]
     pub(super) fn sample(
         &self,
@@ -71,8 +71,8 @@ impl RoughMetals<'_> {
     }
 }
 
-/// Sends a ray on from rough metal, by a tiny mirror at random among those seen.
-pub fn scatter_metal(
+/// Samples the BSDF of rough metal at every such surface, by visible microfacet normals.
+pub fn sample_metal(
     sampling: Res<Shared<SamplingTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
     (mut points, mut choices): (Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
@@ -99,18 +99,18 @@ pub fn scatter_metal(
                 return ScatteredRay::default();
             };
             let direction = world_from_local * to_light;
-            let share = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
+            let throughput = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
             ScatteredRay {
                 origin: offset_origin(surface.position, surface.normal, surface.bound),
                 direction,
-                share: [0, 1, 2].map(|part| share[part] * weights[part]),
+                throughput: [0, 1, 2].map(|part| throughput[part] * weights[part]),
                 pdf,
             }
         });
     }
 }
 
-/// Adds what rough metal sends towards the eye of each light ray's irradiance, unless something stands in between.
+/// Adds the light of each unblocked shadow ray that rough metal reflects to the eye.
 pub fn add_metal(
     materials: Res<Shared<MaterialTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
@@ -131,7 +131,7 @@ pub fn add_metal(
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
             let local_from_world = frame_of(normal).transpose();
             let [to_light, to_eye] =
-                [light.direction_of(ray), -eye.direction_of(row)].map(|way| local_from_world * way);
+                [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
             let (brdf, irradiance) =
                 (rough.brdf(materials.row[material] as usize, to_light, to_eye), light.irradiance(ray));
             let [r, g, b] = [0, 1, 2].map(|part| (brdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
@@ -142,23 +142,23 @@ pub fn add_metal(
     }
 }
 
-/// The stage that sends rays on.
+/// The stage that samples the BSDF.
 pub fn metal_stage() -> Stage {
-    Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, scatter_metal)
+    Stage::new("Sample BSDFs: metal", TileSystems::SampleBsdfs, sample_metal)
         .kind(StageKind::Estimator)
         .appends::<Scattered>()
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| scattered_evidence(scene)))
 }
 
-/// The stage that answers lamps.
+/// The stage that evaluates direct light.
 pub fn metal_light_stage() -> Stage {
     Stage::new("Evaluate direct light: metal", TileSystems::Shade, add_metal)
         .table_where::<MultipleScatteringTable>(multiple_scattering_evidence)
         .when(|scene| metal_evidence(scene).and(|| lit_evidence(scene)))
 }
 
-/// Evidence that directions off rough metal are drawn.
+/// Evidence that directions from rough metal are sampled.
 fn scattered_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. } | Integrator::Distribution { .. }))
 }

@@ -11,40 +11,40 @@ use bevy_ecs::prelude::*;
 use std::f64::consts::FRAC_1_PI;
 
 // ANCHOR: mis_matte
-/// Takes from every light ray the part that matte surfaces find by chance: their rays go there as densely as cos θ / π.
+/// Weights every light sample against BSDF sampling at matte surfaces, whose pdf is cos θ / π.
 pub fn mis_matte(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &LightPdfs, &mut LightRays)>,
 ) {
     for (surfaces, shading, pdfs, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let (row, aimed) = (rays.path[ray] as usize, pdfs.pdf[ray]);
+            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
             let surface = surfaces.get(row);
             let scatters = !matches!(materials.kind[surface.material as usize], MaterialKind::Metal);
-            if aimed == 0.0 || !scatters {
+            if by_light == 0.0 || !scatters {
                 continue;
             }
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
             let by_bsdf = rays.direction_of(ray).dot(normal).max(0.0) * FRAC_1_PI;
-            rays.mis(ray, power_heuristic(aimed, by_bsdf));
+            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
         }
     }
 }
 // ANCHOR_END: mis_matte
 
-/// Evidence that there is a light that chance may find too.
+/// Evidence that a light can be found by BSDF sampling too.
 fn light_rays_evidence(scene: &Census<'_>) -> Evidence {
     area_light_evidence(scene).or(environment_light_evidence(scene))
 }
 
-/// The stage on offer.
+/// The stage that runs [`mis_matte`].
 pub fn mis_matte_stage() -> Stage {
     Stage::new("Compute MIS weights: matte", TileSystems::MisWeights, mis_matte)
         .kind(StageKind::Alternative)
         .when(|scene| light_rays_evidence(scene).and(|| mis_evidence(scene)).and(|| material_evidence(scene)))
 }
 
-/// Takes from every light ray the part that rough metal finds by chance, by its tiny mirrors.
+/// Weights every light sample against BSDF sampling at rough metal, by visible microfacet normals.
 pub fn mis_metal(
     materials: Res<Shared<MaterialTable>>,
     (metals, several): (Res<Shared<MetalTable>>, Option<Res<Shared<MultipleScatteringTable>>>),
@@ -53,22 +53,23 @@ pub fn mis_metal(
     let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
     for (eye, surfaces, shading, pdfs, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
-            let (row, aimed) = (rays.path[ray] as usize, pdfs.pdf[ray]);
+            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
             let surface = surfaces.get(row);
             let material = surface.material as usize;
-            if aimed == 0.0 || materials.kind[material] != MaterialKind::Metal {
+            if by_light == 0.0 || materials.kind[material] != MaterialKind::Metal {
                 continue;
             }
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
             let local_from_world = frame_of(normal).transpose();
-            let [to_light, to_eye] = [rays.direction_of(ray), -eye.direction_of(row)].map(|way| local_from_world * way);
+            let [to_light, to_eye] =
+                [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
             let by_bsdf = rough.pdf(materials.row[material] as usize, to_light, to_eye);
-            rays.mis(ray, power_heuristic(aimed, by_bsdf));
+            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
         }
     }
 }
 
-/// The stage on offer for rough metal.
+/// The stage that runs [`mis_metal`].
 pub fn mis_metal_stage() -> Stage {
     Stage::new("Compute MIS weights: metal", TileSystems::MisWeights, mis_metal)
         .kind(StageKind::Alternative)

@@ -1,47 +1,46 @@
 use super::{cosine_pdf, ggx_sample};
-use crate::extract::{MetalTable, metals_of_several_mirrors};
+use crate::extract::{MetalTable, multiple_scattering_metals};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
 
-/// How many steps the cosines are tabulated in.
+/// The number of steps in which cosines are tabulated.
 const STEPS: usize = 32;
-/// Tiny mirrors each way over which the share at a cosine is averaged.
-const MIRRORS: u32 = 64;
+/// The grid of microfacets, along each axis, over which the reflectance at a cosine is averaged.
+const GRID: u32 = 64;
 
-/// What rough metal loses to second tiny mirrors, and what comes of it.
+/// The energy that single scattering on rough metal loses, and the lobe that compensates for it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MultipleScatteringTable {
-    /// For each rough metal the share lost at the cosines (i / 32)² to the normal; 0 where it stays lost.
+    /// For each rough metal, the fraction lost at the cosines (i / 32)² to the normal; 0 where it is not compensated.
     pub lost: Vec<[f64; STEPS + 1]>,
-    /// What is found again of a unit that is lost twice over, once on the way in and once on the way out, in 1/sr: red,
-    /// green, blue.
-    pub again: Vec<[f64; 3]>,
+    /// The scale of the compensating lobe for each metal, in 1/sr: red, green, blue.
+    pub compensation: Vec<[f64; 3]>,
 }
 
-/// The share of the light from `to_eye` at this cosine that a metal without loss sends on off one tiny mirror.
+/// The directional albedo of single scattering at this cosine, for a metal of reflectance 1.
 ///
-/// The mirrors are those that [`ggx_sample`] finds at the middles of a grid of numbers.
-fn sent_on(cosine: f64, alpha: f64) -> f64 {
+/// It is averaged over [`ggx_sample`] at the centres of a grid of numbers.
+fn single_scattering_albedo(cosine: f64, alpha: f64) -> f64 {
     let to_eye = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
-    let middle = |at: u32| (f64::from(at) + 0.5) / f64::from(MIRRORS);
+    let middle = |at: u32| (f64::from(at) + 0.5) / f64::from(GRID);
     let weight = |u: u32, v: u32| {
         ggx_sample(to_eye, alpha, [middle(u), middle(v)]).map_or(0.0, |microfacet_sample| microfacet_sample.weight)
     };
-    let sum: f64 = (0..MIRRORS).map(|u| (0..MIRRORS).map(|v| weight(u, v)).sum::<f64>()).sum();
-    sum / f64::from(MIRRORS * MIRRORS)
+    let sum: f64 = (0..GRID).map(|u| (0..GRID).map(|v| weight(u, v)).sum::<f64>()).sum();
+    sum / f64::from(GRID * GRID)
 }
 
 /// The cosine of a step.
 fn cosine_of(step: usize) -> f64 {
     let part = step as f64 / STEPS as f64;
-    // Along the surface nothing is seen; what is lost there is what is lost a little above.
+    // At grazing incidence nothing is visible; the value just above stands for it.
     (part * part).max(1e-4)
 }
 
-/// The share lost at a cosine, between two of those tabulated.
+/// The fraction lost at a cosine, interpolated linearly in the table.
 #[inline(always)]
 pub fn lost_at(lost: &[f64; STEPS + 1], cosine: f64) -> f64 {
     let place = cosine.clamp(0.0, 1.0).sqrt() * STEPS as f64;
@@ -51,22 +50,22 @@ pub fn lost_at(lost: &[f64; STEPS + 1], cosine: f64) -> f64 {
     lost[step] + part * (lost[step + 1] - lost[step])
 }
 
-/// The mean of what is lost over all directions that light falls from evenly: 2 ∫ lost(μ) μ dμ, of the straight pieces
-/// that [`lost_at`] goes by.
+/// The hemispherical average of the fraction lost, 2 ∫ lost(μ) μ dμ, exactly for the linear interpolation of
+/// [`lost_at`].
 fn lost_on_average(lost: &[f64; STEPS + 1]) -> f64 {
-    let piece = |step: usize| {
+    let segment = |step: usize| {
         let [low, high] = [step, step + 1].map(|step| (step * step) as f64 / (STEPS * STEPS) as f64);
         let [first, last] = [lost[step], lost[step + 1]];
         (high - low) * (first * (2.0 * low + high) + last * (low + 2.0 * high)) / 3.0
     };
-    (0..STEPS).map(piece).sum()
+    (0..STEPS).map(segment).sum()
 }
 
-/// What of the light that is lost comes out after all, for mirrors of a colour c of which each loses the share l to the
-/// next: c² (1 − l) (1 + c l + c² l² + …) = c² (1 − l) / (1 − c l), the sum over two, three and more mirrors
-/// (Fdez-Agüera 2019).
+/// The albedo of the light that is scattered more than once, for microfacets of reflectance c that each pass the
+/// fraction l on to the next: c² (1 − l) (1 + c l + c² l² + …) = c² (1 − l) / (1 − c l), summed over two, three and
+/// more scatterings (Fdez-Agüera 2019).
 #[inline(always)]
-pub fn found_again(colour: f64, lost: f64) -> f64 {
+pub fn multiple_scattering_albedo(colour: f64, lost: f64) -> f64 {
     colour * colour * (1.0 - lost) / (1.0 - colour * lost)
 }
 
@@ -74,7 +73,7 @@ impl Table for MultipleScatteringTable {
     const NAME: &'static str = "multiple scattering";
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (metals, several) = (scene.table::<MetalTable>()?, metals_of_several_mirrors(scene));
+        let (metals, several) = (scene.table::<MetalTable>()?, multiple_scattering_metals(scene));
         let mut table = Self::default();
         for (metal, several) in several.into_iter().enumerate() {
             table.push(metals.colour[metal], several.then_some(metals.alpha[metal]));
@@ -83,37 +82,38 @@ impl Table for MultipleScatteringTable {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.lost[..]) + size_of_val(&self.again[..])
+        size_of_val(&self.lost[..]) + size_of_val(&self.compensation[..])
     }
 }
 
 impl MultipleScatteringTable {
-    /// Adds a metal of this colour and α, or one of which nothing is found again.
+    /// Adds a metal of this colour and α, or one without compensation.
     pub fn push(&mut self, colour: [f64; 3], alpha: Option<f64>) {
-        let lost_at = |step: usize| alpha.map_or(0.0, |alpha| (1.0 - sent_on(cosine_of(step), alpha)).max(0.0));
+        let lost_at =
+            |step: usize| alpha.map_or(0.0, |alpha| (1.0 - single_scattering_albedo(cosine_of(step), alpha)).max(0.0));
         let lost = std::array::from_fn(lost_at);
         let average = lost_on_average(&lost);
         let scale = if average > 0.0 { FRAC_1_PI / average } else { 0.0 };
         self.lost.push(lost);
-        self.again.push(colour.map(|colour| found_again(colour, average) * scale));
+        self.compensation.push(colour.map(|colour| multiple_scattering_albedo(colour, average) * scale));
     }
 
     // ANCHOR: lobe
-    /// What a metal sends to `to_eye` of each unit of irradiance from `to_light` after two or more tiny mirrors, in 1/sr.
+    /// The multiple-scattering lobe of a metal, in 1/sr.
     ///
-    /// As much is lost on the way in as on the way out, so the two may be exchanged; over all directions it sums up to
-    /// what [`lost_at`] says (Kulla and Conty 2017).
+    /// It is symmetric in the two directions, and its directional albedo is what [`lost_at`] gives (Kulla and Conty
+    /// 2017).
     #[inline(always)]
     pub fn brdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         if to_light.z <= 0.0 || to_eye.z <= 0.0 {
             return [0.0; 3];
         }
         let both = lost_at(&self.lost[metal], to_light.z) * lost_at(&self.lost[metal], to_eye.z);
-        self.again[metal].map(|again| again * both)
+        self.compensation[metal].map(|scale| scale * both)
     }
 
-    /// The density of directions of which as many as are lost go by the cosine, the others by the `visible` density, in
-    /// 1/sr.
+    /// The pdf of sampling this lobe by the cosine with the fraction lost as probability, and otherwise with the pdf
+    /// `visible` of single scattering, in 1/sr.
     #[inline(always)]
     pub fn pdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3, visible: f64) -> f64 {
         let lost = lost_at(&self.lost[metal], to_eye.z);
@@ -121,7 +121,7 @@ impl MultipleScatteringTable {
     }
     // ANCHOR_END: lobe
 
-    /// Whether a direction from here goes by the cosine, by a number from 0 to below 1.
+    /// Whether to sample this lobe, by a number in [0, 1).
     #[inline(always)]
     pub fn is_lost(&self, metal: usize, to_eye: DVec3, number: f64) -> bool {
         number < lost_at(&self.lost[metal], to_eye.z)
@@ -145,7 +145,7 @@ mod tests {
         (MetalTable { colour: vec![[colour; 3]], alpha: vec![alpha] }, several)
     }
 
-    /// The share that is lost, by quadrature over the hemisphere, which knows nothing of visible normals.
+    /// The fraction lost, by quadrature over the hemisphere, which is independent of visible normals.
     #[test]
     fn what_is_lost_is_what_quadrature_misses() {
         let (rule, mut worst, mut tried) = (Quadrature::default(), 0.0_f64, 0);
@@ -161,10 +161,11 @@ mod tests {
         }
         let (_, roughest) = metal(1.0, 1.0);
         assert!((lost_at(&roughest.lost[0], 1.0) - LN_2).abs() < 1e-3);
-        eprintln!("lost to second mirrors: {tried} angles, worst {worst:.1e} off quadrature");
+        eprintln!("energy lost: {tried} angles, worst difference from quadrature {worst:.1e}");
     }
 
-    /// In light that is 1 from everywhere, what loses nothing at any mirror sends on all of it, and a colour less.
+    /// The furnace test: with compensation, metal of reflectance 1 reflects all of a uniform radiance of 1, and a
+    /// coloured one less.
     #[test]
     fn furnace() {
         let (rule, mut least, mut most) = (Quadrature::default(), f64::INFINITY, 0.0_f64);
@@ -183,7 +184,7 @@ mod tests {
             assert!(all > once && all < 0.5, "α {alpha}: {once} once, {all} in all");
         }
         eprintln!("furnace: 30 sums from {least:.5} to {most:.5}");
-        assert_eq!([found_again(1.0, 0.3), found_again(0.0, 0.3)], [1.0, 0.0]);
+        assert_eq!([multiple_scattering_albedo(1.0, 0.3), multiple_scattering_albedo(0.0, 0.3)], [1.0, 0.0]);
     }
 
     #[test]
@@ -191,41 +192,41 @@ mod tests {
         let (_, several) = metal(0.4, 0.8);
         for index in 0..10_000 {
             let mut draws = Draws::new(1941, index);
-            let mut way = || {
-                let way = draws.unit_vector();
-                DVec3::new(way.x, way.y, way.z.abs())
+            let mut direction = || {
+                let direction = draws.unit_vector();
+                DVec3::new(direction.x, direction.y, direction.z.abs())
             };
-            let (light, eye) = (way(), way());
+            let (light, eye) = (direction(), direction());
             assert_eq!(several.brdf(0, light, eye), several.brdf(0, eye, light), "{index}");
         }
         assert_eq!(several.brdf(0, -DVec3::Z, DVec3::Z), [0.0; 3]);
-        eprintln!("several mirrors: 10000 pairs of ways, reciprocal bit for bit");
+        eprintln!("multiple scattering: 10000 pairs of directions, reciprocal bit for bit");
     }
 
-    /// Directions drawn are as many as the density says in bins of cosine and angle, those below the surface in a bin of
+    /// Sampled directions have the stated pdf in bins of cosine and azimuth; those below the surface have a bin of
     /// their own.
     #[test]
-    fn directions_are_as_likely_as_their_pdf() {
-        const DRAWN: u64 = 100_000;
+    fn directions_have_their_pdf() {
+        const SAMPLES: u64 = 100_000;
         const LINES: usize = 12;
-        for (which, (alpha, slant)) in [(0.4, 1.2_f64), (0.7, 0.5), (1.0, 0.0), (1.0, 1.45)].into_iter().enumerate() {
+        for (which, (alpha, angle)) in [(0.4, 1.2_f64), (0.7, 0.5), (1.0, 0.0), (1.0, 1.45)].into_iter().enumerate() {
             let (metals, several) = metal(alpha, 0.9);
             let rough = RoughMetals { metals: &metals, several: Some(&several) };
-            let eye = DVec3::new(libm::sin(slant), 0.0, libm::cos(slant));
+            let eye = DVec3::new(libm::sin(angle), 0.0, libm::cos(angle));
             let (rule, mut bins) = (Quadrature::default(), Bins::new(LINES * LINES + 1));
             let line = |at: usize| at as f64 / LINES as f64;
             for (cosine, turn) in (0..LINES).flat_map(|cosine| (0..LINES).map(move |turn| (cosine, turn))) {
-                let share = rule.sum(line(cosine), line(cosine + 1), |z| {
+                let fraction = rule.sum(line(cosine), line(cosine + 1), |z| {
                     rule.sum(2.0 * PI * line(turn), 2.0 * PI * line(turn + 1), |turn| {
                         let across = (1.0 - z * z).sqrt();
                         let light = DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z);
                         rough.pdf(0, light, eye)
                     })
                 });
-                bins.expect(cosine * LINES + turn, share * DRAWN as f64);
+                bins.expect(cosine * LINES + turn, fraction * SAMPLES as f64);
             }
-            bins.expect(LINES * LINES, DRAWN as f64 - bins.total());
-            for index in 0..DRAWN {
+            bins.expect(LINES * LINES, SAMPLES as f64 - bins.total());
+            for index in 0..SAMPLES {
                 let mut draws = Draws::new(1942 + which as u64, index);
                 let (numbers, choice) = ([draws.unit(), draws.unit()], draws.unit());
                 let Some((light, ..)) = rough.sample(0, eye, numbers, choice) else {
@@ -238,27 +239,27 @@ mod tests {
             }
             let (statistic, freedom) = bins.statistic();
             let p = p_value(statistic, freedom);
-            eprintln!("several mirrors, α {alpha}, {slant}: chi squared {statistic:.1} of {freedom}, p {p:.3}");
-            assert!(p > 1e-3, "α {alpha}, {slant}: χ² {statistic} of {freedom}");
+            eprintln!("several mirrors, α {alpha}, {angle}: chi squared {statistic:.1} of {freedom}, p {p:.3}");
+            assert!(p > 1e-3, "α {alpha}, {angle}: χ² {statistic} of {freedom}");
         }
     }
 
     #[test]
-    fn nothing_at_the_ends_is_no_number() {
+    fn extreme_numbers_give_finite_samples() {
         let ends = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0 - 1.0 / (1 << 24) as f64];
         let mut tried = 0;
-        for (alpha, slant) in [(1e-3, 1.0), (0.3, 1e-9), (1.0, 0.0), (1.0, -0.3_f64)] {
+        for (alpha, angle) in [(1e-3, 1.0), (0.3, 1e-9), (1.0, 0.0), (1.0, -0.3_f64)] {
             let (metals, several) = metal(alpha, 1.0);
             let rough = RoughMetals { metals: &metals, several: Some(&several) };
-            let eye = DVec3::new((1.0 - slant * slant).sqrt(), 0.0, slant);
+            let eye = DVec3::new((1.0 - angle * angle).sqrt(), 0.0, angle);
             assert!(ggx_g1(eye, alpha).is_finite());
             for (u, v) in ends.into_iter().flat_map(|u| ends.map(|v| (u, v))) {
                 for choice in ends {
                     tried += 1;
                     let Some((light, pdf, weights)) = rough.sample(0, eye, [u, v], choice) else { continue };
                     let [weight, ..] = weights;
-                    assert!(light.is_finite() && pdf > 0.0 && pdf.is_finite(), "{alpha} {slant} {u} {v}");
-                    assert!((0.0..=4.0).contains(&weight), "{alpha} {slant} {u} {v}: {weight}");
+                    assert!(light.is_finite() && pdf > 0.0 && pdf.is_finite(), "{alpha} {angle} {u} {v}");
+                    assert!((0.0..=4.0).contains(&weight), "{alpha} {angle} {u} {v}: {weight}");
                 }
             }
         }

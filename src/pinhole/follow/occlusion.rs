@@ -10,34 +10,35 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 // ANCHOR: sample_sky
-/// Sends a ray towards the sky from every surface, as densely as the cosine to its normal.
+/// Traces a cosine-weighted ray towards the sky from every surface.
 ///
-/// A sky of radiance 1 brings the irradiance π; its mean over such rays, where each is seen or hidden, is what the whole
-/// sky brings past what hides it.
+/// A sky of radiance 1 gives the irradiance π; each of these rays is worth π where it escapes and 0 where it is
+/// blocked, and their mean is the irradiance of the visible part of the sky.
 pub fn sample_sky(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
     lists: Local<SkyLists>,
     tiles: Query<SkyColumns>,
 ) {
-    aim_by(cosine_direction, (&sampling, &integrator), lists, tiles);
+    sample_sky_with(cosine_direction, (&sampling, &integrator), lists, tiles);
 }
 
-/// The rows that send rays, and their numbers; memory for one tile, kept for the next.
+/// The rows with a surface, and their random numbers; reused from tile to tile.
 #[derive(Default)]
 pub struct SkyLists {
     row: Vec<u32>,
     points: Vec<[f64; 2]>,
 }
 
-/// What is read and written to aim at the sky.
+/// The columns that sampling the sky reads and writes.
 pub type SkyColumns = (
     (&'static Tile, Option<&'static SampleNumber>, Option<&'static PixelSamples>),
     (&'static Hits, &'static Surfaces, &'static mut LightRays),
 );
 
-/// Sends a ray of irradiance π from every surface, about its normal in the direction that two numbers make.
-pub fn aim_by(
+/// Traces a ray of irradiance π from every surface, in the direction about its normal that `direction_of` makes from
+/// two random numbers.
+pub fn sample_sky_with(
     direction_of: impl Fn([f64; 2]) -> DVec3,
     (sampling, integrator): (&SamplingTable, &IntegratorTable),
     mut lists: Local<SkyLists>,
@@ -49,9 +50,9 @@ pub fn aim_by(
         list.extend((0..hits.rows() as u32).filter(|&row| hits.shape[row as usize] != NO_SHAPE));
         let draws = Draws { sampling, tile, number, samples, paths: None, depth: Depth(0) };
         draws_of_two(&draws, Purpose::Direction, list, points);
-        let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(list.len());
+        let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(list.len());
         path.copy_from_slice(list);
-        reach.fill(integrator.distance);
+        t_max.fill(integrator.distance);
         [r, g, b].into_iter().for_each(|component| component.fill(PI as f32));
         for (at, &row) in list.iter().enumerate() {
             let surface = surfaces.get(row as usize);
@@ -63,8 +64,9 @@ pub fn aim_by(
 }
 // ANCHOR_END: sample_sky
 
-/// Shows white where a row's ray, or the ray from its surface, leaves the scene, and black where something hides the sky.
-pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
+/// Shows white where a row's ray, or the ray from its surface, escapes from the scene, and black where something hides
+/// the sky.
+pub fn show_occlusion(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &ShadowHits)>, &mut Radiance)>) {
     for (hits, rays, mut radiance) in &mut tiles {
         let rows = radiance.rows();
         let (r, g, b) = radiance.slices_mut(rows);
@@ -79,7 +81,7 @@ pub fn show_the_sky(mut tiles: Query<(Option<&Hits>, Option<(&LightRays, &Shadow
     }
 }
 
-/// The stage that aims.
+/// The stage that samples the sky.
 pub fn sky_rays_stage() -> Stage {
     Stage::new("Sample the open sky", TileSystems::SampleLights, sample_sky)
         .kind(StageKind::Alternative)
@@ -87,9 +89,9 @@ pub fn sky_rays_stage() -> Stage {
         .when(|scene| occlusion_evidence(scene).and(|| shape_evidence(scene)))
 }
 
-/// The stage that shows.
+/// The stage that shows ambient occlusion.
 pub fn sky_stage() -> Stage {
-    Stage::new("Show ambient occlusion", TileSystems::Shade, show_the_sky)
+    Stage::new("Show ambient occlusion", TileSystems::Shade, show_occlusion)
         .on_camera_paths()
         .kind(StageKind::Alternative)
         .when(occlusion_evidence)

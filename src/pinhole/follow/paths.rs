@@ -3,7 +3,7 @@ use crate::plan::{Column, Stage, TileSystems};
 use crate::rays::{Depth, PathLight, Paths, WorldRays};
 use bevy_ecs::prelude::*;
 
-/// Begins a way a row: all of what the camera's ray brings back reaches the film.
+/// Starts a path for each camera ray, with a throughput of 1.
 pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<&mut PathLight>)>) {
     for (mut depth, rays, mut paths, light) in &mut tiles {
         *depth = Depth(0);
@@ -18,7 +18,7 @@ pub fn start_paths(mut tiles: Query<(&mut Depth, &WorldRays, &mut Paths, Option<
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`start_paths`].
 pub fn start_paths_stage() -> Stage {
     Stage::new("Start paths", TileSystems::Start, start_paths)
         .on_first_bounce()

@@ -7,18 +7,19 @@ use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
 
 // ANCHOR: survival_probability
-/// The chance with which a way goes on whose ray brings this share to the film; what goes on counts for more, so that no
-/// light is lost on average (Arvo and Kirk 1990).
+/// The probability with which a path of this throughput survives Russian roulette; dividing the throughput by it keeps
+/// the estimate unbiased (Arvo and Kirk 1990).
 #[inline(always)]
-pub fn survival_probability(share: [f64; 3]) -> f64 {
-    share[0].max(share[1]).max(share[2]).min(1.0)
+pub fn survival_probability(throughput: [f64; 3]) -> f64 {
+    throughput[0].max(throughput[1]).max(throughput[2]).min(1.0)
 }
 // ANCHOR_END: survival_probability
 
-/// Ends ways by chance from a leg on, and lets the others carry what those would have brought.
+/// Terminates paths at random from a given depth on, and divides the throughput of the others by their survival
+/// probability.
 ///
-/// In glass of index n a share is 1/n² of what it is again outside, which is no reason to end a way; so at mirrors and
-/// glass, which no chance sent the ray off, it counts for n² as much.
+/// Inside glass of index n the throughput is 1/n² of what it will be outside again, which is no reason to terminate a
+/// path; after a specular bounce it is therefore multiplied by n² (PBRT's `etaScale`).
 pub fn play_roulette(
     sampling: Res<Shared<SamplingTable>>,
     integrator: Res<Shared<IntegratorTable>>,
@@ -33,12 +34,12 @@ pub fn play_roulette(
         draws_of_one(&draws, Purpose::Roulette, &scattered.path, &mut numbers);
         let mut kept = 0;
         for row in 0..scattered.rows() {
-            let own = if scattered.pdf[row] == f64::INFINITY { integrator.narrowing } else { 1.0 };
-            let share = [scattered.r[row], scattered.g[row], scattered.b[row]];
-            let random = survival_probability(share.map(|part| part * own));
-            if numbers[row] < random {
+            let scale = if scattered.pdf[row] == f64::INFINITY { integrator.eta_scale } else { 1.0 };
+            let throughput = [scattered.r[row], scattered.g[row], scattered.b[row]];
+            let probability = survival_probability(throughput.map(|part| part * scale));
+            if numbers[row] < probability {
                 scattered.moved(row, kept);
-                let more = 1.0 / random;
+                let more = 1.0 / probability;
                 let light = &mut *scattered;
                 [&mut light.r, &mut light.g, &mut light.b].into_iter().for_each(|component| component[kept] *= more);
                 kept += 1;
@@ -48,7 +49,7 @@ pub fn play_roulette(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`play_roulette`].
 pub fn roulette_stage() -> Stage {
     Stage::new("Russian roulette", TileSystems::Roulette, play_roulette)
         .kind(StageKind::Estimator)

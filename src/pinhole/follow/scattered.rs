@@ -4,11 +4,11 @@ use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
 column! {
-    /// Rays that go on from surfaces, each kind of matter's after the other's.
+    /// Rays scattered from surfaces, grouped by the kind of material.
     pub struct Scattered("scattered", "world, from the eye", "scene units", Ray, begun in Start) {
-        /// The row of the ray whose surface it starts on.
+        /// The row of the ray that it was scattered from.
         path: u32,
-        /// Origin, x: off the surface by its bound.
+        /// Origin, x: offset from the surface by its error bound.
         ox: f32,
         /// Origin, y.
         oy: f32,
@@ -20,13 +20,13 @@ column! {
         dy: f32,
         /// Direction, z.
         dz: f32,
-        /// The share of what it brings back that reaches the film, red.
+        /// Path throughput, red.
         r: f64,
         /// Green.
         g: f64,
         /// Blue.
         b: f64,
-        /// How densely chance sends rays this way, over solid angle; infinite where no chance was in it.
+        /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
         pdf: f64,
     }
 }
@@ -34,25 +34,25 @@ column! {
 /// One row of [`Scattered`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScatteredRay {
-    /// Where it starts, off the surface.
+    /// Its origin, offset from the surface.
     pub origin: Vec3,
-    /// Where it goes, a unit vector.
+    /// Its direction, a unit vector.
     pub direction: DVec3,
-    /// The share of what it brings back that reaches the film; a ray of none is left out.
-    pub share: [f64; 3],
-    /// How densely chance sends rays this way, in 1/sr.
+    /// The path's throughput including this bounce; a ray of throughput 0 is left out.
+    pub throughput: [f64; 3],
+    /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
     pub pdf: f64,
 }
 
 impl Scattered {
-    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
     }
 
-    /// Appends a ray for each of these rows, but for those that bring nothing back.
+    /// Appends a ray for each of these rows, except for rays of throughput 0.
     ///
-    /// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+    /// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
     #[inline(always)]
     pub fn append(&mut self, rows: &[u32], ray_of: impl Fn(usize, usize) -> ScatteredRay) {
         let length = self.path.len();
@@ -63,14 +63,14 @@ impl Scattered {
             path[at] = row;
             (ox[at], oy[at], oz[at]) = ray.origin.into();
             (dx[at], dy[at], dz[at]) = ray.direction.as_vec3().into();
-            [r[at], g[at], b[at]] = ray.share;
+            [r[at], g[at], b[at]] = ray.throughput;
             pdf[at] = ray.pdf;
-            at += usize::from(ray.share != [0.0; 3]);
+            at += usize::from(ray.throughput != [0.0; 3]);
         }
         self.slices_mut(at);
     }
 
-    /// Moves a row to a place before it.
+    /// Moves a row to an earlier place.
     pub(super) fn moved(&mut self, from: usize, to: usize) {
         self.path[to] = self.path[from];
         [&mut self.ox, &mut self.oy, &mut self.oz].into_iter().for_each(|component| component[to] = component[from]);
@@ -80,12 +80,12 @@ impl Scattered {
     }
 }
 
-/// Empties every tile's list of scattered rays.
+/// Clears every tile's list of scattered rays.
 pub fn start_scattered(mut tiles: Query<&mut Scattered>) {
     tiles.iter_mut().for_each(|mut scattered| scattered.clear());
 }
 
-/// The stage on offer.
+/// The stage that runs [`start_scattered`].
 pub fn start_scattered_stage() -> Stage {
     Stage::new("Clear scattered rays", TileSystems::Start, start_scattered).when(followed_evidence)
 }

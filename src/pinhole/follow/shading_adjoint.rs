@@ -8,11 +8,12 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: shading_adjoint
-/// What a ray from a light counts for, beyond what one from the camera does, where a surface is shaded by another normal
-/// than its own: |ωᵢ·N'| |ωₒ·N| / (|ωᵢ·N| |ωₒ·N'|), N' being the one to shade by (Veach 1997, 5.3.2).
+/// The factor by which a path from a light differs from one from the camera at a surface with a shading normal N' and a
+/// geometric normal N: |ωᵢ·N'| |ωₒ·N| / (|ωᵢ·N| |ωₒ·N'|) (Veach 1997, 5.3.2).
 ///
-/// ωᵢ is the way to the light, ωₒ the way that the ray goes on.
-/// The camera's ray counts light by the cosine to N'; a ray from the light falls on the true surface and leaves it.
+/// ωᵢ is the direction to the light, ωₒ the direction in which the ray is scattered.
+/// A path from the camera counts light by the cosine to N'; a path from a light arrives at and leaves the geometric
+/// surface.
 #[inline(always)]
 pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: DVec3) -> f64 {
     let down = to_light.dot(normal) * onward.dot(shading);
@@ -20,9 +21,9 @@ pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: D
 }
 // ANCHOR_END: shading_adjoint
 
-/// Weighs the rays from lights that mirrors, glass and metal send on by normals other than their own.
+/// Applies that factor to the rays from lights that mirrors, glass and metal scatter.
 ///
-/// Matte surfaces weigh theirs themselves.
+/// The stage of matte surfaces applies its own.
 pub fn correct_for_shading_normals(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&WorldRays, &Surfaces, &ShadingNormals, &mut Scattered)>,
@@ -47,7 +48,7 @@ pub fn correct_for_shading_normals(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`correct_for_shading_normals`].
 pub fn shading_adjoint_stage() -> Stage {
     Stage::new("Correct for shading normals", TileSystems::Roulette, correct_for_shading_normals)
         .on_light_paths()
@@ -60,9 +61,9 @@ mod tests {
     use super::*;
     use crate::measure::ray_aim::Draws;
 
-    /// With one normal nothing changes, and the way back undoes the way there.
+    /// With one normal nothing changes, and the reversed path has the inverse factor.
     #[test]
-    fn ways_there_and_back_undo_each_other() {
+    fn reversed_paths_have_inverse_factors() {
         for index in 0..20_000 {
             let mut draws = Draws::new(2731, index);
             let [normal, shading, a, b] = [(); 4].map(|()| draws.unit_vector().normalize());
@@ -71,6 +72,6 @@ mod tests {
             assert!((both - 1.0).abs() < 1e-12, "{index}: {both}");
         }
         assert_eq!(shading_adjoint(DVec3::Y, DVec3::X, DVec3::X, DVec3::Y), 0.0);
-        eprintln!("shading normals: 20000 pairs of ways");
+        eprintln!("shading normals: 20000 pairs of directions");
     }
 }

@@ -8,11 +8,11 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
 column! {
-    /// The light that a batch of ways from lights brings to the film, in the order of legs and ways.
+    /// The light that a batch of light paths adds to the film, in the order of bounces and paths.
     pub struct Splats("splats", "raster", "pixels; linear Rec. 709", Film) {
-        /// To the right.
+        /// x, to the right.
         x: f64,
-        /// Downward.
+        /// y, downward.
         y: f64,
         /// Red.
         r: f64,
@@ -24,14 +24,14 @@ column! {
 }
 
 impl Splats {
-    /// The light.
+    /// The radiance that is added.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.r[row], self.g[row], self.b[row]].map(|part| part as f32)
     }
 }
 
-/// Leaves what lights send straight to surfaces that spread light to the camera's paths: on the first leg only mirrors and
-/// glass go on.
+/// Leaves light that goes straight from lights to non-specular surfaces to the camera's paths: at the first bounce,
+/// only mirrors and glass scatter.
 pub fn keep_specular(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>)>) {
     for (mut list, metals) in &mut tiles {
         list.row.clear();
@@ -41,7 +41,7 @@ pub fn keep_specular(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>
     }
 }
 
-/// The stage that leaves.
+/// The stage that runs [`keep_specular`].
 pub fn keep_specular_stage() -> Stage {
     Stage::new("Keep specular bounces first", TileSystems::Classify, keep_specular)
         .on_light_paths()
@@ -52,7 +52,7 @@ pub fn keep_specular_stage() -> Stage {
 }
 
 // ANCHOR: splat_light
-/// Lists what every surface sent to the camera on this leg: where it lands on the film, and how much.
+/// Lists what every surface sends to the camera at this bounce: where it lands on the film, and how much.
 pub fn splat_light(
     join: Res<Shared<CameraJoinTable>>,
     mut tiles: Query<(&Paths, &LightRays, Option<&JoinPoints>, &Radiance, &LightPower, &mut Splats)>,
@@ -68,18 +68,18 @@ pub fn splat_light(
             let origin = DVec3::new(rays.ox[ray].into(), rays.oy[ray].into(), rays.oz[ray].into());
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
             let Some(joined) = join_camera(&join, lens, origin) else { continue };
-            let (first, share) = (paths.first[row] as usize, paths.throughput(row));
+            let (first, throughput) = (paths.first[row] as usize, paths.throughput(row));
             splats.x.push(joined.raster.x);
             splats.y.push(joined.raster.y);
-            splats.r.push(power.r[first] * share[0] * f64::from(sent[0]));
-            splats.g.push(power.g[first] * share[1] * f64::from(sent[1]));
-            splats.b.push(power.b[first] * share[2] * f64::from(sent[2]));
+            splats.r.push(power.r[first] * throughput[0] * f64::from(sent[0]));
+            splats.g.push(power.g[first] * throughput[1] * f64::from(sent[1]));
+            splats.b.push(power.b[first] * throughput[2] * f64::from(sent[2]));
         }
     }
 }
 // ANCHOR_END: splat_light
 
-/// The stage that lists.
+/// The stage that runs [`splat_light`].
 pub fn splat_stage() -> Stage {
     Stage::new("Splat to the film", TileSystems::AddBounce, splat_light)
         .on_light_paths()

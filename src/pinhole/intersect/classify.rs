@@ -66,7 +66,7 @@ pub fn classify_hits(
             list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
         }
         if let Some(mut list) = materials {
-            list_rows(hits, &mut list.row, |shape| shapes.spreads[shape]);
+            list_rows(hits, &mut list.row, |shape| shapes.non_specular[shape]);
         }
         if let Some(mut list) = emissive {
             let list = &mut *list;

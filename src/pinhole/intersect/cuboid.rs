@@ -190,7 +190,7 @@ fn cuboid_rows(rays: RaySlices<'_>, cuboids: &CuboidTable, t: &mut [f64], shape:
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
                 let f = slabs.centre - vector(&block.o, lane);
-                *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], slabs.reach);
+                *nearness_of_lane = nearness(f, vector(&block.d, lane), block.inverse[lane], slabs.bounding_radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 let intersection = |origin, direction| cuboid_intersection(origin, direction, slabs);

@@ -100,7 +100,7 @@ fn ellipsoid_rows(rays: RaySlices<'_>, ellipsoids: &EllipsoidTable, t: &mut [f64
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
                 let f = ellipsoid.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], ellipsoid.reach);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], ellipsoid.bounding_radius);
             }
             if nearest.iter().any(|&nearness| nearness >= 0.0) {
                 keep_closest(&o, &d, ellipsoid, number, &mut t[start..end], &mut shape[start..end]);

@@ -75,7 +75,8 @@ pub fn interpolate_normals(
             if vertex_normals[0] == DVec3::ZERO {
                 continue;
             }
-            let triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.facet[triangle]);
+            let triangle_hit =
+                TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.triangle[triangle]);
             let leaves_by_normal = triangle_hit.along != triangles.turned[triangle];
             let normal = shading_normal(vertex_normals, &triangle_hit);
             let normal = if leaves_by_normal { -normal } else { normal };

@@ -208,11 +208,11 @@ fn rows_along<const Z: usize>(
             (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
-        for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
+        for (facet, &number) in triangles.triangle.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
                 let f = facet.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.reach);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.bounding_radius);
             }
             let (near, _) = nearest.as_chunks::<GROUP>();
             let t = own_t[..rows.len()].chunks_mut(GROUP);

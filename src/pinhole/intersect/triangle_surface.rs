@@ -76,7 +76,7 @@ pub fn triangle_surface(
     direction: DVec3,
     material: u32,
 ) -> (Surface, TriangleHit) {
-    let facet = &triangles.facet[row];
+    let facet = &triangles.triangle[row];
     let triangle_hit = TriangleHit::of(origin, direction, facet);
     let point = triangle_hit.interpolate(&facet.corners);
     let bound = offset_bound(point, origin, facet.size);

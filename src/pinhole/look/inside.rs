@@ -6,18 +6,19 @@ use crate::shade::emitter::triangle_solid_angle;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Triangles that fill so much of all that is seen, as seen from the camera, close around it.
+/// A solid angle, in steradians, from which triangles seen from the camera count as closed around it.
 const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 
-/// Says that a shape holds the camera, and which: a sphere, a cuboid, an ellipsoid, or triangles that close.
+/// A warning that the camera is inside a shape, and inside which: a sphere, a cuboid, an ellipsoid, or a closed mesh.
 ///
-/// What the camera stands in absorbs on the way to its own wall, not on the way to what else is in it.
+/// The medium around the camera attenuates the light that the camera receives from that shape's own surface, but not
+/// from objects inside it.
 pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Option<String>> {
     let spheres = scene.table::<SphereTable>()?;
     let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
     let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
     let cuboids = scene.table::<CuboidTable>()?;
-    let within = |row: &usize| cuboids.slabs[*row].holds_the_eye();
+    let within = |row: &usize| cuboids.slabs[*row].contains_the_eye();
     let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
     let ellipsoids = scene.table::<EllipsoidTable>()?;
     let within = |row: &usize| {
@@ -33,16 +34,17 @@ pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Op
         let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));
         scene.get::<Glass>(entity).or(used).is_some_and(|glass| glass.absorption != Rgb::BLACK)
     });
-    let lost = if absorbs { "; what it absorbs on the way to what else is in it is not counted" } else { "" };
-    Ok(Some(format!("the camera is inside the {name}, and sees it from within{lost}")))
+    let lost = if absorbs { "; its absorption is not applied to what is seen within it" } else { "" };
+    Ok(Some(format!("the camera is inside the {name} and sees it from within{lost}")))
 }
 
-/// The first triangle of those of one material that close around the camera: their solid angles, counted negative where
+/// The first triangle of a mesh of one material that is closed around the camera: signed solid angles, negative where a
+/// triangle shows its front, add up to ±4π inside a closed mesh and to zero outside it.
 /// a triangle shows its front, sum to all round inside, and to nothing outside.
 fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u32> {
     let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
-        let corners = &triangles.facet[row].corners;
+        let corners = &triangles.triangle[row].corners;
         let angle = triangle_solid_angle(corners).copysign(triangles.normal[row].dot(corners[0]));
         let of = filled.entry(shapes.material[shape as usize]).or_insert((0.0, shape));
         of.0 += if angle.is_finite() { angle } else { 0.0 };

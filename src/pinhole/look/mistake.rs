@@ -1,4 +1,4 @@
-//! Small scenes with something wrong, as it happens to everyone once.
+//! Small scenes, each with a mistake that everyone makes once.
 
 use crate::scene::{
     Background, Cuboid, Emissive, Glass, Integrator, Lens, LightStrategy, LookAt, Matte, Mirror, Name,
@@ -7,7 +7,7 @@ use crate::scene::{
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// A scene and what is wrong with it.
+/// A scene and what is wrong with it; one scene is correct, for comparison.
 pub struct Mistake {
     /// What is wrong, in a few words.
     pub what: &'static str,
@@ -15,7 +15,7 @@ pub struct Mistake {
     pub scene: fn(&mut World),
 }
 
-/// All of them; the first has nothing wrong.
+/// All of the scenes; the first has nothing wrong.
 pub const MISTAKES: &[Mistake] = &[
     Mistake {
         what: "nothing wrong",
@@ -26,14 +26,14 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "no light, by paths",
+        what: "no light, by path tracing",
         scene: |world| {
             eye(world, 6.0, Integrator::PATH);
             floor_and_ball(world);
         },
     },
     Mistake {
-        what: "a lamp behind the wall",
+        what: "a light behind the wall",
         scene: |world| {
             eye(world, 6.0, ());
             world.spawn((Name::new("wall"), Plane { normal: DVec3::Z }, Matte::default()));
@@ -41,7 +41,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "a lamp inside the ball",
+        what: "a light inside the ball",
         scene: |world| {
             eye(world, 6.0, ());
             floor_and_ball(world);
@@ -78,7 +78,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "the same before a blue sky",
+        what: "the same in front of a blue sky",
         scene: |world| {
             eye(world, -6.0, ());
             let ball = (Name::new("ball"), Sphere { radius: 1.0 }, Matte::default());
@@ -87,7 +87,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "a lamp a hundred times too bright",
+        what: "a light a hundred times too bright",
         scene: |world| {
             eye(world, 6.0, ());
             floor_and_ball(world);
@@ -95,7 +95,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "a small lamp left to chance",
+        what: "a small area light found by BSDF sampling alone",
         scene: |world| {
             let lights = LightStrategy::Bsdf;
             eye(world, 6.0, Integrator::Path { max_depth: 16, lights, roulette: 5 });
@@ -114,7 +114,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "a lamp with an area, by Whitted's rays",
+        what: "an area light, by Whitted's method",
         scene: |world| {
             eye(world, 6.0, Integrator::WHITTED);
             floor_and_ball(world);
@@ -124,7 +124,7 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        what: "focus at 0",
+        what: "a focus distance of 0",
         scene: |world| {
             eye(world, 6.0, Lens { focus_distance: 0.0, ..Lens::default() });
             floor_and_ball(world);
@@ -133,7 +133,7 @@ pub const MISTAKES: &[Mistake] = &[
     },
 ];
 
-/// A camera on the z axis, with more on it, that looks at the ball, or away from it where it has passed it.
+/// A camera on the z axis, with further components, that looks towards the ball from z > 0 and away from it from z < 0.
 fn eye(world: &mut World, z: f64, more: impl Bundle) {
     let eye = DVec3::new(0.0, 1.0, z);
     let look = LookAt { eye, target: eye - z.signum() * DVec3::Z, ..LookAt::default() };

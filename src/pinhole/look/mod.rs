@@ -1,7 +1,7 @@
 //! Looking inside: the same columns that the stages write, printed, painted and counted.
 //!
 //! Reads: any column, through the registry ([`ColumnKind`](crate::plan::ColumnKind)); the camera, for [`convention`].
-//! Writes: text, and for a view the picture; no number of the render changes.
+//! Writes: text, and for a view the picture; it changes no value of the render.
 
 pub mod convention;
 

@@ -3,74 +3,73 @@ use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
 use crate::rays::{Depth, Tile};
-use crate::render::{Hook, look_at_pieces, usual_tile_side};
+use crate::render::{Hook, probe_tiles, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The most pieces of the picture along each axis, and the pixels along a side of each.
-const PIECES: [u32; 2] = [12, 8];
+/// The greatest number of small tiles along each axis of the image, and the side of each in pixels.
+const TILES: [u32; 2] = [12, 8];
 const SIDE: u32 = 8;
-/// Half of the smallest step of a PNG near black.
+/// Half of the smallest step of an 8-bit PNG near black, as radiance.
 const DARK: f32 = 1.5e-4;
-/// On later legs fewer and fewer rays are left, and they say less and less of what is wrong.
+/// After this many bounces few rays are left, and they say little about what is wrong with a scene.
 const MAX_DEPTH: u32 = 4;
 
-/// What a few rays of the picture to come have met and brought back.
+/// What a few rays, traced before a picture is rendered, hit and returned.
 #[derive(Clone, Debug, Default)]
 pub struct Pilot {
-    /// Rays from the camera, in pieces that were finished; all but the last five numbers speak of these.
+    /// Camera rays in tiles that were finished; all fields but the last five refer to these.
     pub rays: usize,
-    /// Those that met a shape.
-    pub met: usize,
-    /// Those that brought back no light that a PNG would show.
+    /// Camera rays that hit a shape.
+    pub hits: usize,
+    /// Camera rays that returned no light that a PNG would show.
     pub black: usize,
-    /// Those that brought back more than white in all of red, green and blue.
+    /// Camera rays whose radiance is above white in each of red, green and blue.
     pub beyond_white: usize,
-    /// Rays to lights, on the first legs.
+    /// Shadow rays, traced during the first bounces.
     pub to_lights: usize,
-    /// How many of them each shape is in the way of, by its number.
+    /// How many shadow rays each shape blocks, by the shape's number.
     pub blocked: BTreeMap<u32, usize>,
-    /// What a ray took on average with all that followed from it, in seconds of one thread; where pieces were given up, at
-    /// least that.
+    /// Average cost of a camera ray with all the rays that follow from it, in seconds of one thread; a lower bound
+    /// where tiles were given up.
     pub seconds_a_ray: f64,
-    /// How many rays follow one of the camera's on average, those to lights not counted.
+    /// How many rays follow a camera ray on average, shadow rays not counted.
     pub followed_by: f64,
-    /// Rays from the camera, those in pieces that were given up counted too.
+    /// Camera rays, including those in tiles that were given up.
     pub tried: usize,
-    /// The most bounces that a ray in a piece had behind it when the piece was given up.
+    /// The greatest number of bounces that a path had made when its tile was given up.
     pub deepest: u32,
-    /// Pieces of the picture that were to be tried.
-    pub pieces: usize,
+    /// Small tiles of the image that were to be traced.
+    pub tiles: usize,
 }
 
-/// What a hook has counted in one piece so far.
+/// What a hook has counted in one tile so far.
 #[derive(Resource, Clone, Debug, Default)]
 struct Counted {
-    met: usize,
-    /// Rays to lights on each leg.
+    hits: usize,
+    /// Shadow rays at each bounce.
     to_lights: BTreeMap<u32, usize>,
-    /// What is in their way.
+    /// At each bounce, how many shadow rays each shape blocks.
     blocked: BTreeMap<u32, BTreeMap<u32, usize>>,
-    /// The bounce at hand, counted from 0, and its rays.
+    /// The current bounce, counted from 0, and its number of rays.
     bounce: (u32, usize),
-    /// The rays of all bounces before it.
+    /// The number of rays of all earlier bounces.
     before: usize,
 }
 
-/// Traces one sample of each pixel of some small pieces of the picture, spread evenly over it, until all are done or the
-/// time is up.
+/// Traces one sample per pixel of some small tiles, spread evenly over the image, until all are done or the time is up.
 ///
-/// Errors: an image without a shape.
+/// Errors: a camera without a valid resolution.
 pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
     let image = *scene.table::<ImageFrame>()?;
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
-    let pieces = pieces(image, side);
-    let mut pilot = Pilot { pieces: pieces.len(), ..Pilot::default() };
+    let small_tiles = small_tiles(image, side);
+    let mut pilot = Pilot { tiles: small_tiles.len(), ..Pilot::default() };
     let (mut time, mut all, started) = (0.0, 0, Instant::now());
-    look_at_pieces(scene, prepared, &pieces, patience, &[counting_hook()], &mut |world, took| {
+    probe_tiles(scene, prepared, &small_tiles, patience, &[counting_hook()], &mut |world, took| {
         let counted = world.remove_resource::<Counted>().unwrap_or_default();
         let mut tiles = world.query::<(&Tile, Option<&Radiance>)>();
         let Ok((tile, radiance)) = tiles.single(world) else { return };
@@ -82,12 +81,12 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
             None => return pilot.deepest = pilot.deepest.max(counted.bounce.0),
         }
         pilot.rays += rays;
-        pilot.met += counted.met;
+        pilot.hits += counted.hits;
         pilot.to_lights += counted.to_lights.values().sum::<usize>();
         for (shape, count) in counted.blocked.into_values().flatten() {
             *pilot.blocked.entry(shape).or_default() += count;
         }
-        // Where nothing in the scene brings light, there is no such column, or it has no rows.
+        // Where no light is in the scene, the column is missing or has no rows.
         let Some(radiance) = radiance.filter(|radiance| radiance.rows() == rays) else {
             pilot.black += rays;
             return;
@@ -104,54 +103,55 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
     Ok(pilot)
 }
 
-/// The pieces: each in the middle of its part of the picture, and all of a small one; in an order in which the first few
-/// are spread evenly already.
-fn pieces(image: ImageFrame, side: u32) -> Vec<Tile> {
+/// Small tiles, each in the middle of its part of the image, or the whole of a small image; ordered such that any first
+/// few are spread evenly.
+fn small_tiles(image: ImageFrame, side: u32) -> Vec<Tile> {
     let along = |pixels: u32, most: u32| -> Vec<[u32; 2]> {
         let count = (pixels / SIDE).clamp(1, most);
         let side = side.min(pixels);
-        (0..count).map(|piece| [((2 * piece + 1) * pixels / (2 * count)).saturating_sub(side / 2), side]).collect()
+        (0..count).map(|tile| [((2 * tile + 1) * pixels / (2 * count)).saturating_sub(side / 2), side]).collect()
     };
-    let (columns, lines) = (along(image.width, PIECES[0]), along(image.height, PIECES[1]));
-    let mut pieces = Vec::new();
+    let (columns, lines) = (along(image.width, TILES[0]), along(image.height, TILES[1]));
+    let mut tiles = Vec::new();
     for (line, &[y, height]) in lines.iter().enumerate() {
         for (column, &[x, width]) in columns.iter().enumerate() {
             let turn = turn([256 * column / columns.len(), 256 * line / lines.len()]);
-            pieces.push((turn, Tile { x, y, width, height }));
+            tiles.push((turn, Tile { x, y, width, height }));
         }
     }
-    pieces.sort_by_key(|(turn, _)| *turn);
-    pieces.into_iter().map(|(_, piece)| piece).collect()
+    tiles.sort_by_key(|(turn, _)| *turn);
+    tiles.into_iter().map(|(_, tile)| tile).collect()
 }
 
-/// When the turn of a place is that lies so many 256ths along each axis: the halves of a place come before its quarters.
+/// The rank of a position given in 256ths along each axis, so that halves come before quarters (bits interleaved and
+/// reversed).
 fn turn([x, y]: [usize; 2]) -> usize {
     (0..8).map(|bit| (x >> (7 - bit) & 1 | (y >> (7 - bit) & 1) << 1) << (2 * bit)).sum()
 }
 
-/// Counts what the camera's rays have met, and on the first legs which rays to lights are blocked.
+/// Counts what camera rays hit and, during the first bounces, which shapes block shadow rays.
 ///
-/// Several stages write each of the two columns, so the last count of a leg is the one that counts.
+/// Several stages write each of the two columns, so the last count of a bounce is the final one.
 fn counting_hook() -> Hook {
     Arc::new(|_, stage: &Stage, _| {
-        let [hits, shadows] =
+        let [writes_hits, writes_shadows] =
             [ColumnKind::of::<Hits>(), ColumnKind::of::<ShadowHits>()].map(|column| stage.writes.contains(&column));
         let count = move |world: &mut World,
                           tiles: &mut QueryState<
             (&Depth, Option<&Hits>, Option<(&LightRays, &ShadowHits)>),
             With<Tile>,
         >| {
-            if !(hits || shadows) {
+            if !(writes_hits || writes_shadows) {
                 return;
             }
             let mut counted = world.remove_resource::<Counted>().unwrap_or_default();
-            let (mut met, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
+            let (mut hits, mut rows, mut to_lights, mut blocked) = (0, 0, 0, BTreeMap::new());
             let mut depth = 0;
             for (own, hit, light) in tiles.iter(world) {
                 depth = own.0;
                 if let Some(hit) = hit {
                     rows += hit.rows();
-                    met += hit.shape.iter().filter(|&&shape| shape != NO_SHAPE).count();
+                    hits += hit.shape.iter().filter(|&&shape| shape != NO_SHAPE).count();
                 }
                 if let Some((rays, shadows)) = light {
                     to_lights += rays.rows();
@@ -160,16 +160,16 @@ fn counting_hook() -> Hook {
                     }
                 }
             }
-            if hits && depth == 0 {
-                counted.met = met;
+            if writes_hits && depth == 0 {
+                counted.hits = hits;
             }
-            if hits {
+            if writes_hits {
                 if counted.bounce.0 != depth {
                     counted.before += counted.bounce.1;
                 }
                 counted.bounce = (depth, rows);
             }
-            if shadows && depth < MAX_DEPTH {
+            if writes_shadows && depth < MAX_DEPTH {
                 counted.to_lights.insert(depth, to_lights);
                 counted.blocked.insert(depth, blocked);
             }
@@ -184,17 +184,17 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// Every piece is tried once, and the first few of them lie in all quarters of the picture.
+    /// Every tile is traced once, and the first few of them lie in all quarters of the image.
     #[test]
-    fn pieces_are_spread_evenly_from_the_first_on() {
+    fn tiles_are_spread_evenly_from_the_first_on() {
         let image = ImageFrame { width: 960, height: 540 };
-        let pieces = pieces(image, SIDE);
-        let all: BTreeSet<_> = pieces.iter().map(|tile| (tile.x, tile.y)).collect();
-        assert_eq!((pieces.len(), all.len()), (96, 96));
+        let tiles = small_tiles(image, SIDE);
+        let all: BTreeSet<_> = tiles.iter().map(|tile| (tile.x, tile.y)).collect();
+        assert_eq!((tiles.len(), all.len()), (96, 96));
         for (parts, tried) in [(2, 4), (4, 24)] {
             let part = |tile: &Tile| (tile.x * parts / 960, tile.y * parts / 540);
-            let seen: BTreeSet<_> = pieces[..tried].iter().map(part).collect();
-            assert_eq!(seen.len(), (parts * parts) as usize, "{:?}", &pieces[..tried]);
+            let seen: BTreeSet<_> = tiles[..tried].iter().map(part).collect();
+            assert_eq!(seen.len(), (parts * parts) as usize, "{:?}", &tiles[..tried]);
         }
     }
 }

@@ -2,29 +2,30 @@ use super::pilot::Pilot;
 use crate::plan::Census;
 use crate::shade::point_evidence;
 
-/// From so many seconds on it is said before a render how long it is likely to take.
+/// A warning about time is given from this many seconds on.
 const LONG: f64 = 600.0;
-/// From so many rays after one of the camera's on it is said that surfaces absorb too little; rooms with white walls and
-/// a ball of glass stay below a quarter of that.
+/// A warning that surfaces absorb too little is given from this many rays per camera ray on; a room with white walls
+/// and a glass ball stays below a quarter of it.
 const MANY_BOUNCES: f64 = 64.0;
 
-/// How much there is to render, and by how many.
+/// How much there is to render, and with how many threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Samples of all pixels together; none where the time is given instead.
+    /// The number of samples of all pixels together; none where a time limit is given instead.
     pub samples: Option<f64>,
     /// Workers.
     pub threads: usize,
 }
 
-/// Says that a picture is likely to take very long, by what one ray took with all that followed from it.
+/// A warning that a picture will take very long, estimated from the cost of one camera ray and all that follows from
+/// it.
 pub fn slow(seconds_a_ray: f64, effort: Effort) -> Option<String> {
     let samples = effort.samples?;
     let seconds = samples * seconds_a_ray / effort.threads.max(1) as f64;
     (seconds >= LONG).then(|| {
         format!(
-            "the picture is likely to take about {}: {} samples at {} each, on {}; --time 5m stops after five minutes \
-             with what there is by then, and --resume goes on from there",
+            "the picture will take about {}: {} samples at {} each, on {}; --time 5m stops after five minutes \
+             with the picture as it is by then, and --resume continues from there",
             long_span(seconds),
             many(samples),
             short_span(seconds_a_ray),
@@ -33,38 +34,38 @@ pub fn slow(seconds_a_ray: f64, effort: Effort) -> Option<String> {
     })
 }
 
-/// Says that surfaces hand light on to one another for very long, which makes a picture slow without making it better.
+/// A warning that paths are very long because surfaces absorb little, which makes a picture slow without making it
+/// better.
 pub fn many_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
     (pilot.followed_by >= MANY_BOUNCES).then(|| {
         format!(
-            "each ray from the camera is followed by {:.0} more on average, because the surfaces that it comes by absorb \
-             next to no light; darker surfaces, or a max_depth below the {max_depth} that the integrator allows, render faster",
+            "each camera ray is followed by {:.0} more on average, because the surfaces that it hits absorb \
+             next to no light; darker surfaces, or a max_depth below {max_depth}, render faster",
             pilot.followed_by
         )
     })
 }
 
-/// Says that not one of the small pieces of the picture that were tried was finished.
+/// A warning that none of the small tiles that were traced was finished.
 pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
     let seconds = pilot.seconds_a_ray;
     let picture = effort.samples.map(|samples| samples * seconds / effort.threads.max(1) as f64);
     let picture = picture.filter(|&picture| picture >= LONG).map(long_span);
-    let picture =
-        picture.map_or_else(String::new, |span| format!(", so the picture is likely to take more than {span}"));
+    let picture = picture.map_or_else(String::new, |span| format!(", so the picture will take more than {span}"));
     format!(
-        "none of {} rays tried had come to its end when the time for trying was up: a ray takes more than {}{picture}; \
+        "none of {} test rays was finished when the time for them was up: a ray takes more than {}{picture}; \
          {why}",
         pilot.tried,
         short_span(seconds)
     )
 }
 
-/// What makes a ray slow in this scene.
+/// The reason why a ray takes long in this scene.
 pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
     if f64::from(pilot.deepest) >= MANY_BOUNCES {
         return format!(
-            "after {} bounces its path still went on, and the integrator allows {max_depth} max_depth; a smaller number, or surfaces \
-             that absorb more, would end it",
+            "after {} bounces its path had not ended, and the integrator allows a max_depth of {max_depth}; a smaller one, or \
+             surfaces that absorb more, would end it",
             pilot.deepest
         );
     }
@@ -73,7 +74,7 @@ pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize
     format!("each ray is tested against {shapes} shapes{tests}")
 }
 
-/// Minutes, hours, days or years, whichever gives a number that is easily taken in.
+/// A time in minutes, hours, days or years, whichever gives a number that is easy to grasp.
 fn long_span(seconds: f64) -> String {
     let units = [("minutes", 60.0, 120.0), ("hours", 3600.0, 48.0), ("days", 86_400.0, 730.0)];
     for (unit, length, most) in units {
@@ -96,7 +97,7 @@ fn many(count: f64) -> String {
     match count {
         ..1e6 => format!("{count}"),
         ..1e9 => format!("{:.0} million", count / 1e6),
-        _ => format!("{:.1} thousand million", count / 1e9),
+        _ => format!("{:.1} billion", count / 1e9),
     }
 }
 
@@ -105,24 +106,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_renders_are_told() {
+    fn long_renders_are_announced() {
         let of = |samples, seconds, threads| slow(seconds, Effort { samples: Some(samples), threads });
         assert_eq!(of(1e8, 1e-5, 2), None, "500 s");
         assert_eq!(slow(1e9, Effort { samples: None, threads: 1 }), None, "the time is given");
-        let told = of(1.2e8, 1e-5, 2).expect("600 s");
-        assert!(
-            told.starts_with("the picture is likely to take about 10 minutes: 120 million samples at 10.0 µs each")
-        );
-        assert!(told.contains(", on 2 threads; --time 5m"), "{told}");
+        let warning = of(1.2e8, 1e-5, 2).expect("600 s");
+        assert!(warning.starts_with("the picture will take about 10 minutes: 120 million samples at 10.0 µs each"));
+        assert!(warning.contains(", on 2 threads; --time 5m"), "{warning}");
         for (samples, seconds, threads, words) in [
             (1e6, 7.1e-3, 1, ["about 118 minutes", "1 million samples", "7.1 ms", "on 1 thread;"]),
             (1e6, 7.2e-3, 1, ["about 2 hours", "1 million samples", "7.2 ms", "on 1 thread;"]),
-            (6e10, 2e-6, 4, ["about 8 hours", "60.0 thousand million samples", "2.0 µs", "on 4 threads;"]),
+            (6e10, 2e-6, 4, ["about 8 hours", "60.0 billion samples", "2.0 µs", "on 4 threads;"]),
             (9e5, 1.5, 4, ["about 4 days", "900000 samples", "1.5 s", "on 4 threads;"]),
-            (1.1e9 * 1.6e7, 1e-6, 1, ["about 558 years", "thousand million", "1.0 µs", "on 1 thread;"]),
+            (1.1e9 * 1.6e7, 1e-6, 1, ["about 558 years", "billion", "1.0 µs", "on 1 thread;"]),
         ] {
-            let told = of(samples, seconds, threads).expect("long");
-            assert!(words.iter().all(|word| told.contains(word)), "{told}");
+            let warning = of(samples, seconds, threads).expect("long");
+            assert!(words.iter().all(|word| warning.contains(word)), "{warning}");
         }
         assert_eq!(of(1e9, f64::NAN, 1), None);
     }

@@ -1,3 +1,4 @@
+use crate::plan::TileSystems;
 use crate::render::{Rendered, peak_memory};
 use serde::Serialize;
 use std::fmt;
@@ -12,7 +13,7 @@ pub struct StageStats {
     pub rows: u64,
     /// Milliseconds, summed over workers.
     pub milliseconds: f64,
-    /// Nanoseconds a row; none where it had no rows.
+    /// Nanoseconds per row; none where it had no rows.
     pub nanoseconds_a_row: Option<f64>,
 }
 
@@ -25,34 +26,34 @@ pub struct RenderStats {
     pub width: u32,
     /// Pixels from top to bottom.
     pub height: u32,
-    /// Workers.
+    /// The number of workers.
     pub threads: usize,
-    /// From the first tile to the last.
+    /// Elapsed time from the first tile to the last, in milliseconds.
     pub milliseconds: f64,
-    /// Rays a second, in millions.
+    /// Millions of rays per second.
     pub megarays_a_second: f64,
-    /// Rays of all kinds: a camera ray a pixel, and the rays to lights.
+    /// Rays of all kinds: camera rays and shadow rays.
     pub rays: u64,
-    /// Bytes that the film takes.
+    /// Memory of the film, in bytes.
     pub film_bytes: usize,
-    /// Bytes a pixel of film.
+    /// Bytes of film per pixel.
     pub film_bytes_a_pixel: f64,
-    /// Bytes that tables take.
+    /// Memory of the tables, in bytes.
     pub table_bytes: usize,
-    /// Bytes that the columns of one tile take.
+    /// Memory of the columns of one tile, in bytes.
     pub column_bytes_a_tile: usize,
-    /// The most memory that the process has held, in bytes, where the system says.
+    /// The peak memory of the process, in bytes, where the system reports it.
     pub peak_memory_bytes: Option<u64>,
-    /// Samples that were not finite or negative, and so did not join the film.
+    /// Samples that were rejected because they were negative, infinite or NaN.
     pub rejected_samples: u64,
-    /// The stages in order.
+    /// The stages that ran, in order.
     pub stages: Vec<StageStats>,
     /// The stages that were left out, and why.
     pub left_out: Vec<(String, String)>,
 }
 
 impl RenderStats {
-    /// Reads off what a render left.
+    /// Collects the statistics of a finished render.
     pub fn of(chapter: &str, rendered: &Rendered, tile_side: u32) -> Self {
         let pixels = f64::from(rendered.film.width) * f64::from(rendered.film.height);
         let stages: Vec<StageStats> = rendered
@@ -68,9 +69,10 @@ impl RenderStats {
             })
             .collect();
         let rays_of = |name: &str| stages.iter().find(|stage| stage.stage == name).map_or(0, |stage| stage.rows);
-        // Each kind of light appends its rays to those before.
-        let aimed = stages.iter().filter(|stage| stage.stage.starts_with("Aim at "));
-        let light_rays = aimed.map(|stage| stage.rows).max().unwrap_or(0);
+        // Each kind of light appends its shadow rays to those of the kinds before it.
+        let shadow_rays =
+            rendered.plan.stages.iter().zip(&stages).filter(|(stage, _)| stage.set == TileSystems::SampleLights);
+        let light_rays = shadow_rays.map(|(_, stage)| stage.rows).max().unwrap_or(0);
         let rays = rays_of("Transform rays to world space") + light_rays;
         let tile_side = tile_side.min(rendered.film.tile_side);
         let row_bytes: usize = rendered.plan.columns.iter().map(|column| column.bytes_a_row()).sum();

@@ -10,26 +10,26 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What one stage wrote for one pixel. Its address is (stage, pixel, sample, leg).
+/// What one stage wrote for one pixel; its address is (stage, pixel, sample, bounce).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recorded {
     /// The stage that has just run.
     pub stage: &'static str,
     /// The sample's number within the pixel.
     pub sample: u32,
-    /// The leg of the light's way; 0 is the one to the eye.
+    /// The bounce, counted from 0; 0 is the camera ray.
     pub depth: u32,
     /// The column that it wrote.
     pub column: ColumnKind,
-    /// The lanes of each row of the column; no rows where nothing is known of this pixel.
+    /// The components of each row of the column; no rows where the column says nothing about this pixel.
     pub rows: Vec<Vec<(&'static str, ComponentNumber)>>,
 }
 
-/// What recorders have written, in order.
+/// What the recorders have written, in order.
 #[derive(Resource, Default)]
 struct Recording(Vec<Recorded>);
 
-/// A pixel's way to light, stage by stage.
+/// The light path of a pixel, stage by stage.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// The pixel.
@@ -40,23 +40,23 @@ pub struct Trace {
     pub stages: Vec<Recorded>,
     /// The names of the shapes that stages wrote, by number.
     pub shapes: BTreeMap<u32, String>,
-    /// Whether all legs are printed, however many there are; else the first few and the last.
+    /// Whether all bounces are printed, however many there are; otherwise only the first few and the last.
     pub prints_all: bool,
 }
 
-/// How many legs of a long way are printed at its beginning and at its end.
+/// How many bounces of a long path are printed at its beginning and at its end.
 const SHOWN: [u32; 2] = [16, 4];
 
-/// Follows a pixel's first sample by running the stages on its tile.
+/// Traces the first sample of a pixel by running the stages on a tile of that pixel.
 ///
-/// Errors: what a render would be refused for, or a pixel outside the image.
+/// Errors: whatever a render would refuse, and a pixel outside the image.
 pub fn trace(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel) -> Result<Trace> {
     trace_sample(scene, offer, pixel, 0)
 }
 
-/// The same for any of its samples, each by itself.
+/// The same for any of the pixel's samples.
 ///
-/// Errors: also a sample that the camera does not take.
+/// Errors: those of [`trace`], and a sample that the camera does not take.
 pub fn trace_sample(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel, sample: u32) -> Result<Trace> {
     let image = scene.table::<ImageFrame>()?;
     if pixel.x >= image.width || pixel.y >= image.height {
@@ -79,7 +79,7 @@ pub fn trace_sample(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel, samp
     Ok(Trace { pixel, sample, stages, shapes, prints_all: false })
 }
 
-/// What a message calls each shape that a stage wrote the number of.
+/// The names of all shapes whose numbers a stage wrote.
 fn shapes_named(scene: &Census<'_>, stages: &[Recorded]) -> BTreeMap<u32, String> {
     let shapes = shape_entities(scene);
     let name = |&(component, number): &(&str, ComponentNumber)| match number {
@@ -91,7 +91,7 @@ fn shapes_named(scene: &Census<'_>, stages: &[Recorded]) -> BTreeMap<u32, String
     stages.iter().flat_map(|recorded| recorded.rows.iter().flatten()).filter_map(name).collect()
 }
 
-/// A system after each stage that copies what it wrote for the pixel, before a later leg can overwrite it.
+/// A system after each stage that copies what it wrote for the pixel, before a later bounce can overwrite it.
 fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
     Arc::new(move |_, stage: &Stage, plan: &Plan| {
         let name = stage.name;
@@ -121,8 +121,8 @@ fn record_hook(pixel: TracePixel, sample: u32) -> Hook {
     })
 }
 
-/// The rows of a column that belong to a pixel on the leg at hand: those of its rays, which on later legs are some rows
-/// or none.
+/// The rows of a column that belong to a pixel at the current bounce: those of its rays, of which there may be several
+/// or none after the first bounce.
 fn rows_at_depth(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usize> {
     let later = tile.get::<Depth>().is_some_and(|depth| depth.0 > 0);
     match tile.get::<Paths>().filter(|_| later && column.lifetime != Lifetime::Film && !column.is::<PathLight>()) {
@@ -136,30 +136,30 @@ fn rows_at_depth(tile: &EntityRef<'_>, column: ColumnKind, path: u32) -> Vec<usi
 
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A stage that runs later on the same leg may write over what an earlier one wrote.
+        // A later stage of the same bounce may overwrite what an earlier one wrote.
         let mut last: HashMap<(u32, &str), usize> = HashMap::new();
         for (position, recorded) in self.stages.iter().enumerate() {
             last.insert((recorded.depth, recorded.column.name), position);
         }
         let left_out = self.bounces_left_out();
-        let mut told = None;
+        let mut announced = None;
         for (position, recorded) in self.stages.iter().enumerate() {
             let listing = recorded.column.unit == "rows";
             if last.get(&(recorded.depth, recorded.column.name)) != Some(&position) || listing {
                 continue;
             }
             if left_out.contains(&recorded.depth) {
-                if recorded.depth == left_out.start && told != Some(recorded.depth) {
+                if recorded.depth == left_out.start && announced != Some(recorded.depth) {
                     let (first, end) = (left_out.start, left_out.end - 1);
-                    writeln!(f, "legs {first} to {end} are left out; --all prints them")?;
-                    told = Some(recorded.depth);
+                    writeln!(f, "bounces {first} to {end} are left out; --all prints them")?;
+                    announced = Some(recorded.depth);
                 }
                 continue;
             }
-            if told != Some(recorded.depth) {
+            if announced != Some(recorded.depth) {
                 let (pixel, sample, depth) = (self.pixel, self.sample, recorded.depth);
-                writeln!(f, "pixel {},{}   sample {sample}, leg {depth}", pixel.x, pixel.y)?;
-                told = Some(depth);
+                writeln!(f, "pixel {},{}   sample {sample}, bounce {depth}", pixel.x, pixel.y)?;
+                announced = Some(depth);
             }
             let (name, space, unit) = (recorded.column.name, recorded.column.space, recorded.column.unit);
             let head = format!("{name:<9} {space:<20} {unit:<24}");
@@ -176,20 +176,20 @@ impl fmt::Display for Trace {
 }
 
 impl Trace {
-    /// The legs that are not printed: those in the middle of a long way.
+    /// The bounces that are not printed: those in the middle of a long path.
     fn bounces_left_out(&self) -> Range<u32> {
         let max_depth = self.stages.iter().map(|recorded| recorded.depth).max().map_or(0, |last| last + 1);
         let [first, last] = SHOWN;
         if self.prints_all || max_depth <= first + last { 0..0 } else { first..max_depth - last }
     }
 
-    /// The name of the shape of this number; none where nothing was hit.
+    /// The name of the shape with this number; none where nothing was hit.
     pub fn shape_name(&self, number: ComponentNumber) -> Option<&str> {
         let ComponentNumber::U32(Some(number)) = number else { return None };
         self.shapes.get(&number).map(String::as_str)
     }
 
-    /// Lanes of a row, vectors in brackets, a shape by its name.
+    /// The components of a row, vectors in brackets, a shape by its name.
     fn show_row(&self, components: &[(&'static str, ComponentNumber)]) -> String {
         let word = |&(name, value): &(&'static str, ComponentNumber)| match name {
             "shape" => format!("shape {}", self.shape_name(value).unwrap_or("none")),

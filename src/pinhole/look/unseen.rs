@@ -1,4 +1,4 @@
-//! What an integrator that the camera names leaves out of a scene, and which one shows it.
+//! Light and materials that the camera's integrator leaves out, and the integrator that includes them.
 
 use crate::extract::{
     emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence,
@@ -7,63 +7,63 @@ use crate::plan::Census;
 use crate::scene::Integrator;
 use crate::shade::point_evidence;
 
-/// A sentence for each kind of light or matter that the scene has and its integrator does not show.
+/// A sentence for each kind of light or material in the scene that its integrator does not render.
 pub fn unseen(scene: &Census<'_>) -> Vec<String> {
-    let (material, lamps) = (matte_evidence(scene), emissive_evidence(scene));
+    let (material, emitters) = (matte_evidence(scene), emissive_evidence(scene));
     let (specular, metal) = (mirror_evidence(scene).or(glass_evidence(scene)), metal_evidence(scene));
-    let lit_by_area = lamps.needed && (material.needed || metal.needed);
-    let mut told = Vec::new();
+    let lit_by_area = emitters.needed && (material.needed || metal.needed);
+    let mut warnings = Vec::new();
     match integrator_of(scene).integrator {
         Integrator::RayCasting => {
             if specular.needed {
-                told.push(format!(
-                    "ray casting shows mirrors and glass dark ({}); Integrator::Whitted follows them",
+                warnings.push(format!(
+                    "ray casting renders mirrors and glass black ({}); Integrator::Whitted traces reflection and refraction",
                     specular.reason
                 ));
             }
-            // Beside other lights, that surfaces which emit are only seen is what was asked for.
+            // Beside other lights, emitting surfaces that are visible but do not illuminate are taken to be intended.
             if lit_by_area && !point_evidence(scene).needed {
-                told.push(format!(
-                    "ray casting lights nothing by surfaces that emit ({}); Integrator::Path does",
-                    lamps.reason
+                warnings.push(format!(
+                    "with ray casting, surfaces that emit light do not illuminate others ({}); with Integrator::Path they do",
+                    emitters.reason
                 ));
             }
         }
         Integrator::Whitted { .. } => {
             if metal.needed {
-                told.push(format!(
-                    "Whitted's rays show nothing in rough metal but lights without an area ({}); Integrator::Path \
+                warnings.push(format!(
+                    "Whitted's method shows only lights without an area in rough metal ({}); Integrator::Path \
                      shows the rest",
                     metal.reason
                 ));
             }
             if lit_by_area {
-                told.push(format!(
-                    "Whitted's rays light nothing by surfaces that emit ({}); Integrator::Path does",
-                    lamps.reason
+                warnings.push(format!(
+                    "with Whitted's method, surfaces that emit light do not illuminate others ({}); with Integrator::Path they do",
+                    emitters.reason
                 ));
             }
         }
         Integrator::AmbientOcclusion { .. } => {
             let all = specular.or(metal);
             if all.needed {
-                told.push(format!(
-                    "ambient occlusion shows mirrors, glass and metal as it shows all surfaces ({}); Integrator::Path \
+                warnings.push(format!(
+                    "ambient occlusion renders mirrors, glass and metal like all other surfaces ({}); Integrator::Path \
                      shows what they reflect",
                     all.reason
                 ));
             }
         }
         Integrator::Distribution { .. } => {
-            if lamps.needed && material.needed && specular.needed {
-                told.push(format!(
-                    "light that comes by way of mirrors or glass ({}) from surfaces that emit ({}) is missing from \
-                     matte surfaces, which send no rays on; Integrator::Path finds it",
-                    specular.reason, lamps.reason
+            if emitters.needed && material.needed && specular.needed {
+                warnings.push(format!(
+                    "light that arrives through mirrors or glass ({}) from surfaces that emit it ({}) is missing on \
+                     matte surfaces, which Whitted's method does not trace further; Integrator::Path finds it",
+                    specular.reason, emitters.reason
                 ));
             }
         }
         Integrator::Path { .. } => {}
     }
-    told
+    warnings
 }

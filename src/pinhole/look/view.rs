@@ -6,10 +6,10 @@ use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::EntityRef;
 
-/// The column that a view paints.
+/// The column that a view shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ViewTable {
-    /// Its word.
+    /// The column's name.
     pub column: String,
 }
 
@@ -27,13 +27,13 @@ impl Table for ViewTable {
     }
 }
 
-/// Makes the system that paints one of `columns`: the one that the view asks for.
+/// A system that paints the column that the view names, one of `columns`.
 ///
 /// A column without a row for a pixel leaves it black; one with several gives it the first.
 fn paint_view(columns: Vec<ColumnKind>) -> impl FnMut(&mut World, &mut QueryState<Entity, With<Tile>>) + Clone {
     move |world, tiles| {
-        let asked = &world.resource::<Shared<ViewTable>>().column;
-        let Some(column) = columns.iter().copied().find(|column| column.name == asked) else { return };
+        let wanted = &world.resource::<Shared<ViewTable>>().column;
+        let Some(column) = columns.iter().copied().find(|column| column.name == wanted) else { return };
         let image: [u32; 2] = {
             let image = world.resource::<Shared<ImageFrame>>();
             [image.width, image.height]
@@ -59,7 +59,7 @@ fn paint_tile(column: ColumnKind, tile: &EntityRef<'_>, image: [u32; 2]) -> Radi
     painted
 }
 
-/// The path of each row of a column, in order: the row's number, unless a lane says otherwise.
+/// The path of each row of a column, in order: the row's own number, unless a component `path` or `row` gives it.
 pub fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
     let components = (column.components)(tile);
     match components
@@ -72,7 +72,7 @@ pub fn paths<'t>(column: ColumnKind, tile: &EntityRef<'t>) -> Vec<usize> {
     }
 }
 
-/// The stage on offer that paints any of the columns of the other stages on offer.
+/// The stage that paints any of the columns that the other stages on offer write.
 pub fn view_stage(offer: &[Stage]) -> Stage {
     let columns = offer.iter().flat_map(|stage| &stage.writes).copied().collect();
     Stage::new("Paint the view", TileSystems::View, paint_view(columns))

@@ -1,4 +1,4 @@
-//! What a system reads and writes, as bevy knows it from the system's parameters.
+//! The columns and tables that a system reads and writes, from bevy's access of the system's parameters.
 
 use super::{ColumnKind, Lifetime, Shared, Table, TableKind};
 use bevy_ecs::component::ComponentId;
@@ -14,28 +14,28 @@ use std::sync::{Arc, PoisonError, RwLock};
 static COLUMNS: RwLock<BTreeMap<TypeId, ColumnKind>> = RwLock::new(BTreeMap::new());
 /// The tables that any world has registered, by the type of their resource.
 static TABLES: RwLock<BTreeMap<TypeId, TableKind>> = RwLock::new(BTreeMap::new());
-/// What systems touch, by their types, since lists of stages are made over and over.
+/// The access of systems, by their types, cached because lists of stages are made repeatedly.
 ///
-/// The type of a system is that of its function or closure, or of a tuple of such, and so are its parameters.
+/// The type of a system is that of its function or closure, or of a tuple of these, and determines its parameters.
 static SYSTEMS: RwLock<BTreeMap<TypeId, Arc<Access>>> = RwLock::new(BTreeMap::new());
 
-/// What a system reads and writes, each in the order of its parameters.
+/// The columns and tables of a system, each in the order of its parameters.
 #[derive(Debug, Default)]
 pub(super) struct Access {
-    /// Columns without which its queries find nothing.
+    /// Columns that its queries require.
     pub reads: Vec<ColumnKind>,
-    /// Columns it reads where they exist.
+    /// Columns that it reads where they exist.
     pub reads_if: Vec<ColumnKind>,
-    /// Columns it writes.
+    /// Columns that it writes.
     pub writes: Vec<ColumnKind>,
-    /// Those of them without which its queries find nothing.
+    /// Those of the written columns that its queries require.
     pub needs: Vec<ColumnKind>,
-    /// Tables, optional ones among them, for bevy tells no difference.
+    /// Tables, including optional ones, which bevy's access does not distinguish.
     pub tables: Vec<TableKind>,
 }
 
 impl Access {
-    /// What the systems of this configuration touch, where `system` is the type that it is made of.
+    /// The access of the systems in this configuration, where `system` is the type that it is made of.
     pub fn of(system: TypeId, configs: impl FnOnce() -> ScheduleConfigs<ScheduleSystem>) -> Arc<Self> {
         if let Some(known) = SYSTEMS.read().unwrap_or_else(PoisonError::into_inner).get(&system) {
             return Arc::clone(known);
@@ -46,7 +46,7 @@ impl Access {
     }
 
     fn measured(configs: ScheduleConfigs<ScheduleSystem>) -> Self {
-        // In a world of its own, components are numbered in the order of the system's parameters.
+        // In a fresh world, components are numbered in the order of the system's parameters.
         let (mut world, mut schedule) = (World::new(), Schedule::default());
         schedule.add_systems(configs);
         let mut access = Self::default();
@@ -73,7 +73,7 @@ impl Access {
             let Some(column) = COLUMNS.read().unwrap_or_else(PoisonError::into_inner).get(&touched).copied() else {
                 continue;
             };
-            // The film holds the samples before this one, whether or not a stage has run for it yet.
+            // The film holds earlier samples, whether or not a stage has run for it yet.
             let needed = needed.contains(kind.index()) && column.lifetime != Lifetime::Film;
             match kind {
                 ComponentAccessKind::Exclusive(_) => {
@@ -97,14 +97,14 @@ fn push<T: PartialEq>(list: &mut Vec<T>, item: T) {
 }
 
 impl ColumnKind {
-    /// Makes the column known to the plan; bevy calls this by way of the column's `Component` where it first sees it.
+    /// Registers the column with the plan; bevy calls this through the column's `Component` when it first sees it.
     pub fn remember(self) {
         COLUMNS.write().unwrap_or_else(PoisonError::into_inner).insert(self.id, self);
     }
 }
 
 impl TableKind {
-    /// Makes the table known to the plan.
+    /// Registers the table with the plan.
     pub(super) fn remember<T: Table>(self) {
         TABLES.write().unwrap_or_else(PoisonError::into_inner).insert(TypeId::of::<Shared<T>>(), self);
     }

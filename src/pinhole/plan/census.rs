@@ -9,13 +9,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A scene that is read once: whatever predicates and tables ask of it is found out when it is first asked for, and kept.
+/// A scene that is read once: what predicates and tables need of it is computed when it is first needed, and kept.
 ///
-/// Validation, the plan, the tables of a render and what looks at a scene before it is rendered share one census.
-/// It borrows the scene, which therefore cannot change meanwhile, and stands for it wherever a [`World`] is read.
+/// Validation, the plan, the tables of a render and the preflight share one census.
+/// It borrows the scene, which therefore cannot change meanwhile, and dereferences to it.
 pub struct Census<'w> {
     scene: &'w World,
-    /// Answers by the type of the question.
+    /// Results by the types of the functions that computed them.
     known: RefCell<HashMap<TypeId, Box<dyn Any>>>,
     extractions: RefCell<BTreeMap<&'static str, usize>>,
 }
@@ -41,14 +41,14 @@ impl<'w> Census<'w> {
         self.extractions.borrow().clone()
     }
 
-    /// What a function finds out about the scene, called when its answer is first asked for.
+    /// The result of a function of the scene, which is called only the first time.
     ///
-    /// The answer is kept by the type of the function, so this must be a closure or a function item that captures nothing.
+    /// The result is kept by the type of the function, which must be a closure or a function item that captures nothing.
     pub fn once<A: Clone + 'static, F: Fn(&Census<'_>) -> A + 'static>(&self, find_out: F) -> A {
         const { assert!(size_of::<F>() == 0, "what a function captures is not part of its type") };
         let question = TypeId::of::<F>();
         let known = self.known.borrow().get(&question).and_then(|answer| answer.downcast_ref::<A>()).cloned();
-        // Not held while the answer is found out, for that may ask further questions.
+        // The map is not borrowed during the call, since that may need further results.
         known.unwrap_or_else(|| {
             let answer = find_out(self);
             self.known.borrow_mut().insert(question, Box::new(answer.clone()));
@@ -67,7 +67,7 @@ impl<'w> Census<'w> {
     }
 }
 
-/// The scene itself, for what is read directly.
+/// Gives access to the scene itself.
 impl Deref for Census<'_> {
     type Target = World;
     fn deref(&self) -> &World {

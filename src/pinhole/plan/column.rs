@@ -5,23 +5,23 @@ use serde::Serialize;
 use std::any::TypeId;
 use std::fmt;
 
-/// How long a row of a column stays true.
+/// How long a row of a column remains valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lifetime {
-    /// One sample of one pixel: written before the second leg and kept to the film.
+    /// One sample of one pixel: written at the first bounce and kept until the film.
     Pixel,
-    /// One path of light: changed on each leg, never dropped before the path ends.
+    /// One path: updated at each bounce, and kept until the path ends.
     Path,
-    /// One ray: overwritten on each leg.
+    /// One ray: overwritten at each bounce.
     Ray,
-    /// All samples of one pixel: added to until the picture is done.
+    /// All samples of one pixel: accumulated until the picture is done.
     ///
-    /// What has this lifetime is what a render is for, so whoever writes it needs no reader.
+    /// Columns of this lifetime are what a render is for, so a stage that writes one needs no reader.
     Film,
 }
 
-/// The numbers of one lane of a column, borrowed.
+/// The values of one component of a column, borrowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ComponentValues<'a> {
     /// 64-bit floats.
@@ -33,7 +33,7 @@ pub enum ComponentValues<'a> {
 }
 
 impl ComponentValues<'_> {
-    /// The number of a row.
+    /// The value in a row.
     pub fn number(&self, row: usize) -> ComponentNumber {
         match self {
             Self::F64(values) => ComponentNumber::F64(values[row]),
@@ -42,7 +42,7 @@ impl ComponentValues<'_> {
         }
     }
 
-    /// The bits of a row, for digests.
+    /// The bits of the value in a row, for digests.
     pub fn bits(&self, row: usize) -> u64 {
         match self {
             Self::F64(values) => values[row].to_bits(),
@@ -51,7 +51,7 @@ impl ComponentValues<'_> {
         }
     }
 
-    /// Bytes that one row of this lane takes.
+    /// Bytes of this component per row.
     pub fn bytes_a_row(&self) -> usize {
         match self {
             Self::F64(_) => 8,
@@ -60,7 +60,7 @@ impl ComponentValues<'_> {
     }
 }
 
-/// The number that one row of a lane holds; JSON has every digit of it.
+/// The value of a component in one row; JSON shows all of its digits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ComponentNumber {
@@ -72,7 +72,7 @@ pub enum ComponentNumber {
     U32(Option<u32>),
 }
 
-/// As a person reads it: fixed decimals, so that two runs compare line by line.
+/// A form for people to read: fixed decimals, so that two runs compare line by line.
 impl fmt::Display for ComponentNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = match *self {
@@ -90,9 +90,9 @@ impl fmt::Display for ComponentNumber {
     }
 }
 
-/// A number type that lanes are made of.
+/// A number type of components.
 pub trait ComponentValue: Copy + Default {
-    /// Wraps a slice of it.
+    /// Wraps a slice of values.
     fn values(slice: &[Self]) -> ComponentValues<'_>;
 }
 
@@ -114,43 +114,43 @@ impl ComponentValue for u32 {
     }
 }
 
-/// One named lane of a column.
+/// A named component of a column, such as x or r.
 #[derive(Clone, Copy, Debug)]
 pub struct ColumnComponent<'a> {
     /// The field's name.
     pub name: &'static str,
-    /// Its numbers, one a row.
+    /// Its values, one per row.
     pub values: ComponentValues<'a>,
 }
 
-/// What a stage writes for the rows of a tile: a component of the tile's entity, an array a lane.
+/// The data that a stage writes for the rows of a tile: a component of the tile's entity, with one array per number.
 ///
-/// The type of a column is its space, so a system's signature says what it reads and writes.
+/// The type of a column determines its space, so a system's signature says what it reads and writes.
 pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default {
-    /// The word that `--view`, `trace` and the plan use.
+    /// The name that `--view`, `trace` and the plan use.
     const NAME: &'static str;
-    /// The space its rows are in, in words.
+    /// The space of its rows, in words.
     const SPACE: &'static str;
-    /// The unit of its lanes.
+    /// The unit of its components.
     const UNIT: &'static str;
-    /// How long its rows stay true.
+    /// How long its rows remain valid.
     const LIFETIME: Lifetime;
-    /// The set whose stages begin it, where stages of later sets change in place what is there.
+    /// The set whose stages begin it, where stages of later sets update it in place.
     ///
-    /// None for a column that is written as a whole by whichever stage writes it.
+    /// None for a column that every stage which writes it writes as a whole.
     const BEGUN: Option<TileSystems> = None;
 
-    /// How many rows it holds.
+    /// The number of rows.
     fn rows(&self) -> usize;
-    /// Its lanes in order.
+    /// Its components in order.
     fn components(&self) -> Vec<ColumnComponent<'_>>;
-    /// A row as a colour to be shown as it is (0 is black, 1 is full), for an image of `size` pixels.
+    /// A row as a colour to be displayed as it is, from 0 (black) to 1, for an image of `size` pixels.
     fn paint(&self, row: usize, size: [u32; 2]) -> [f32; 3];
 }
 
 /// Makes a type a component whose columns the plan knows as soon as bevy registers it in any world.
 ///
-/// [`column!`](crate::column) does so by itself; columns that are written out by hand say it beside their type.
+/// [`column!`](crate::column) uses it; columns that are written out by hand use it beside their type.
 #[macro_export]
 macro_rules! column_component {
     ($column:ty) => {
@@ -169,12 +169,12 @@ macro_rules! column_component {
 }
 pub use column_component;
 
-/// Declares a column: its doc, its words (name, space, unit, lifetime), its lanes.
+/// Declares a column: its documentation, its name, space, unit and lifetime, and its components.
 ///
-/// After the lifetime may stand `begun in` and the set of stages that begin it; see
+/// The lifetime may be followed by `begun in` and the set whose stages begin the column; see
 /// [`Column::BEGUN`](crate::plan::Column::BEGUN).
-/// The struct gets one `Vec` a lane, `slices` and `slices_mut` that hand out all lanes at one length, and
-/// [`Column`](crate::plan::Column); the painting of a row is the type's own `paint_row`, which its author writes.
+/// The struct gets one `Vec` per component, `slices` and `slices_mut` that give all components at one length, and an
+/// implementation of [`Column`](crate::plan::Column); a row is painted by the type's own `paint_row`.
 #[macro_export]
 macro_rules! column {
     ($(#[$doc:meta])* pub struct $column:ident(
@@ -188,21 +188,21 @@ macro_rules! column {
 
         #[allow(dead_code, unused_parens)]
         impl $column {
-            /// All lanes, in order, at one length.
+            /// All components, in order, at one length.
             #[inline(always)]
             pub fn slices(&self) -> ($(&[$number]),+) {
                 let rows = $crate::plan::Column::rows(self);
                 ($(&self.$component[..rows]),+)
             }
 
-            /// All lanes, in order, made `rows` long.
+            /// All components, in order, resized to `rows`.
             #[inline(always)]
             pub fn slices_mut(&mut self, rows: usize) -> ($(&mut [$number]),+) {
                 $(self.$component.resize(rows, Default::default());)+
                 ($(&mut self.$component[..rows]),+)
             }
 
-            /// No rows, memory kept.
+            /// Removes all rows but keeps the memory.
             pub fn clear(&mut self) {
                 $(self.$component.clear();)+
             }
@@ -236,30 +236,30 @@ macro_rules! column {
 }
 pub use column;
 
-/// A column as the plan and the tools that look inside handle it, without its type.
+/// A column without its type, as the plan and the tools that inspect columns handle it.
 ///
-/// This one registry is behind `trace`, `--view`, snapshots and statistics.
+/// This one registry serves `trace`, `--view`, snapshots and statistics.
 #[derive(Clone, Copy)]
 pub struct ColumnKind {
-    /// The column's type, by which columns are told apart.
+    /// The column's type, which identifies it.
     pub id: TypeId,
-    /// The word that `--view`, `trace` and the plan use.
+    /// The name that `--view`, `trace` and the plan use.
     pub name: &'static str,
-    /// The space its rows are in.
+    /// The space of its rows.
     pub space: &'static str,
-    /// The unit of its lanes.
+    /// The unit of its components.
     pub unit: &'static str,
-    /// How long its rows stay true.
+    /// How long its rows remain valid.
     pub lifetime: Lifetime,
-    /// The set whose stages begin it, where those of later sets change it in place.
+    /// The set whose stages begin it, where those of later sets update it in place.
     pub begun: Option<TileSystems>,
-    /// Gives a tile's entity the empty column.
+    /// Adds an empty column to a tile's entity.
     pub insert: fn(&mut EntityWorldMut<'_>),
     /// Whether a tile's entity has the column.
     pub present: fn(&EntityRef<'_>) -> bool,
-    /// How many rows the tile's column holds, 0 without it.
+    /// The number of rows in the tile's column; 0 without it.
     pub rows: fn(&EntityRef<'_>) -> usize,
-    /// The column's lanes, none without it.
+    /// The column's components; none without it.
     pub components: for<'w> fn(&EntityRef<'w>) -> Vec<ColumnComponent<'w>>,
     /// A row as a colour, for an image of this size; the tile must have the column.
     pub paint: fn(&EntityRef<'_>, usize, [u32; 2]) -> [f32; 3],
@@ -290,12 +290,12 @@ impl ColumnKind {
         self.id == TypeId::of::<C>()
     }
 
-    /// Whether a view may ask for it: on the first leg it holds what a ray met, not yet what a path has gathered.
+    /// Whether a view may show it: at the first bounce, a column of path lifetime has accumulated nothing yet.
     pub fn is_viewed(&self) -> bool {
         matches!(self.lifetime, Lifetime::Pixel | Lifetime::Ray)
     }
 
-    /// Bytes that one row of the column takes, lanes summed.
+    /// Bytes of the column per row, for all components together.
     pub fn bytes_a_row(&self) -> usize {
         let mut world = World::new();
         let mut tile = world.spawn_empty();
@@ -304,7 +304,7 @@ impl ColumnKind {
         (self.components)(&world.entity(entity)).iter().map(|component| component.values.bytes_a_row()).sum()
     }
 
-    /// The rows that belong to a path: the row of its number, or, where the column has a `path` lane, those that name it.
+    /// The rows that belong to a path: those that name it in the component `path`, or else the row of its number.
     pub fn rows_of_path(&self, tile: &EntityRef<'_>, path: u32) -> Vec<usize> {
         let components = (self.components)(tile);
         match components.iter().find(|component| component.name == "path").map(|component| component.values) {

@@ -6,7 +6,7 @@ use std::any::TypeId;
 use std::collections::BTreeSet;
 use thiserror::Error;
 
-/// Why no plan can be made of these stages for this scene.
+/// The reason why no plan can be made of these stages for this scene.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum PlanError {
     /// A kept stage reads a column that no kept stage writes.
@@ -14,12 +14,12 @@ pub enum PlanError {
     NoProducer {
         /// The reader.
         stage: &'static str,
-        /// What it reads.
+        /// The column that it reads.
         column: &'static str,
-        /// What became of the stages that could write it.
+        /// Why no stage writes it.
         why: String,
     },
-    /// A kept stage reads a column where it exists, and it exists only after the stage has run.
+    /// A kept stage reads a column that is written only after the stage has run.
     #[error(
         "the stage \"{stage}\" reads the column `{column}`, but \"{writer}\" writes it only afterwards: it belongs \
          in an earlier set"
@@ -29,40 +29,40 @@ pub enum PlanError {
         stage: &'static str,
         /// What it reads.
         column: &'static str,
-        /// The first that writes it.
+        /// The first stage that writes it.
         writer: &'static str,
     },
     /// A view asks for a column that does not exist here.
-    #[error("the view asks for the column `{asked}`, but {why}")]
+    #[error("the view asks for the column `{wanted}`, but {why}")]
     NoSuchView {
-        /// The word asked for.
-        asked: String,
-        /// What there is instead.
+        /// The name that was given.
+        wanted: String,
+        /// The columns there are instead.
         why: String,
     },
 }
 
-/// One run over all batches.
+/// One run over all batches of rows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Pass {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What a row is.
+    /// What a row represents.
     pub row: RowKind,
-    /// What it leaves behind.
+    /// What it produces.
     pub product: &'static str,
 }
 
-/// One stage on offer, kept or dropped, and why.
+/// One stage on offer, kept or dropped, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlanRow {
     /// The stage's name.
     pub stage: &'static str,
     /// Whether it will run.
     pub kept: bool,
-    /// Why, with the first entities that caused it.
+    /// The reason, with the first entities that cause it.
     pub reason: String,
-    /// How many reachable entities caused it.
+    /// The number of entities in use that cause it.
     #[serde(rename = "entities")]
     pub count: usize,
     /// The columns it will write.
@@ -71,10 +71,10 @@ pub struct PlanRow {
     pub tables: Vec<&'static str>,
 }
 
-/// What will run for a scene, what will not, and why.
+/// The stages that will run for a scene, those that will not, and the reasons.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// A row a stage on offer, in the order of the stages.
+    /// One row per stage on offer, in the order of the stages.
     pub rows: Vec<PlanRow>,
     /// The kept stages, in order.
     pub stages: Vec<Stage>,
@@ -82,7 +82,7 @@ pub struct Plan {
     pub columns: Vec<ColumnKind>,
     /// The tables that will exist, each a resource of a render world.
     pub tables: Vec<TableKind>,
-    /// The runs over the image.
+    /// The passes over the image and over light paths.
     pub passes: Vec<Pass>,
     /// The column that is painted instead of the picture.
     pub view: Option<ColumnKind>,
@@ -97,9 +97,9 @@ impl Plan {
     }
 }
 
-/// Decides which of the stages on offer this scene needs.
+/// Decides which of the stages on offer a scene needs.
 ///
-/// Pure and deterministic: the same scene and offer give the same plan.
+/// Deterministic and without side effects: the same scene and offer give the same plan.
 /// Stages of one set keep the order in which they are offered.
 pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
@@ -115,8 +115,8 @@ pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
         let decision = decide(scene, stage, painted, &wanted);
         if decision.row.kept {
             wanted.extend(stage.reads.iter().chain(&stage.reads_if).map(|column| column.id));
-            let asked = stage.reads_where.iter().filter(|(_, predicate)| predicate(scene).needed);
-            wanted.extend(asked.map(|(column, _)| column.id));
+            let needed = stage.reads_where.iter().filter(|(_, predicate)| predicate(scene).needed);
+            wanted.extend(needed.map(|(column, _)| column.id));
             wanted.extend(view.filter(|_| stage.reads_view).map(|column| column.id));
         }
         decided.push(decision);
@@ -126,7 +126,7 @@ pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     Ok(collect(scene, decided, view))
 }
 
-/// A stage on offer and what is decided about it.
+/// A stage on offer and the decision about it.
 struct Decided<'s> {
     stage: &'s Stage,
     row: PlanRow,
@@ -136,9 +136,9 @@ struct Decided<'s> {
     tables: Vec<TableKind>,
 }
 
-/// The columns that a view may ask for among these stages, in order.
+/// The columns of these stages that a view may show, in order.
 ///
-/// A view shows the first leg of light's way, on which what is kept a path holds nothing yet.
+/// A view shows the first bounce, at which columns of path lifetime have accumulated nothing yet.
 pub fn view_names(offer: &[Stage]) -> Vec<&'static str> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
@@ -204,7 +204,7 @@ fn check_producers(decided: &[Decided<'_>], view: Option<ColumnKind>) -> Result<
     let mut written: BTreeSet<TypeId> = BTreeSet::new();
     for Decided { stage, columns, .. } in decided.iter().filter(|decision| decision.row.kept) {
         if let Some(column) = view.filter(|column| stage.reads_view && !written.contains(&column.id)) {
-            return Err(PlanError::NoSuchView { asked: column.name.into(), why: fate(decided, column) });
+            return Err(PlanError::NoSuchView { wanted: column.name.into(), why: fate(decided, column) });
         }
         for &column in stage.reads.iter().filter(|column| !written.contains(&column.id)) {
             let why = fate(decided, column);
@@ -223,9 +223,10 @@ fn check_producers(decided: &[Decided<'_>], view: Option<ColumnKind>) -> Result<
     Ok(())
 }
 
-/// What became of the stages that could have written a column, in words.
+/// Why the stages that could have written a column do not run, in words.
 ///
-/// Kinds of which the scene holds nothing, not even disabled, are passed over where another kind has something to say.
+/// Kinds of which the scene has no entity, not even a disabled one, are omitted where another kind has a reason to
+/// give.
 fn fate(decided: &[Decided<'_>], column: ColumnKind) -> String {
     let could = |stage: &Stage| stage.writes.contains(&column);
     let holds_none = |row: &PlanRow| row.reason.starts_with("0 ") && !row.reason.contains('"');
@@ -243,13 +244,13 @@ fn fate(decided: &[Decided<'_>], column: ColumnKind) -> String {
     }
 }
 
-fn find_view(offer: &[&Stage], asked: &str) -> Result<ColumnKind, PlanError> {
+fn find_view(offer: &[&Stage], wanted: &str) -> Result<ColumnKind, PlanError> {
     let stages: Vec<Stage> = offer.iter().map(|&stage| stage.clone()).collect();
     let mut names = view_names(&stages);
     names.retain(|name| !name.ends_with(" rows"));
-    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == asked && column.is_viewed());
+    let found = offer.iter().flat_map(|stage| &stage.writes).find(|column| column.name == wanted && column.is_viewed());
     found.copied().ok_or_else(|| PlanError::NoSuchView {
-        asked: printable(asked, 40),
+        wanted: printable(wanted, 40),
         why: format!("the columns on offer are {} and lists of rows", names.join(", ")),
     })
 }

@@ -4,48 +4,48 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryFilter;
 use std::sync::Arc;
 
-/// Whether the scene needs a stage, and what in the scene says so.
+/// Whether the scene needs a stage, and what in the scene requires it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
     /// Whether the stage is needed.
     pub needed: bool,
-    /// Why, in words: `3 spheres: "ball", "moon", "ground"`.
+    /// The reason, in words: `3 spheres: "ball", "moon", "ground"`.
     pub reason: String,
-    /// How many reachable entities cause it.
+    /// The number of entities in use that cause it.
     pub count: usize,
 }
 
 impl Evidence {
-    /// Needed whatever the scene holds.
+    /// Needed for every scene.
     pub fn always(reason: &str) -> Self {
         Self { needed: true, reason: reason.into(), count: 0 }
     }
 
-    /// Needed if any enabled entity has the component; `noun` names one of them.
+    /// Needed if any enabled entity has the component; `noun` names one such entity.
     pub fn of<C: Component>(scene: &Census<'_>, noun: &str) -> Self {
         let enabled = scene.entities::<With<C>>();
         Self::found_among(scene, noun, &enabled, &enabled, &scene.declared::<With<C>>())
     }
 
-    /// Needed if any enabled entity passes the filter and `reachable`.
+    /// Needed if any enabled entity passes the filter and is in use.
     pub fn among<F: QueryFilter + 'static>(
         scene: &Census<'_>,
         noun: &str,
-        reachable: impl Fn(EntityRef<'_>) -> bool,
+        in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
         let enabled = scene.entities::<F>();
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
         Self::found_among(scene, noun, &found, &enabled, &scene.declared::<F>())
     }
 
-    /// Needed if any enabled entity carries one of these components and is `reachable`.
+    /// Needed if any enabled entity has one of these components and is in use.
     ///
-    /// Not `Or` in a filter: a query that only reads finds nothing where one of its components was never spawned.
+    /// This is not `Or` in a filter, since a read-only query finds nothing if one of its components was never spawned.
     pub fn among_any(
         scene: &Census<'_>,
         noun: &str,
         any: &[ComponentKind],
-        reachable: impl Fn(EntityRef<'_>) -> bool,
+        in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
         let all = |find: fn(&ComponentKind) -> Find| {
             let lists: Vec<Arc<[Entity]>> = any.iter().map(|carried| find(carried)(scene)).collect();
@@ -54,12 +54,12 @@ impl Evidence {
             found.dedup();
             found
         };
-        let enabled = all(|carried| carried.enabled);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        let enabled = all(|component| component.enabled);
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
         Self::found_among(scene, noun, &found, &enabled, &all(|carried| carried.declared))
     }
 
-    /// Needed if any enabled entity that passes the filter is of a kind; those of another kind count for nothing.
+    /// Needed if any enabled entity that passes the filter is of a kind; other entities are not even mentioned.
     pub fn of_kind<F: QueryFilter + 'static>(
         scene: &Census<'_>,
         noun: &str,
@@ -81,7 +81,7 @@ impl Evidence {
         Self { needed: !found.is_empty(), reason, count: found.len() }
     }
 
-    /// Needed if both are; the other is not looked at where this is not.
+    /// Needed if both are; the second is not evaluated where the first is not needed.
     pub fn and(self, other: impl FnOnce() -> Self) -> Self {
         if !self.needed {
             return self;
@@ -108,7 +108,7 @@ impl Evidence {
 
 type Find = fn(&Census<'_>) -> Arc<[Entity]>;
 
-/// A component, as evidence looks for those that carry it.
+/// A component whose entities evidence looks for.
 #[derive(Clone, Copy)]
 pub struct ComponentKind {
     enabled: Find,

@@ -1,11 +1,11 @@
 //! Which stages a scene needs, and why.
 //!
 //! Reads: the scene's components and the stages on offer.
-//! Writes: a [`Plan`]: every stage with kept or dropped and the reason, the columns and tables that will exist,
-//! the passes over the image.
+//! Writes: a [`Plan`]: every stage, kept or dropped, with the reason; the columns and tables that will exist; the
+//! passes over the image.
 //!
-//! A stage is kept when the scene needs it *and* something that is kept, or a request, reads what it writes.
-//! What is dropped is never built, so it costs nothing.
+//! A stage is kept when the scene needs it *and* a kept stage, or a request, reads what it writes.
+//! A dropped stage is never built, so it costs nothing.
 
 mod access;
 mod census;

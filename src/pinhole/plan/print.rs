@@ -6,9 +6,9 @@ impl fmt::Display for Plan {
         for pass in &self.passes {
             let row = match pass.row {
                 RowKind::Pixel => "a pixel",
-                RowKind::LightPath => "a way from a light",
+                RowKind::LightPath => "a path from a light",
             };
-            writeln!(f, "pass \"{}\": a row is {row}, it leaves the {}", pass.name, pass.product)?;
+            writeln!(f, "pass \"{}\": a row is {row}, it produces the {}", pass.name, pass.product)?;
         }
         for row in &self.rows {
             let word = if row.kept { "kept" } else { "dropped" };
@@ -17,7 +17,7 @@ impl fmt::Display for Plan {
         let columns: Vec<String> =
             self.columns.iter().map(|column| format!("{} {} B", column.name, column.bytes_a_row())).collect();
         let bytes: usize = self.columns.iter().map(|column| column.bytes_a_row()).sum();
-        writeln!(f, "columns, bytes a row: {} (together {bytes})", columns.join(", "))?;
+        writeln!(f, "columns, bytes per row: {} (together {bytes})", columns.join(", "))?;
         let tables: Vec<&str> = self.tables.iter().map(|table| table.name).collect();
         writeln!(f, "tables: {}", tables.join(", "))?;
         if let Some(view) = self.view {

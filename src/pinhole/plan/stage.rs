@@ -6,57 +6,57 @@ use bevy_ecs::system::ScheduleSystem;
 use std::any::TypeId;
 use std::sync::Arc;
 
-/// What leaving a stage out does to the picture where its predicate says that it is not needed.
+/// What dropping a stage means for the picture, where its predicate says that it is not needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StageKind {
-    /// Forced on, it leaves the image bit-identical.
+    /// Forcing it on leaves the image bit-identical.
     Exact,
-    /// It sends light on by chance, or ends it so; closed forms hold the mean that it gives.
+    /// It samples directions or terminates paths at random; its mean is compared with closed forms.
     Estimator,
-    /// One of several that write the same column; forcing it on beside the other has no meaning.
+    /// It is one of several stages that write the same column; forcing it on beside another has no meaning.
     Alternative,
 }
 
-/// The position of a stage in the plan's list; systems are placed by it where a hook follows each stage.
+/// The position of a stage in the plan's list; systems are ordered by it where a hook follows each stage.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Slot(pub usize);
 
-/// A stage on offer: what it is called, what it reads and writes, when a scene needs it, the system that runs.
+/// A stage on offer: its name, the columns that it reads and writes, when a scene needs it, and the system that runs.
 #[derive(Clone)]
 pub struct Stage {
-    /// The type of its system, by which stages are told apart.
+    /// The type of its system, which identifies the stage.
     pub id: TypeId,
-    /// In words, such as "Transform rays to world space".
+    /// Its name, in words, such as "Transform rays to world space".
     pub name: &'static str,
-    /// Where it stands in the order.
+    /// The set that it runs in.
     pub set: TileSystems,
-    /// What leaving it out means.
+    /// What dropping it means.
     pub kind: StageKind,
-    /// Columns it cannot run without.
+    /// Columns that it cannot run without.
     pub reads: Vec<ColumnKind>,
-    /// Columns it reads where they exist.
+    /// Columns that it reads where they exist.
     pub reads_if: Vec<ColumnKind>,
-    /// Columns it reads where they exist, and for which the scene itself must give a reason.
+    /// Columns that it reads where they exist, and requests where the scene gives a reason.
     pub reads_where: Vec<(ColumnKind, fn(&Census<'_>) -> Evidence)>,
-    /// Columns it writes; those that nothing reads do not exist.
+    /// Columns that it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
-    /// Whether it runs on every leg of light's way, or on the first one only.
+    /// Whether it runs at every bounce, or at the first one only.
     pub on_every_bounce: bool,
-    /// The passes it runs in.
+    /// The passes that it runs in.
     pub passes: &'static [RowKind],
-    /// Whether it appends rows to what it writes, where others have appended theirs before.
+    /// Whether it appends rows to what it writes, after those of other stages.
     pub appends: bool,
-    /// Tables it reads.
+    /// Tables that it reads.
     pub tables: Vec<TableKind>,
-    /// Tables it reads where the scene gives a reason for them.
+    /// Tables that it reads where the scene gives a reason.
     pub tables_where: Vec<(TableKind, fn(&Census<'_>) -> Evidence)>,
-    /// Tables it reads where a column that it writes is read.
+    /// Tables that it reads where a column that it writes is read.
     pub tables_with: Vec<(TableKind, ColumnKind)>,
-    /// Whether it reads the column that a `View` asks for.
+    /// Whether it reads the column that a `View` names.
     pub reads_view: bool,
     /// Whether a scene needs it.
     pub when: fn(&Census<'_>) -> Evidence,
-    /// The system as a configuration, made anew for each schedule.
+    /// The system's configuration, made anew for each schedule.
     pub system: Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>,
 }
 
@@ -97,19 +97,19 @@ impl Stage {
         }
     }
 
-    /// It runs on the first leg of light's way only.
+    /// Restricts it to the first bounce.
     pub fn on_first_bounce(mut self) -> Self {
         self.on_every_bounce = false;
         self
     }
 
-    /// It runs in the pass whose rows are pixels only.
+    /// Restricts it to the pass over pixels.
     pub fn on_camera_paths(mut self) -> Self {
         self.passes = &[RowKind::Pixel];
         self
     }
 
-    /// It runs in the pass whose rows are ways from lights only.
+    /// Restricts it to the pass over light paths.
     pub fn on_light_paths(mut self) -> Self {
         self.passes = &[RowKind::LightPath];
         self
@@ -125,13 +125,13 @@ impl Stage {
         self.passes.contains(&row)
     }
 
-    /// It cannot run without this column: said of exclusive systems only.
+    /// Adds a column that it cannot run without; needed for exclusive systems only.
     pub fn reads<C: Column>(mut self) -> Self {
         add(&mut self.reads, ColumnKind::of::<C>());
         self
     }
 
-    /// It reads this column where it exists, and it asks for it only where the scene gives a reason.
+    /// Adds a column that it reads where it exists, and requests only where the scene gives a reason.
     pub fn reads_where<C: Column>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         let column = ColumnKind::of::<C>();
         self.reads.retain(|own| *own != column);
@@ -140,30 +140,30 @@ impl Stage {
         self
     }
 
-    /// It writes this column: said of exclusive systems only.
+    /// Adds a column that it writes; needed for exclusive systems only.
     pub fn writes<C: Column>(mut self) -> Self {
         add(&mut self.writes, ColumnKind::of::<C>());
         self
     }
 
-    /// It changes this column in place, although it stands in the set whose stages begin it.
+    /// Adds a column that it updates in place, although it is in the set whose stages begin the column.
     pub fn changes<C: Column>(self) -> Self {
         self.reads::<C>().writes::<C>()
     }
 
-    /// It appends rows to this column, which cannot exist without a stage that empties it first.
+    /// Adds a column that it appends rows to, which cannot exist without a stage that clears it first.
     pub fn appends<C: Column>(mut self) -> Self {
         self.appends = true;
         self.changes::<C>()
     }
 
-    /// It reads this table: said of exclusive systems only.
+    /// Adds a table that it reads; needed for exclusive systems only.
     pub fn table<T: Table>(mut self) -> Self {
         add(&mut self.tables, TableKind::of::<T>());
         self
     }
 
-    /// It reads this table where the scene gives a reason for it.
+    /// Adds a table that it reads where the scene gives a reason.
     pub fn table_where<T: Table>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         let table = TableKind::of::<T>();
         self.tables.retain(|own| *own != table);
@@ -171,7 +171,7 @@ impl Stage {
         self
     }
 
-    /// It reads this table only to write that column, so only where the column is read.
+    /// Adds a table that it reads only to write a certain column, and so only where that column is read.
     pub fn table_with<T: Table, C: Column>(mut self) -> Self {
         let table = TableKind::of::<T>();
         self.tables.retain(|own| *own != table);
@@ -179,27 +179,27 @@ impl Stage {
         self
     }
 
-    /// The tables it reads of this scene, where of the columns that it writes these are read.
+    /// The tables that it reads for a scene, where these of its columns are read.
     pub fn tables_for(&self, scene: &Census<'_>, columns: &[ColumnKind]) -> Vec<TableKind> {
-        let asked = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
+        let needed = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
         let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(column));
-        let more = asked.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
+        let more = needed.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
         self.tables.iter().chain(more).copied().collect()
     }
 
-    /// It reads whatever column a `View` asks for.
+    /// Makes it read the column that a `View` names.
     pub fn reads_the_view(mut self) -> Self {
         self.reads_view = true;
         self
     }
 
-    /// The scene's say.
+    /// Sets the predicate by which a scene needs it.
     pub fn when(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.when = predicate;
         self
     }
 
-    /// What leaving it out means.
+    /// Sets what dropping it means.
     pub fn kind(mut self, kind: StageKind) -> Self {
         self.kind = kind;
         self

@@ -2,94 +2,94 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleLabel;
 use serde::Serialize;
 
-/// What one row of a batch stands for in a pass.
+/// What one row of a batch represents in a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowKind {
-    /// A pixel, seen from the camera.
+    /// A pixel, for paths from the camera.
     Pixel,
     /// A path that starts on a light.
     LightPath,
 }
 
-/// The schedule that carries one sample of every pixel of a tile from raster to film.
+/// The schedule that takes one sample of every pixel of a tile from raster points to the film.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Sample;
 
-/// The schedule inside [`Sample`] that is run again for every further leg of the light's way.
+/// The schedule inside [`Sample`] that runs again for every further bounce.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Bounce;
 
 /// The order of the stages: each set runs after the one above it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TileSystems {
-    /// Points of the image, in pixels.
+    /// Raster points, in pixels.
     Raster,
-    /// The same points, free of the image's size.
+    /// The same points in normalised device coordinates, independent of the resolution.
     Ndc,
-    /// The same points, y up, as wide as the image's shape.
+    /// The same points on the screen, with y up and the image's aspect ratio.
     Screen,
-    /// What else of each camera ray is left to chance: where on the lens it starts.
+    /// The other random parameters of each camera ray, such as its point on the lens.
     Lens,
-    /// Rays of a camera at the origin that looks down −z.
+    /// Rays in camera space: the camera is at the origin and looks down −z.
     Camera,
-    /// The same rays, turned as the camera is.
+    /// The same rays in world axes.
     World,
-    /// Empty hits and black radiance, before anything is met.
+    /// Columns are cleared before anything is hit.
     Start,
-    /// Rays meet surfaces; each kind of shape narrows the hit, in any order.
+    /// Rays are intersected with shapes, each kind of which keeps the closest hit, in any order.
     Intersect,
-    /// The rows of each kind of shape and matter are listed.
+    /// The rows of each kind of shape and material are listed.
     Classify,
-    /// Position, normal and error bound of what was hit; each kind fills its own rows.
+    /// Position, normal and error bound of each hit; every kind of shape fills its own rows.
     Surface,
-    /// Normals by which light falls, where they are not the surfaces' own.
+    /// Shading normals, where they differ from the geometric ones.
     Normal,
-    /// What a pixel covers of the surface.
+    /// The footprint of each pixel on the surface that it sees.
     Footprint,
-    /// Each surface's own colour, and where on its texture it is.
+    /// Each surface's own colour and texture coordinates.
     Colour,
-    /// Textures colour their own rows, in any order.
+    /// Textures are evaluated for their own rows, in any order.
     Texture,
-    /// What a ray that met nothing brings back.
+    /// The radiance of rays that hit nothing.
     Background,
-    /// What else is asked of a pixel is taken down, before the light goes on its way.
+    /// Layers of the film are recorded, before the path is traced further.
     Layers,
-    /// Where on the camera's lens light is joined to it.
+    /// Points on the camera's lens to which light paths are connected.
     Join,
-    /// Rays from surfaces towards lights.
+    /// Lights are sampled: shadow rays from surfaces towards them.
     SampleLights,
-    /// Every light counts as seen, before anything is met on the way to it.
+    /// Shadow rays are set to unblocked.
     ClearShadows,
-    /// Shadow rays meet what stands in between; each kind of shape narrows the hit, in any order.
+    /// Shadow rays are intersected with shapes, each kind of which keeps the closest hit, in any order.
     TraceShadowRays,
-    /// Light that chance may find too counts for less.
+    /// Light samples are weighted against BSDF sampling.
     MisWeights,
-    /// Light that arrives is added up.
+    /// The radiance of emission and of direct light is added up.
     Shade,
-    /// What each ray has come through is known.
+    /// The medium along each ray is determined.
     Media,
-    /// What light lost on its way here is taken off.
+    /// Throughput is multiplied by the transmittance along each ray.
     Absorb,
-    /// Rays go on from surfaces, each kind of matter's after the other's.
+    /// BSDFs are sampled for further rays, one kind of material after another.
     SampleBsdfs,
-    /// Some of them end by chance.
+    /// Some paths are terminated by Russian roulette.
     Roulette,
-    /// What the leg brought is added to its way's light.
+    /// The radiance of this bounce is added to its path's light.
     AddBounce,
-    /// The scattered rays become those of the next leg.
+    /// The scattered rays become those of the next bounce.
     Step,
-    /// All further legs, each the sets from `Start` to `Step` again.
+    /// All further bounces, each running the sets from `Start` to `Step` again.
     RemainingBounces,
-    /// The light of all legs becomes the radiance of the first.
+    /// The light of all bounces becomes the radiance of the first.
     SumBounces,
-    /// What lies outside a camera's image circle is made black.
+    /// Pixels outside a camera's image circle are blackened.
     Mask,
-    /// Where a reader asked to see a column, it is painted instead.
+    /// A requested column is painted in place of the picture.
     View,
-    /// How far radiance lies from the mean of what the film holds, before it joins.
+    /// The deviation of radiance from the film's mean is accumulated, before the radiance itself.
     Moments,
-    /// Radiance joins the film's sums.
+    /// Radiance is added to the film's sums.
     Film,
 }
 
@@ -132,12 +132,12 @@ impl TileSystems {
         Self::Film,
     ];
 
-    /// Whether the stages of this set run on every leg of light's way.
+    /// Whether the stages of this set run at every bounce.
     pub fn on_every_bounce(self) -> bool {
         (Self::Start..=Self::Step).contains(&self) && self != Self::Layers && self != Self::Footprint
     }
 
-    /// The passes that the stages of this set run in: what light does at surfaces is the same whichever way it is followed.
+    /// The passes that the stages of this set run in: surfaces treat paths from the camera and from lights alike.
     pub fn passes(self) -> &'static [RowKind] {
         let of_camera =
             matches!(self, Self::Background | Self::Layers | Self::Footprint | Self::SampleLights | Self::MisWeights);
@@ -145,7 +145,7 @@ impl TileSystems {
         if on_both { &[RowKind::Pixel, RowKind::LightPath] } else { &[RowKind::Pixel] }
     }
 
-    /// Whether the systems of this set may run in any order among themselves, because each narrows or fills rows
+    /// Whether the systems of this set may run in any order, because each keeps the closest hit or fills rows
     /// independently of the others.
     pub fn order_free(self) -> bool {
         matches!(

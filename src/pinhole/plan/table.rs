@@ -7,14 +7,15 @@ use std::any::TypeId;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Flat arrays or numbers read off the scene once, for stages to read; the same in every render world.
+/// Plain arrays or numbers extracted from the scene once, for stages to read; the same in every render world.
 pub trait Table: Sized + Send + Sync + 'static {
-    /// The word that the plan uses.
+    /// The name that the plan uses.
     const NAME: &'static str;
-    /// Reads the table off the scene, in spawn order, relative to the eye; other tables that it builds on come from the
-    /// [census](Census::table), and whoever wants this one asks there too.
+    /// Extracts the table from the scene, in spawn order, relative to the eye.
+    ///
+    /// To be called by [`Census::table`] only, from which it also takes the other tables that it needs.
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError>;
-    /// Bytes that its arrays take.
+    /// The memory of its arrays, in bytes.
     fn bytes(&self) -> usize;
 }
 
@@ -35,7 +36,7 @@ impl<T: Table> Component for Shared<T> {
 impl<T: Table> Resource for Shared<T> {}
 
 impl<T: Table> Shared<T> {
-    /// A table ready to be inserted into a world.
+    /// Wraps a table that is ready to be inserted into a world.
     pub fn new(table: T) -> Self {
         Self(Arc::new(table))
     }
@@ -48,28 +49,28 @@ impl<T: Table> Deref for Shared<T> {
     }
 }
 
-/// A table as the plan handles it, without its type.
+/// A table without its type, as the plan handles it.
 #[derive(Clone, Copy)]
 pub struct TableKind {
-    /// The table's type, by which tables are told apart.
+    /// The table's type, which identifies it.
     pub id: TypeId,
-    /// The word that the plan uses.
+    /// The name that the plan uses.
     pub name: &'static str,
-    /// Reads it off the scene.
+    /// Extracts it from the scene.
     pub extract: fn(&Census<'_>) -> Result<ExtractedTable, SceneError>,
-    /// Whether a render world holds it.
+    /// Whether a render world has it.
     pub present: fn(&World) -> bool,
 }
 
-/// A table read off the scene, ready for any number of render worlds.
+/// A table extracted from the scene, ready for any number of render worlds.
 pub struct ExtractedTable {
     /// The table's type.
     pub id: TypeId,
-    /// The word that the plan uses.
+    /// The name that the plan uses.
     pub name: &'static str,
-    /// Bytes that its arrays take.
+    /// The memory of its arrays, in bytes.
     pub bytes: usize,
-    /// Puts a share of it into a render world.
+    /// Inserts a reference to it into a render world.
     pub insert: Box<dyn Fn(&mut World) + Send + Sync>,
 }
 

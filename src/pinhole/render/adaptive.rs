@@ -1,25 +1,25 @@
 use crate::film::Film;
 
-/// What is added to the square of a pixel's radiance before its error is divided by it: relMSE's own constant.
+/// The constant added to the square of a pixel's radiance before its squared error is divided by it, as in relMSE.
 pub const EPSILON: f64 = 1e-2;
-/// The fewest fresh samples of a pixel, so that its error can be measured from them.
+/// The fewest samples of a pixel from which its error can be estimated.
 pub const FEWEST: u32 = 4;
 
 // ANCHOR: samples_for
-/// How many samples bring the mean of samples of this variance to a relative error, where `mean_square` is the square of
-/// the mean: V / n = e² (L² + 0.01), solved for n.
+/// The number of samples n for which the mean of samples of this variance V has a relative error e, where `mean_square`
+/// is the square L² of the mean: V / n = e² (L² + 0.01), solved for n.
 pub fn samples_for(variance: f64, mean_square: f64, error: f64) -> u32 {
     let samples = variance / (error * error * (mean_square + EPSILON));
     (samples.ceil() as u32).max(FEWEST)
 }
 // ANCHOR_END: samples_for
 
-/// How many fresh samples each pixel is to get, tile by tile, decided from a film of pilot samples and from nothing else.
+/// The number of new samples for each pixel, tile by tile, decided from a film of pilot samples and from nothing else.
 ///
-/// A pixel whose few samples happen to agree knows nothing of its noise, so its variance is taken to be no smaller than
-/// the mean of those of the three by three pixels around it.
-/// The pilot's samples are independent of the fresh ones, so whatever is decided from them, the mean of the fresh ones
-/// is right on average (Kirk and Arvo, "Unbiased sampling techniques for image synthesis", 1991).
+/// A pixel whose few samples happen to agree underestimates its noise, so its variance is taken to be no smaller than
+/// the mean of the variances of the 3 × 3 pixels around it.
+/// The pilot samples are independent of the new ones, so the mean of the new ones stays unbiased whatever is decided
+/// from the pilot (Kirk and Arvo, "Unbiased sampling techniques for image synthesis", 1991).
 pub fn planned_samples(pilot: &Film, error: f64) -> Vec<Vec<u32>> {
     let of_pixel = |x: u32, y: u32| {
         let (tile, row) = pilot.place(x, y);
@@ -55,22 +55,22 @@ fn mean_square(mean: [f64; 3]) -> f64 {
     mean_of(mean.map(|part| part * part))
 }
 
-/// What errors a film's pixels have, measured from its own samples.
+/// The errors of a film's pixels, estimated from its own samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Achieved {
-    /// The root of the mean of all pixels' squared relative errors.
+    /// The root mean square of all pixels' relative errors.
     pub error: f64,
-    /// Pixels.
+    /// The number of pixels.
     pub pixels: u64,
-    /// Those whose own samples say that their error is above the target.
+    /// The number of pixels whose estimated error is above the target.
     pub above: u64,
-    /// Those of them that would have got more samples, had there been more.
+    /// The number of those that were to get more samples than the limit allowed.
     pub cut_short: u64,
-    /// Samples a pixel: mean, fewest, most.
+    /// Samples per pixel: mean, fewest, most.
     pub samples: (f64, u32, u32),
 }
 
-/// Measures a film against the error that was asked for; `most` is where samples ran out.
+/// Estimates a film's errors and compares them with the target; `most` is the limit of samples per pixel.
 pub fn achieved(film: &Film, target: f64, most: u32) -> Achieved {
     let mut found = Achieved { samples: (0.0, u32::MAX, 0), ..Achieved::default() };
     let (mut squares, mut sum) = (0.0, 0_u64);

@@ -5,30 +5,30 @@ use bevy_ecs::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a stage took over all tiles of a worker.
+/// The time that a stage took over all tiles of a worker.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lap {
-    /// Time within the stage.
+    /// Time spent in the stage.
     pub time: Duration,
-    /// Rows that it visited.
+    /// Rows that it processed.
     pub rows: u64,
 }
 
-/// A stopwatch of one worker's stages; exists only where statistics are asked for.
+/// A stopwatch for the stages of one worker; exists only where statistics are requested.
 #[derive(Resource, Debug)]
 pub struct StageClock {
     last: Instant,
-    /// One a kept stage, in the plan's order.
+    /// One lap for each stage that the plan keeps, in the plan's order.
     pub laps: Vec<Lap>,
 }
 
 impl StageClock {
-    /// A stopwatch for as many stages as the plan keeps.
+    /// A stopwatch with a lap for each stage that the plan keeps.
     pub fn new(plan: &Plan) -> Self {
         Self { last: Instant::now(), laps: vec![Lap::default(); plan.stages.len()] }
     }
 
-    /// Before the first stage of a tile.
+    /// Starts timing, before the first stage of a tile.
     pub fn start(&mut self) {
         self.last = Instant::now();
     }
@@ -40,7 +40,7 @@ impl StageClock {
     }
 }
 
-/// A system after each stage that takes its lap; its own work falls between two laps.
+/// A system after each stage that records its lap; the system's own work falls between two laps.
 pub(super) fn clock_hook() -> Hook {
     Arc::new(|slot, stage, plan| {
         let counted = counted_columns(stage, plan);
@@ -54,8 +54,8 @@ pub(super) fn clock_hook() -> Hook {
     })
 }
 
-/// The columns whose rows say how much a stage did: the list of rows that it visits where it fills in some rows of a
-/// column that was there before, or else what it writes.
+/// The columns whose number of rows says how much a stage did: the list of rows that it processes, where it updates
+/// some rows of an existing column, and otherwise the columns that it writes.
 fn counted_columns(stage: &Stage, plan: &Plan) -> Vec<ColumnKind> {
     let fills_in = !stage.appends && stage.writes.iter().all(|column| stage.reads.contains(column));
     let list = stage.reads.iter().find(|column| fills_in && column.unit == "rows");

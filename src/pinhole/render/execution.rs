@@ -2,27 +2,27 @@ use bevy_ecs::schedule::Schedule;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// How many worlds hold the tiles while they run.
+/// How many worlds hold the tiles while the stages run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Worlds {
-    /// One a worker, which runs tile after tile in it; memory does not grow with the frame.
+    /// One per worker, which processes one tile after another; memory does not grow with the size of the image.
     #[default]
     PerWorker,
     /// One for all tiles at once, so that every column can be read afterwards.
     One,
 }
 
-/// How to execute a plan; nothing here can change a bit of the image.
+/// How to execute a plan; none of these settings changes a bit of the image.
 #[derive(Clone)]
 pub struct Execution {
-    /// Workers; none for as many as the machine has cores.
+    /// The number of workers; none for one per core.
     pub threads: Option<usize>,
-    /// The most pixels along the side of a full tile; where many lights or shapes would make its columns large or its
-    /// stages slow, a render takes fewer.
+    /// The greatest side of a tile, in pixels; a render uses smaller tiles where many lights or shapes would make the
+    /// columns large or the stages slow.
     pub tile_side: u32,
     /// How many worlds hold the tiles.
     pub worlds: Worlds,
-    /// A last say over each worker's schedule, for tests that shuffle its order.
+    /// A change to each worker's schedule after it is built, for tests that shuffle the order of stages.
     pub arrange: Option<Arc<dyn Fn(&mut Schedule) + Send + Sync>>,
 }
 
@@ -32,23 +32,24 @@ impl Default for Execution {
     }
 }
 
-/// Someone who waits for a render: is told of progress, and may stop it.
+/// An observer of a render: it is notified of progress, and may stop the render.
 pub trait Watch: Sync {
-    /// A tile is done.
+    /// A tile is finished.
     fn tile_done(&self) {}
-    /// So many samples of pixels have been traced.
+    /// This many pixel samples have been taken since the last call.
     fn traced(&self, _samples: u64) {}
-    /// A pass begins: so many samples of pixels are expected altogether, and so many samples a pixel are done.
+    /// A pass begins; in total this many pixel samples are expected, and `done` of `of` samples per pixel are finished.
     fn expect(&self, _samples: u64, _done: u32, _of: u32) {}
     /// Whether to stop before the next sample of a tile.
     fn stopped(&self) -> bool {
         false
     }
-    /// A flag that is set to stop even between two bounces of a tile, so that an endless path ends too.
+    /// A flag that, once set, stops the render even between two bounces of a tile, so that a path without end stops
+    /// too.
     fn stop_flag(&self) -> Option<Arc<AtomicBool>> {
         None
     }
 }
 
-/// Nobody waits.
+/// No observer.
 impl Watch for () {}

@@ -18,29 +18,29 @@ use std::any::TypeId;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A render that is brought forward step by step: between two calls its film may be looked at, kept, or given back.
+/// A render that advances step by step; between two calls its film may be displayed, saved, or replaced.
 ///
-/// A step is a lattice of the first sample, or a further sample of every pixel.
-/// How the steps are divided into calls can change no bit of the film.
+/// A step is one lattice of the first sample, or one further sample of every pixel.
+/// How the steps are divided into calls changes no bit of the film.
 pub struct RenderInProgress {
-    /// What runs and what does not.
+    /// The stages that run, and those that do not.
     pub plan: Plan,
-    /// The light that has arrived so far.
+    /// The radiance accumulated so far.
     pub film: Film,
     /// How the camera samples its pixels.
     pub sampling: SamplingTable,
     tables: Vec<ExtractedTable>,
     execution: Execution,
     pool: Option<ThreadPool>,
-    /// A world a worker, or one for all tiles; each is made where and when it is first used.
+    /// One world per worker, or one for all tiles; each is made when and where it is first used.
     worlds: Vec<Mutex<Option<RenderWorld>>>,
-    /// The ways from lights, where there are any.
+    /// The pass that traces paths from the lights, where the plan has one.
     light: Option<LightPass>,
     time: Duration,
 }
 
-/// One tile's share of the film.
-pub(super) struct Share<'f> {
+/// The part of the film that belongs to one tile.
+pub(super) struct FilmPart<'f> {
     film: &'f mut FilmTile,
     moments: Option<&'f mut FilmMoments>,
     layers: Option<&'f mut FilmLayers>,
@@ -51,7 +51,7 @@ pub(super) struct Share<'f> {
 impl RenderInProgress {
     /// Plans a scene, extracts its tables, and makes an empty film.
     ///
-    /// Errors: a refused scene, or no plan.
+    /// Errors: an invalid scene, or a plan that cannot be made.
     pub fn begin(scene: &Census<'_>, offer: &[Stage], execution: &Execution) -> Result<Self> {
         let (plan, tables) = prepare(scene, offer)?;
         let image = *scene.table::<ImageFrame>()?;
@@ -83,51 +83,52 @@ impl RenderInProgress {
         })
     }
 
-    /// Workers.
+    /// The number of workers.
     pub fn threads(&self) -> usize {
         self.worlds.len()
     }
 
-    /// The tables that its stages read, for whoever looks at the scene before it is rendered.
+    /// The tables that the stages read, for checks of the scene before it is rendered.
     pub fn tables(&self) -> &[ExtractedTable] {
         &self.tables
     }
 
-    /// Whether the camera takes samples; where it does not, all is one step.
+    /// Whether the camera takes random samples; if not, the render is a single step.
     pub fn is_sampled(&self) -> bool {
         self.plan.keeps::<PixelSamples>()
     }
 
-    /// The steps that the camera asks for.
+    /// The number of steps for the samples per pixel that the camera asks for.
     pub fn steps(&self) -> u32 {
         steps_of(self.sampling.samples)
     }
 
-    /// Time spent in steps.
+    /// Time spent in steps so far.
     pub fn time(&self) -> Duration {
         self.time
     }
 
-    /// Brings every tile to `to` steps; one that is further already stays as it is.
+    /// Advances every tile to `to` steps; a tile that is further already stays as it is.
     ///
-    /// Errors: a stop by the one who watches; each tile then has all of some number of steps, and can be brought on.
-    /// A sample that was under way is thrown away.
+    /// Errors: the observer stopped the render; each tile then has finished some number of steps, and can be advanced
+    /// again.
+    /// A sample in progress is discarded.
     pub fn advance(&mut self, to: u32, watch: &dyn Watch) -> Result {
         let started = Instant::now();
         let to = if self.is_sampled() { to } else { WHOLE };
         let stop = Stop::at_flag(watch.stop_flag());
         match &self.pool {
             Some(pool) => {
-                let tiles = Mutex::new(shares(&mut self.film));
+                let tiles = Mutex::new(film_parts(&mut self.film));
                 let (plan, tables, execution, worlds) = (&self.plan, &self.tables, &self.execution, &self.worlds);
                 let next = || tiles.lock().unwrap_or_else(PoisonError::into_inner).next();
                 pool.broadcast(|context| {
                     let mut world = worlds[context.index()].lock().unwrap_or_else(PoisonError::into_inner);
                     let world = world.get_or_insert_with(|| RenderWorld::new(plan, tables, 1, execution, &[]));
                     world.stop_at(stop.clone());
-                    while let Some(mut share) = next().filter(|_| !watch.stopped()) {
-                        if *share.done < to {
-                            world.run_share(&mut share, to, watch);
+                    while let Some(mut part) = next().filter(|_| !watch.stopped()) {
+                        if *part.done < to {
+                            world.run_part(&mut part, to, watch);
                         }
                     }
                 });
@@ -149,19 +150,19 @@ impl RenderInProgress {
         if watch.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    /// Lays the film aside for one of pilot samples, whose random numbers are others.
+    /// Replaces the film by one for pilot samples, which use other random numbers.
     pub fn begin_pilot(&mut self) {
         let film = Film { pilot: true, ..self.film.emptied() };
         self.take(film);
     }
 
-    /// Throws the pilot's samples away and begins anew, with as many samples for each pixel as have been decided.
+    /// Discards the pilot samples and starts again, with the given number of samples for each pixel.
     pub fn begin_planned(&mut self, planned: Vec<Vec<u32>>) {
         let film = Film { planned, ..self.film.emptied() };
         self.take(film);
     }
 
-    /// Continues from another film of the same plan and scene, such as a checkpoint's.
+    /// Continues from another film of the same plan and scene, such as that of a checkpoint.
     pub fn take(&mut self, film: Film) {
         self.execution.tile_side = film.tile_side;
         let numbers = if film.pilot { self.sampling.for_pilot() } else { self.sampling };
@@ -173,14 +174,14 @@ impl RenderInProgress {
         self.renumber(numbers);
     }
 
-    /// From now on samples are placed by these numbers.
+    /// Uses these sample numbers from now on.
     fn renumber(&mut self, numbers: SamplingTable) {
         for table in self.tables.iter_mut().filter(|table| table.id == TypeId::of::<SamplingTable>()) {
             table.insert = Box::new(move |world: &mut World| world.insert_resource(Shared::new(numbers)));
         }
     }
 
-    /// Ends it: what it leaves.
+    /// Ends the render and returns its result.
     pub fn finish(self) -> Rendered {
         let threads = self.threads();
         let clock_of = |world: Mutex<Option<RenderWorld>>| {
@@ -195,7 +196,7 @@ impl RenderInProgress {
     }
 }
 
-/// A film with the columns that the plan keeps beside sums and counts.
+/// A film with the columns that the plan requires beside sums and counts.
 pub(super) fn film_for(scene: &Census<'_>, plan: &Plan, mut film: Film) -> Film {
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
     if plan.keeps::<FilmMoments>() {
@@ -211,11 +212,11 @@ pub(super) fn film_for(scene: &Census<'_>, plan: &Plan, mut film: Film) -> Film 
     film
 }
 
-pub(super) fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send {
+pub(super) fn film_parts(film: &mut Film) -> impl Iterator<Item = FilmPart<'_>> + Send {
     let mut moments = film.moments.iter_mut();
     let mut layers = film.layers.iter_mut();
     let mut planned = film.planned.iter();
-    film.tiles.iter_mut().zip(&mut film.done).map(move |(tile, done)| Share {
+    film.tiles.iter_mut().zip(&mut film.done).map(move |(tile, done)| FilmPart {
         film: tile,
         moments: moments.next(),
         layers: layers.next(),
@@ -225,17 +226,17 @@ pub(super) fn shares(film: &mut Film) -> impl Iterator<Item = Share<'_>> + Send 
 }
 
 impl RenderWorld {
-    /// Brings one tile to `to` steps.
-    fn run_share(&mut self, share: &mut Share<'_>, to: u32, watch: &dyn Watch) {
+    /// Advances one tile to `to` steps.
+    fn run_part(&mut self, part: &mut FilmPart<'_>, to: u32, watch: &dyn Watch) {
         let tile = self.tiles[0];
-        self.swap_share(tile, share);
-        // Layers are added to before light goes on its way, so a run that is given up has to take them back.
+        self.swap_part(tile, part);
+        // Layers accumulate before the path is traced, so an abandoned run has to restore them.
         let mut layers = FilmLayers::default();
-        for run in runs(*share.done, to) {
+        for run in runs(*part.done, to) {
             if watch.stopped() {
                 break;
             }
-            let active = self.activate(tile, &run, share.planned);
+            let active = self.activate(tile, &run, part.planned);
             if active > 0 {
                 if let Some(own) = self.world.get::<FilmLayers>(tile) {
                     layers.clone_from(own);
@@ -248,15 +249,15 @@ impl RenderWorld {
                 }
                 watch.traced(active as u64);
             }
-            *share.done = run.ends();
+            *part.done = run.ends();
         }
-        self.swap_share(tile, share);
-        if *share.done >= to {
+        self.swap_part(tile, part);
+        if *part.done >= to {
             watch.tile_done();
         }
     }
 
-    /// Brings all tiles to `to` steps; those that have the fewest behind them first catch up with the others.
+    /// Advances all tiles to `to` steps; those with the fewest steps catch up with the others first.
     fn run_all(&mut self, film: &mut Film, to: u32) {
         let tiles = self.tiles.clone();
         loop {
@@ -266,7 +267,7 @@ impl RenderWorld {
             }
             let next = film.done.iter().copied().filter(|&done| done > least).min().unwrap_or(to).min(to);
             let behind: Vec<bool> = film.done.iter().map(|&done| done == least).collect();
-            tiles.iter().zip(shares(film)).for_each(|(&tile, mut share)| self.swap_share(tile, &mut share));
+            tiles.iter().zip(film_parts(film)).for_each(|(&tile, mut part)| self.swap_part(tile, &mut part));
             for run in runs(least, next) {
                 let mut active = 0;
                 for (number, &tile) in tiles.iter().enumerate() {
@@ -277,19 +278,19 @@ impl RenderWorld {
                     self.run();
                 }
             }
-            tiles.iter().zip(shares(film)).for_each(|(&tile, mut share)| self.swap_share(tile, &mut share));
+            tiles.iter().zip(film_parts(film)).for_each(|(&tile, mut part)| self.swap_part(tile, &mut part));
             film.done.iter_mut().filter(|done| **done == least).for_each(|done| *done = next);
         }
     }
 
-    /// Lends a tile's share of the film to its entity, or takes it back: the two change places.
-    pub(super) fn swap_share(&mut self, tile: Entity, share: &mut Share<'_>) {
-        self.swap_film(tile, share.film);
+    /// Exchanges a tile's part of the film with that in its entity: once to lend it, once to take it back.
+    pub(super) fn swap_part(&mut self, tile: Entity, part: &mut FilmPart<'_>) {
+        self.swap_film(tile, part.film);
         let mut entity = self.world.entity_mut(tile);
-        if let (Some(moments), Some(mut own)) = (&mut share.moments, entity.get_mut::<FilmMoments>()) {
+        if let (Some(moments), Some(mut own)) = (&mut part.moments, entity.get_mut::<FilmMoments>()) {
             std::mem::swap(&mut *own, *moments);
         }
-        if let (Some(layers), Some(mut own)) = (&mut share.layers, entity.get_mut::<FilmLayers>()) {
+        if let (Some(layers), Some(mut own)) = (&mut part.layers, entity.get_mut::<FilmLayers>()) {
             std::mem::swap(&mut *own, *layers);
         }
     }

@@ -1,5 +1,5 @@
 use super::Execution;
-use super::in_progress::{film_for, shares};
+use super::in_progress::{film_for, film_parts};
 use super::render_world::{Hook, RenderWorld, prepare};
 use super::steps::Run;
 use super::tile_side::tile_side;
@@ -13,26 +13,26 @@ use bevy_ecs::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A frame whose every column is still there to be read.
+/// A rendered image with every column kept for reading.
 pub struct Inspection {
-    /// What ran and what did not.
+    /// The stages that ran, and those that did not.
     pub plan: Plan,
     /// The world that holds all tiles.
     pub world: World,
-    /// The entities that hold columns, left to right, then down.
+    /// The entities of the tiles, which hold the columns, from left to right and top to bottom.
     pub tiles: Vec<Entity>,
-    /// The image's shape.
+    /// The image's resolution and aspect ratio.
     pub image: ImageFrame,
     /// How long the stages ran.
     pub time: Duration,
 }
 
-/// Runs the kept stages over the whole frame in one world and keeps that world.
+/// Runs the kept stages over the whole image in one world and returns that world.
 pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspection> {
     inspect_stages(scene, offer, tile_side, &[])
 }
 
-/// The same; hooks follow each stage, and see what it wrote before a later one writes over it.
+/// The same with hooks, which follow each stage and see what it wrote before a later stage overwrites it.
 pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[Hook]) -> Result<Inspection> {
     let scene = &Census::of(scene);
     let image = *scene.table::<ImageFrame>()?;
@@ -40,8 +40,8 @@ pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[H
     inspect_film(scene, offer, image, film, Run::FIRST, hooks)
 }
 
-/// The same stages, of which those that step on and follow do nothing: what the first leg of light's way wrote stays to be
-/// looked at.
+/// The same stages, except that those which advance to the next bounce and trace the remaining ones do nothing, so that
+/// the columns of the first bounce remain to be read.
 pub fn first_bounce_only(offer: &[Stage]) -> Vec<Stage> {
     let mut offer = offer.to_vec();
     for stage in offer.iter_mut().filter(|stage| matches!(stage.set, TileSystems::Step | TileSystems::RemainingBounces))
@@ -51,7 +51,7 @@ pub fn first_bounce_only(offer: &[Stage]) -> Vec<Stage> {
     offer
 }
 
-/// Runs the kept stages over one pixel, for one of its samples; hooks follow each stage.
+/// Runs the kept stages on one pixel, for one of its samples; hooks follow each stage.
 ///
 /// The pixel is a tile by itself, since nothing that a stage writes for it depends on its neighbours.
 pub fn inspect_pixel(
@@ -66,7 +66,7 @@ pub fn inspect_pixel(
     inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
 }
 
-/// A film of nothing but one tile.
+/// A film of a single tile.
 fn film_of(tile: Tile) -> Film {
     Film {
         width: tile.width,
@@ -78,41 +78,41 @@ fn film_of(tile: Tile) -> Film {
     }
 }
 
-/// Runs the kept stages over pieces of the frame, one after another in one small world, for the first sample of each of
-/// their pixels; hooks follow each stage.
+/// Runs the kept stages on small tiles of the image, one after another in one small world, for the first sample of each
+/// of their pixels; hooks follow each stage.
 ///
-/// After each piece `look` is shown the world and told how long it took; none where it was given up.
-/// All of them together take no longer than `patience`, and one of them no longer than a part of what is left of that: so
-/// a piece whose paths do not end leaves time for others.
-pub fn look_at_pieces(
+/// After each tile `look` gets the world and the time that the tile took; none where the tile was given up.
+/// All tiles together take no longer than `patience`, and each at most a fraction of the time that is left, so that a
+/// tile whose paths do not end leaves time for others.
+pub fn probe_tiles(
     scene: &Census<'_>,
     (plan, tables): (&Plan, &[ExtractedTable]),
-    pieces: &[Tile],
+    tiles: &[Tile],
     patience: Duration,
     hooks: &[Hook],
     look: &mut dyn FnMut(&mut World, Option<Duration>),
 ) {
-    const PART: u32 = 4;
+    const FRACTION: u32 = 4;
     const TOO_SHORT: Duration = Duration::from_millis(2);
     let end = Instant::now() + patience;
     let mut frame = RenderWorld::new(plan, tables, 1, &Execution::default(), hooks);
-    for &piece in pieces {
+    for &place in tiles {
         let started = Instant::now();
         let left = end.saturating_duration_since(started);
         if left < TOO_SHORT {
             return;
         }
-        let mut film = film_for(scene, plan, film_of(piece));
+        let mut film = film_for(scene, plan, film_of(place));
         let tile = frame.tiles[0];
-        shares(&mut film).for_each(|mut share| frame.swap_share(tile, &mut share));
+        film_parts(&mut film).for_each(|mut part| frame.swap_part(tile, &mut part));
         frame.activate(tile, &Run::FIRST, None);
-        frame.stop_at(Stop::at_deadline(started + left / PART));
+        frame.stop_at(Stop::at_deadline(started + left / FRACTION));
         let whole = frame.run();
         look(&mut frame.world, whole.then(|| started.elapsed()));
     }
 }
 
-/// The side of a full tile of a render that is executed as usual.
+/// The side of a full tile, in pixels, with the default execution.
 pub fn usual_tile_side(scene: &Census<'_>, plan: &Plan) -> u32 {
     tile_side(scene, plan, Execution::default().tile_side)
 }
@@ -128,8 +128,8 @@ fn inspect_film(
     let (plan, tables) = prepare(scene, offer)?;
     let mut film = film_for(scene, &plan, film);
     let mut frame = RenderWorld::new(&plan, &tables, film.tiles.len(), &Execution::default(), hooks);
-    for (tile, mut share) in frame.tiles.clone().into_iter().zip(shares(&mut film)) {
-        frame.swap_share(tile, &mut share);
+    for (tile, mut part) in frame.tiles.clone().into_iter().zip(film_parts(&mut film)) {
+        frame.swap_part(tile, &mut part);
     }
     for tile in frame.tiles.clone() {
         frame.activate(tile, &run, None);

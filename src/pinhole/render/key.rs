@@ -2,11 +2,11 @@ use crate::plan::Plan;
 use crate::scene::{FNV_BASIS, fingerprint, fnv};
 use bevy_ecs::prelude::*;
 
-/// What a film is a film of, as a number: two renders with the same key add to the same sums.
+/// A number that identifies what a film is a film of: samples of two renders with the same key may be added together.
 ///
-/// It depends on the scene but for the number of samples, on the stages that run, and on the sources that the program was
-/// built from, for a stage that was edited takes other samples; the number of workers and the side of a tile are no part
-/// of it.
+/// It depends on the scene except for the number of samples, on the stages that run, and on the sources that the
+/// program was built from, since an edited stage takes other samples; it does not depend on the number of workers or
+/// the side of a tile.
 pub fn film_key(scene: &World, plan: &Plan) -> u64 {
     let mut text = String::from(env!("PINHOLE_SOURCES"));
     text += &fingerprint(scene);

@@ -13,25 +13,25 @@ use rayon::ThreadPool;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Batches whose splats wait together to be added: a few for every worker, so that memory stays bounded.
+/// The number of batches whose splats are added together: a few for every worker, so that memory stays bounded.
 const BATCHES_AT_ONCE: u64 = 64;
 
-/// The pass whose rows are ways from the lights.
+/// The pass whose rows are paths from the lights.
 ///
-/// Its batches are numbered through the whole render, whatever the image's tiles, and their splats are added in that
-/// order.
+/// Its batches are numbered throughout the render, independently of the image's tiles, and their splats are added in
+/// that order.
 pub(super) struct LightPass {
-    /// A world a worker.
+    /// One world per worker.
     worlds: Vec<Mutex<Option<RenderWorld>>>,
-    /// The splats of the batches under way, a list each.
+    /// The splats of the batches in progress, one list each.
     lists: Vec<Mutex<Splats>>,
-    /// Ways for every sample of a pixel.
+    /// The number of light paths per pixel sample.
     paths: f64,
     filter: SplatFilter,
     sampling: SamplingTable,
 }
 
-/// How many batches a render's light pass runs at once at most; 0 without such a pass.
+/// The greatest number of batches that a render's light pass runs at once; 0 without such a pass.
 pub(super) fn batches(
     scene: &Census<'_>,
     plan: &Plan,
@@ -45,7 +45,7 @@ pub(super) fn batches(
     Ok(batches_for(samples, scene.table::<LightTracingTable>()?.paths).min(BATCHES_AT_ONCE))
 }
 
-/// How many batches keep step with so many samples of pixels.
+/// The number of batches that corresponds to so many pixel samples.
 fn batches_for(samples: f64, paths: f64) -> u64 {
     (samples * paths / f64::from(LIGHT_PATHS)).ceil() as u64
 }
@@ -54,7 +54,7 @@ fn has_light_pass(plan: &Plan) -> bool {
     plan.passes.iter().any(|pass| pass.row == RowKind::LightPath)
 }
 
-/// What a pass needs of the render.
+/// What the light pass uses of the render.
 pub(super) struct Means<'a> {
     pub plan: &'a Plan,
     pub tables: &'a [ExtractedTable],
@@ -77,8 +77,8 @@ impl LightPass {
         }))
     }
 
-    /// Brings the film's splats in step with so many samples of pixels, or as far as the one who watches lets it: of the
-    /// batches that were under way when it was stopped, none joins the film.
+    /// Advances the light pass to correspond to so many pixel samples, or as far as the observer allows; batches in
+    /// progress when it is stopped do not contribute.
     pub fn advance(&self, film: &mut Film, samples: u64, means: &Means<'_>, watch: &dyn Watch) {
         let Some(splats) = &mut film.splats else { return };
         let mut filter = self.filter.clone();
@@ -141,12 +141,12 @@ impl LightPass {
     }
 }
 
-/// Runs a batch of ways; `list`, which is empty, gets their splats. Whether it was not given up.
+/// Runs a batch of light paths and moves their splats to `list`, which is empty; returns whether the run was completed.
 fn run_batch(world: &mut RenderWorld, batch: u64, list: &mut Splats) -> bool {
     let tile = world.tiles[0];
     let mut entity = world.world.entity_mut(tile);
     if let Some(mut place) = entity.get_mut::<Tile>() {
-        // A way's random numbers come from its row and its batch alone.
+        // The random numbers of a light path are a function of its row and its batch alone.
         *place = Tile { x: 0, y: (batch >> 32) as u32, width: LIGHT_PATHS, height: 1 };
     }
     if let Some(mut number) = entity.get_mut::<SampleNumber>() {

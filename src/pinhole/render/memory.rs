@@ -5,7 +5,7 @@ use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
 
-/// The most memory this process has held at once, in bytes; none where the system does not say.
+/// The peak memory of this process, in bytes; none where the system does not report it.
 pub fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -13,7 +13,7 @@ pub fn peak_memory() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Bytes that a render of a scene takes for each pixel of its film, and at its end for the layers of a file.
+/// Bytes that a render of a scene takes per pixel of its film, including the layers of a file written at its end.
 pub fn film_bytes_a_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
@@ -36,15 +36,15 @@ pub fn film_bytes_a_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneE
         written = (3 + channels(&kinds)) * size_of::<f32>() as u64;
     }
     if adaptive_of(scene)?.is_some() {
-        // The pilot's film stands beside the next one, and each pixel has a number of samples.
+        // The pilot's film exists beside the next one, and each pixel has a planned number of samples.
         film = 2 * film + COUNT;
     }
     Ok(film + written)
 }
 
-/// Checks that the film of a render can be had, before any of it is asked for.
+/// Checks that there is memory for a render's film before any of it is allocated.
 ///
-/// Errors: the resolution, what it needs, what there is, and about which resolution fits.
+/// Errors: the resolution, the memory it needs, the memory there is, and the resolution that would fit.
 pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError> {
     let image = scene.table::<ImageFrame>()?;
     let (width, height) = (image.width, image.height);
@@ -58,7 +58,7 @@ pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError
     })
 }
 
-/// About which resolution of the same shape fits, in two digits.
+/// The largest resolution of the same aspect ratio that fits, to two digits.
 fn fitting(size: [u32; 2], a_pixel: u64, too_little: TooLittleMemory) -> String {
     let pixels = size.iter().map(|&side| f64::from(side)).product::<f64>();
     let scale = (too_little.usable() as f64 / a_pixel as f64 / pixels).sqrt();
@@ -75,10 +75,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_resolution_that_fits_has_the_same_shape_and_fits() {
+    fn the_resolution_that_fits_has_the_same_aspect_and_fits() {
         let too_little = TooLittleMemory { needed: 0, free: 8 << 30 };
-        let told = fitting([32_768, 32_768], 28, too_little);
-        assert_eq!(told, "at most about 16000 × 16000 fits");
+        let message = fitting([32_768, 32_768], 28, too_little);
+        assert_eq!(message, "at most about 16000 × 16000 fits");
         assert!(16_000_u64 * 16_000 * 28 <= too_little.usable());
         assert_eq!(fitting([65_536, 16], 28, TooLittleMemory { needed: 0, free: 0 }), "at most about 1 × 1 fits");
     }

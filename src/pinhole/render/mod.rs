@@ -1,8 +1,8 @@
-//! The loop over tiles: a world a worker, or one world for all.
+//! The loop over tiles: one world per worker, or one world for all tiles.
 //!
-//! Reads: a scene, the stages on offer, how to execute.
-//! Writes: the [`Film`](crate::film::Film), what ran and how long it took.
-//! `rayon` appears here, and in `measure`, which renders nothing; no stage knows of threads.
+//! Reads: a scene, the stages on offer, and how to execute them.
+//! Writes: the [`Film`](crate::film::Film), and which stages ran and how long they took.
+//! No other module of the renderer uses `rayon`; no stage knows of threads.
 
 mod adaptive;
 mod clock;
@@ -25,7 +25,7 @@ pub use clock::{Lap, StageClock};
 pub use execution::{Execution, Watch, Worlds};
 pub use in_progress::RenderInProgress;
 pub use inspect::{
-    Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, look_at_pieces, usual_tile_side,
+    Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
 };
 pub use key::film_key;
 pub use memory::{check_film_fits, film_bytes_a_pixel, peak_memory};

@@ -6,48 +6,48 @@ use crate::scene::Adaptive;
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
 
-/// Nobody sees a picture that is written again sooner than this.
+/// A picture is not written again sooner than this.
 const SOONEST: Duration = Duration::from_millis(500);
-/// Writing takes at most one part in so many of the time.
-const SHARE_OF_WRITING: u32 = 20;
+/// Writing takes at most one part in this many of the time.
+const FRACTION_FOR_WRITING: u32 = 20;
 /// No pass is meant to take longer than this, so that what is on disk is never much older.
 const LONGEST_PASS: Duration = Duration::from_secs(5);
-/// The first samples of all pixels are one pass where they take less than this.
+/// The lattices of the first sample are one pass where they take less than this together.
 const AT_ONCE: Duration = Duration::from_millis(250);
 
-/// When a render ends, and how often what it has is kept.
+/// When a render ends, and how often it is saved.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Limits {
     /// The time after which no further pass begins.
     pub time: Option<Duration>,
-    /// How much time goes by between two writings; none for as often as writing takes at most 5 % of the time.
+    /// The time between two writings; by default, writing takes at most 5 % of the time.
     pub write_every: Option<Duration>,
-    /// The error that each pixel is to have.
+    /// The error that each pixel is to reach, for adaptive sampling.
     pub adaptive: Option<Adaptive>,
 }
 
-/// What a render in passes came to.
+/// The outcome of a render in passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Whether the one who watches stopped it.
+    /// Whether the observer stopped it.
     pub stopped: bool,
-    /// Whether the time was up before the samples were done.
+    /// Whether the time ran out before the samples were done.
     pub out_of_time: bool,
-    /// Samples that every pixel has, unless it was to have fewer.
+    /// The number of samples that every pixel has, unless it was to have fewer.
     pub samples: u32,
-    /// What was asked and what came of it, where the number of samples was decided pixel by pixel.
+    /// The errors that were reached, where sampling was adaptive.
     pub achieved: Option<Achieved>,
-    /// From the beginning to the end of the last pass, writing in between included.
+    /// Elapsed time from the beginning to the end of the last pass, including the writing in between.
     pub time: Duration,
 }
 
-/// Brings a render to its end in passes of growing numbers of samples, low resolution first.
+/// Advances a render to its end in passes of growing numbers of samples, coarse lattices first.
 ///
-/// `keep` is called between passes, to write what there is.
-/// A pass begins only where, by the speed of those before it, it ends before the time is up; the first sample of every
+/// `keep` is called between passes to save the film.
+/// A pass begins only if, by the speed of the earlier ones, it ends before the time limit; the first sample of every
 /// pixel is always taken.
 ///
-/// Errors: what `keep` says.
+/// Errors: those of `keep`.
 pub fn render_in_passes(
     render: &mut RenderInProgress,
     limits: &Limits,
@@ -83,7 +83,7 @@ pub fn render_in_passes(
     passes.ended(render, outcome)
 }
 
-/// The speed of samples so far.
+/// The speed of sampling so far.
 #[derive(Clone, Copy, Debug, Default)]
 struct Speed {
     samples: u64,
@@ -92,7 +92,7 @@ struct Speed {
 
 impl Speed {
     fn take(&mut self, samples: u64, time: Duration) {
-        // What a long pass says counts alone: the first passes are small and say little.
+        // Only the longest pass counts: the first passes are small, and their times are unreliable.
         if time > self.time {
             *self = Self::default();
         }
@@ -107,7 +107,7 @@ impl Speed {
 
 struct Passes {
     started: Instant,
-    /// When the last writing was over.
+    /// When the last writing ended.
     written: Instant,
     /// How long it took.
     writing: Duration,
@@ -116,7 +116,7 @@ struct Passes {
 }
 
 impl Passes {
-    /// Runs passes up to a step; whether it got there.
+    /// Runs passes up to a step; returns whether it was reached.
     fn run_to(
         &mut self,
         render: &mut RenderInProgress,
@@ -155,11 +155,11 @@ impl Passes {
     }
 
     fn is_time_to_write(&self) -> bool {
-        let pause = self.limits.write_every.unwrap_or((self.writing * SHARE_OF_WRITING).max(SOONEST));
+        let pause = self.limits.write_every.unwrap_or((self.writing * FRACTION_FOR_WRITING).max(SOONEST));
         self.written.elapsed() >= pause
     }
 
-    /// The step that the next pass goes to; none where the time is up.
+    /// The step that the next pass advances to; none where the time is up.
     fn next(&self, film: &Film, done: u32, end: u32) -> Option<u32> {
         let predicted = |to: u32| self.speed.time_of(film.samples_between(done, to));
         if done < WHOLE {
@@ -169,7 +169,8 @@ impl Passes {
         let longest = self.limits.write_every.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
         let left = self.limits.time.map(|time| time.saturating_sub(self.started.elapsed() + self.writing));
         let most = left.map_or(longest, |left| left.min(longest));
-        // Twice as many samples as there are, or as many as fit; at least one, unless the time is up before it ends.
+        // Twice as many samples as there are, or as many as fit into the time; at least one, unless even that does not
+        // fit.
         let mut samples = samples_after(done).min(end - done);
         while samples > 1 && predicted(done + samples) > most {
             samples = samples.div_ceil(2);
@@ -186,20 +187,20 @@ impl Passes {
 }
 
 impl Film {
-    /// The fewest steps that a tile has behind it.
+    /// The number of steps of the tile that is furthest behind.
     pub fn least_done(&self) -> u32 {
         self.done.iter().copied().min().unwrap_or(0)
     }
 
-    /// The most samples that a pixel is to get.
+    /// The greatest number of samples planned for any pixel.
     pub fn most_planned(&self) -> u32 {
         self.planned.iter().flatten().copied().max().unwrap_or(0)
     }
 
-    /// How many samples of all pixels lie between two steps, if all tiles are where the least is.
+    /// The number of pixel samples between two steps, if all tiles are where the last one is.
     pub fn samples_between(&self, from: u32, to: u32) -> u64 {
         let pixels = u64::from(self.width) * u64::from(self.height);
-        // A quarter of a lattice's pixels were on the one before it; the first holds 1 of 64.
+        // A lattice has four times as many pixels as the one before it; the first has one pixel in 64.
         let of_first = |steps: u32| match steps {
             0 => 0,
             steps if steps >= WHOLE => pixels,

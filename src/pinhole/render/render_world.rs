@@ -14,16 +14,16 @@ use bevy_ecs::system::ScheduleSystem;
 use std::mem;
 use std::sync::Arc;
 
-/// Makes a system to be run right after each stage: for clocks and recorders, never for the picture.
+/// Makes a system that runs right after each stage, for timing and recording; it must not change the picture.
 pub type Hook = Arc<dyn Fn(usize, &Stage, &Plan) -> ScheduleConfigs<ScheduleSystem> + Send + Sync>;
 
-/// The hooks of a stage take turns, the clock first, so that it does not time the others.
+/// The order of a stage's hooks; the clock comes first, so that it does not time the others.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct HookTurn(usize, usize);
 
-/// Checks a scene, plans it, and reads its tables.
+/// Checks a scene, plans it, and extracts its tables.
 ///
-/// Errors: what the scene is refused for, or why there is no plan.
+/// Errors: the reason why the scene is invalid, or why there is no plan.
 pub fn prepare(scene: &Census<'_>, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
@@ -33,13 +33,13 @@ pub fn prepare(scene: &Census<'_>, offer: &[Stage]) -> Result<(Plan, Vec<Extract
     Ok((plan, tables))
 }
 
-/// One worker's world: tiles with their columns, the shared tables, and the schedule that the plan built.
+/// The world of one worker: tiles with their columns, the shared tables, and the schedule that the plan built.
 pub struct RenderWorld {
     /// Tiles and tables.
     pub world: World,
     /// The kept stages in order.
     pub schedule: Schedule,
-    /// The entities that hold columns.
+    /// The entities of the tiles, which hold the columns.
     pub tiles: Vec<Entity>,
 }
 
@@ -49,7 +49,7 @@ impl RenderWorld {
         Self::of_pass(RowKind::Pixel, plan, tables, tiles, execution, hooks)
     }
 
-    /// A world of the pass whose rows are of this kind.
+    /// A world for the pass whose rows are of this kind.
     pub fn of_pass(
         row: RowKind,
         plan: &Plan,
@@ -89,7 +89,7 @@ impl RenderWorld {
         Self { world, schedule, tiles }
     }
 
-    /// Lends a part of the film to a tile's entity, or takes it back: the two change places.
+    /// Exchanges a tile's part of the film with that in its entity: once to lend it, once to take it back.
     pub fn swap_film(&mut self, tile: Entity, film: &mut FilmTile) {
         let mut entity = self.world.entity_mut(tile);
         if let Some(mut place) = entity.get_mut::<Tile>() {
@@ -100,7 +100,7 @@ impl RenderWorld {
         }
     }
 
-    /// Says which pixels of a tile take part in the next run, and by which sample; how many they are.
+    /// Selects the pixels of a tile that take part in the next run and the sample that they take; returns their number.
     pub fn activate(&mut self, tile: Entity, run: &Run, planned: Option<&[u32]>) -> usize {
         let mut entity = self.world.entity_mut(tile);
         let place = entity.get::<Tile>().copied().unwrap_or_default();
@@ -116,7 +116,7 @@ impl RenderWorld {
         }
     }
 
-    /// Lets a tile take no part in the next run.
+    /// Selects no pixel of a tile for the next run.
     pub fn rest(&mut self, tile: Entity) -> usize {
         if let Some(mut active) = self.world.get_mut::<ActivePixels>(tile) {
             active.0.clear();
@@ -124,15 +124,15 @@ impl RenderWorld {
         0
     }
 
-    /// From now on a run is given up as soon as this says so, where light is followed at all: else a run is soon over.
+    /// Sets the condition on which a run is abandoned; only runs that trace bounces can be, since others are short.
     pub fn stop_at(&mut self, stop: Stop) {
         if let Some(mut own) = self.world.get_resource_mut::<Stop>() {
             *own = stop;
         }
     }
 
-    /// Runs every kept stage once over all tiles of this world; whether it was not given up before its light was
-    /// gathered, in which case no light has joined the film.
+    /// Runs every kept stage once over all tiles of this world; returns whether the run was completed, since an
+    /// abandoned one adds nothing to the film.
     pub fn run(&mut self) -> bool {
         if let Some(mut stop) = self.world.get_resource_mut::<Stop>() {
             stop.given_up = false;

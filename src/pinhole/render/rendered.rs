@@ -3,24 +3,24 @@ use crate::film::{Curve, Film};
 use crate::plan::Plan;
 use std::time::Duration;
 
-/// What a render leaves.
+/// The result of a render.
 pub struct Rendered {
-    /// What ran and what did not.
+    /// The stages that ran, and those that did not.
     pub plan: Plan,
-    /// The light that arrived.
+    /// The accumulated radiance.
     pub film: Film,
-    /// A lap a kept stage, summed over workers; empty where no statistics were asked for.
+    /// One lap per kept stage, summed over workers; empty where no statistics were requested.
     pub laps: Vec<Lap>,
-    /// Workers.
+    /// The number of workers.
     pub threads: usize,
-    /// From the first tile to the last.
+    /// Elapsed time from the first tile to the last.
     pub time: Duration,
-    /// Bytes that the tables take.
+    /// Memory of the tables, in bytes.
     pub table_bytes: usize,
 }
 
 impl Rendered {
-    /// How the film becomes a picture: light by the sRGB curve, a view's numbers as they are.
+    /// The curve that turns the film into a picture: sRGB for radiance, the identity for a view's values.
     pub fn curve(&self) -> Curve {
         if self.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }
     }

@@ -1,35 +1,36 @@
 use crate::film::FIRST_SAMPLE_STEPS;
 use crate::rays::Tile;
 
-/// The lattices of a picture's first sample, by the distance of their pixels: low resolution first.
+/// The lattices of a picture's first sample, by the distance between their pixels, coarsest first.
 pub const LATTICES: [u32; FIRST_SAMPLE_STEPS as usize] = [8, 4, 2, 1];
 
-/// The step after which every pixel has its first sample.
+/// The number of steps after which every pixel has its first sample.
 pub const WHOLE: u32 = FIRST_SAMPLE_STEPS;
 
-/// How many steps bring every pixel to this many samples: the first sample takes four, each further one.
+/// The number of steps after which every pixel has this many samples: the first sample takes four, each further one
+/// takes one.
 pub fn steps_of(samples: u32) -> u32 {
     samples.saturating_add(WHOLE - 1)
 }
 
-/// How many samples every pixel has after so many steps; 0 before each has its first.
+/// The number of samples that every pixel has after so many steps; 0 until each has its first.
 pub fn samples_after(steps: u32) -> u32 {
     steps.saturating_sub(WHOLE - 1)
 }
 
-/// One run of the schedule over a tile: a sample's number, for pixels on some lattices or for all.
+/// One run of the schedule over a tile: the number of a sample, for the pixels of some lattices or for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// The sample.
+    /// The sample's number.
     pub sample: u32,
-    /// Of the first sample: the lattices, by their places in [`LATTICES`], that are traced in this run.
+    /// For the first sample, the range of indices into [`LATTICES`] that this run covers.
     lattices: [usize; 2],
 }
 
 // ANCHOR: runs
-/// The runs that bring a tile from `done` steps to `to`.
+/// The runs that advance a tile from `done` steps to `to`.
 ///
-/// Lattices that follow each other are run at once, since a pixel's sums do not depend on its neighbours'.
+/// Consecutive lattices are run at once, since a pixel's sums do not depend on its neighbours'.
 pub fn runs(done: u32, to: u32) -> Vec<Run> {
     let lattices = [done.min(WHOLE) as usize, to.min(WHOLE) as usize];
     let first = (lattices[0] < lattices[1]).then_some(Run { sample: 0, lattices });
@@ -48,20 +49,20 @@ impl Run {
         Self { sample, lattices: [0, LATTICES.len()] }
     }
 
-    /// The step that a tile has come to after this run.
+    /// The number of steps that a tile has finished after this run.
     pub fn ends(&self) -> u32 {
         if self.sample == 0 { self.lattices[1] as u32 } else { self.sample.saturating_add(WHOLE) }
     }
 
-    /// Whether a pixel is on the lattices of this run and on none before them.
+    /// Whether a pixel is on the lattices of this run but on none of an earlier one.
     fn holds(&self, x: u32, y: u32) -> bool {
         let on = |lattice: u32| x.is_multiple_of(lattice) && y.is_multiple_of(lattice);
         let coarser = self.lattices[0].checked_sub(1).is_some_and(|before| on(LATTICES[before]));
         on(LATTICES[self.lattices[1] - 1]) && !coarser
     }
 
-    /// The rows of a tile's film that take part, ascending; `planned` are the samples that each is to get, where that
-    /// has been decided.
+    /// The rows of a tile's film that take part, ascending; `planned` is the number of samples for each row, where
+    /// sampling is adaptive.
     pub fn rows(&self, tile: Tile, planned: Option<&[u32]>, into: &mut Vec<u32>) {
         into.clear();
         let wanted = |row: usize| planned.is_none_or(|planned| self.sample < planned[row]);
@@ -102,19 +103,19 @@ mod tests {
                 cuts += 1;
             }
         }
-        eprintln!("steps: {tried} samples in {cuts} ways to cut a render into passes");
+        eprintln!("steps: {tried} samples, a render divided into passes in {cuts} different ways");
     }
 
     #[test]
     fn steps_and_samples_lead_to_each_other() {
         assert_eq!([0, 3, 4, 5, 19].map(samples_after), [0, 0, 1, 2, 16]);
         assert_eq!([1, 2, 16].map(steps_of), [4, 5, 19]);
-        // No number of steps that a damaged checkpoint may hold is one of too few samples.
+        // A damaged checkpoint may hold any number of steps; none of them overflows.
         assert_eq!(samples_after(u32::MAX), u32::MAX - 3);
     }
 
     #[test]
-    fn pixels_that_are_planned_less_stop_sooner() {
+    fn pixels_with_fewer_planned_samples_stop_sooner() {
         let tile = Tile { x: 0, y: 0, width: 2, height: 1 };
         let mut rows = Vec::new();
         let counts: Vec<Vec<u32>> = runs(0, steps_of(4))

@@ -2,19 +2,19 @@ use crate::extract::shape_entities;
 use crate::plan::{Census, ColumnKind, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
 
-/// The most bytes that the rays to lights take in a worker's tile, before the lists' own spare room.
+/// The greatest memory for the shadow rays of a worker's tile, in bytes, without the spare capacity of the lists.
 const MOST_BYTES: f64 = (16_u32 << 20) as f64;
-/// The most pairs of a ray and a shape that a stage of a tile tests: some tenths of a second, since between two stages
-/// nobody looks whether to stop.
+/// The greatest number of ray–shape tests in one stage of a tile, which take some tenths of a second; a render can be
+/// stopped only between stages.
 const MOST_TESTS: f64 = (1_u32 << 28) as f64;
-/// A tile of one pixel would take more memory for the film around it than it saves in its columns.
+/// With tiles of one pixel, the film would take more memory than the columns save.
 const LEAST: u32 = 2;
 
-/// The side of a full tile: at most this, and less where many lights or shapes would make its columns large or its stages
-/// slow.
+/// The side of a full tile, in pixels: at most this, and less where many lights or shapes would make its columns large
+/// or its stages slow.
 ///
-/// From every pixel a ray goes to each light without an area, and all of a tile's are held at once.
-/// No bit of a picture depends on the side.
+/// Every pixel sends a shadow ray to each light without an area, and those of a tile are in memory at once.
+/// No bit of the image depends on the side.
 pub(super) fn tile_side(scene: &Census<'_>, plan: &Plan, most: u32) -> u32 {
     let of_light =
         |column: &&ColumnKind| column.is::<LightRays>() || column.is::<LightPdfs>() || column.is::<ShadowHits>();

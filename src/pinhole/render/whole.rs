@@ -4,9 +4,9 @@ use crate::plan::{Census, Stage};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 
-/// Renders a scene by the stages on offer that it needs.
+/// Renders a scene with those of the stages on offer that it needs.
 ///
-/// Errors: a refused scene, no plan, or a stop by the one who watches.
+/// Errors: an invalid scene, a plan that cannot be made, or an observer that stopped the render.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
     let scene = &Census::of(scene);
     let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;

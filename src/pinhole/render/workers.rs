@@ -1,17 +1,17 @@
 use super::Execution;
 use std::thread::available_parallelism;
 
-/// How many workers to start: as many as are asked for or the machine has cores, but no more than there are tiles or
-/// batches of light to give them.
+/// The number of workers to start: as many as requested, or one per core, but no more than there are tiles or batches
+/// of light paths.
 ///
-/// A thousand workers for one tile take longer to start than the tile takes.
+/// Starting a thousand workers for one tile would take longer than rendering it.
 pub(super) fn workers(execution: &Execution, tiles: u64, batches: u64) -> usize {
     let most = usize::try_from(tiles.max(batches).max(1)).unwrap_or(usize::MAX);
-    execution.threads.filter(|&asked| asked > 0).unwrap_or_else(by_default).min(most)
+    execution.threads.filter(|&threads| threads > 0).unwrap_or_else(by_default).min(most)
 }
 
-/// What `rayon` takes where nothing is said, which has to be known here to be limited.
+/// What `rayon` would choose by default, which must be known here so that it can be limited.
 fn by_default() -> usize {
-    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
-    asked.filter(|&number| number > 0).unwrap_or_else(|| available_parallelism().map_or(1, usize::from))
+    let threads = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    threads.filter(|&number| number > 0).unwrap_or_else(|| available_parallelism().map_or(1, usize::from))
 }

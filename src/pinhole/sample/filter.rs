@@ -38,7 +38,7 @@ pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
 mod tests {
     use super::super::{Draw, Independent, PixelKey, Purpose, unit};
     use super::*;
-    use crate::extract::{filter_area, filter_value, radius_of, turning_place};
+    use crate::extract::{filter_area, filter_value, radius_of, sign_change};
     use crate::scene::Filter;
     use std::f64::consts::PI;
 
@@ -63,7 +63,7 @@ mod tests {
 
     /// The fraction of the area under |f| that lies between −x and x.
     fn fraction(filter: Filter, x: f64) -> f64 {
-        let turn = turning_place(filter);
+        let turn = sign_change(filter);
         let positive = filter_area(filter, turn);
         let beyond = |x: f64| if x > turn { (filter_area(filter, x) - positive).abs() } else { 0.0 };
         (filter_area(filter, x.min(turn)) + beyond(x)) / (positive + beyond(radius_of(filter)))
@@ -113,7 +113,7 @@ mod tests {
 
     /// The integral of f(x) h(x) over that of f, by quadrature on each side of where f changes sign.
     fn convolved(filter: Filter, h: impl Fn(f64) -> f64, kink: f64) -> f64 {
-        let (radius, turn) = (radius_of(filter), turning_place(filter));
+        let (radius, turn) = (radius_of(filter), sign_change(filter));
         let mut ends = [-radius, -turn, -radius / 2.0, 0.0, radius / 2.0, turn, radius, kink.clamp(-radius, radius)];
         ends.sort_by(f64::total_cmp);
         let mut sum = 0.0;

@@ -1,5 +1,5 @@
 use super::emitter::{distance_to, pdf_towards, point_on};
-use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_chosen, cosine_of, shadow_t_max};
+use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_sampled, cosine_of, shadow_t_max};
 use super::{LightPdfs, LightRays};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces, offset_origin};
@@ -11,33 +11,33 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: irradiance_from_area
-/// What a surface receives of a light of radiance L, told by one direction to it: L cos θ / p.
+/// One sample's estimate of the irradiance from an area light of radiance L: L cos θ / p.
 ///
-/// p is how likely that direction was to be chosen, per unit of solid angle: the mean of many such tellings is the
-/// integral of L cos θ over the directions that the light fills.
+/// p is the pdf of the sampled direction per unit of solid angle, so the mean of many samples converges to the integral
+/// of L cos θ over the directions that the light subtends.
 #[inline(always)]
 pub fn irradiance_from_area(radiance: [f64; 3], cosine: f64, pdf: f64) -> [f64; 3] {
-    let share = cosine / pdf;
-    [radiance[0] * share, radiance[1] * share, radiance[2] * share]
+    let weight = cosine / pdf;
+    [radiance[0] * weight, radiance[1] * weight, radiance[2] * weight]
 }
 // ANCHOR_END: irradiance_from_area
 
-/// How likely a point on a light was to be aimed at from another, in 1/sr, the chance of choosing that light included; 0
-/// from where the light does not shine.
+/// The pdf of sampling a point on a light from another point, in 1/sr, including the probability of choosing that
+/// light; 0 where the light does not shine.
 ///
-/// `from` is where a ray starts that has met the light at `at`.
+/// `from` is the origin of a ray that hit the light at `at`.
 #[inline(always)]
 pub fn area_light_pdf(lights: &AreaLightTable, light: usize, from: DVec3, at: DVec3) -> f64 {
     let emitter = &lights.emitter[light];
     let shines = !lights.one_sided[light] || emitter.faces(from);
-    if shines { lights.random[light] * pdf_towards(emitter, from, at) } else { 0.0 }
+    if shines { lights.probability[light] * pdf_towards(emitter, from, at) } else { 0.0 }
 }
 
 // ANCHOR: sample_light
-/// Aims at a point of a light, and says how likely that was.
+/// Samples a point on a light; returns the shadow ray towards it and its pdf in 1/sr.
 ///
-/// The ray goes where its rounded direction leads, so its end is sought anew on the light along that: else a light met at a
-/// slant would stand in its own way.
+/// The shadow ray follows its direction as rounded to f32, so its end is computed anew by intersecting the light along
+/// it: otherwise a light hit at grazing incidence would block its own ray.
 #[inline(always)]
 fn sample_light(
     lights: &AreaLightTable,
@@ -49,21 +49,21 @@ fn sample_light(
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let (from, emitter) = (origin.as_dvec3(), &lights.emitter[light]);
     let point = point_on(emitter, from, u);
-    let pdf = lights.random[light] * point.pdf;
+    let pdf = lights.probability[light] * point.pdf;
     let shines = pdf > 0.0 && (!lights.one_sided[light] || emitter.faces(from));
 
     let length = point.to.length();
     let direction = (point.to * (1.0 / length)).as_vec3();
-    let met = distance_to(emitter, from, direction.as_dvec3());
-    let distance = if met > 0.0 && met < f64::INFINITY { met } else { length };
+    let hit = distance_to(emitter, from, direction.as_dvec3());
+    let distance = if hit > 0.0 && hit < f64::INFINITY { hit } else { length };
     let cosine = if shines { cosine_of(surface, normal, direction) } else { 0.0 };
     let irradiance = irradiance_from_area(lights.radiance[light], cosine, pdf);
-    let aimed = ShadowRay { origin, direction, distance, cosine };
-    (LightRay { aimed, reach: shadow_t_max(distance), irradiance }, pdf)
+    let ray = ShadowRay { origin, direction, distance, cosine };
+    (LightRay { ray, t_max: shadow_t_max(distance), irradiance }, pdf)
 }
 // ANCHOR_END: sample_light
 
-/// Appends, for each row, a ray to a point on one of the lights with an area.
+/// Appends, for each row, a shadow ray to a point sampled on one of the area lights.
 pub fn sample_area_lights(
     lights: Res<Shared<AreaLightTable>>,
     sampling: Res<Shared<SamplingTable>>,
@@ -78,42 +78,54 @@ pub fn sample_area_lights(
         return;
     }
     for ((tile, number, depth, samples, paths), (surfaces, shading, list), mut rays, mut pdfs) in &mut tiles {
-        let lit = LightRows { surfaces, shading, rows: &list.row };
+        let receivers = LightRows { surfaces, shading, rows: &list.row };
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
         let to = (&mut *rays, pdfs.as_deref_mut());
         let purposes = [Purpose::LightChoice, Purpose::LightPoint];
         match sampling.sampler {
             Sampler::Independent => {
-                aim_rows(purposes.map(|purpose| Independent::new(number, depth, purpose)), key, &lights, &lit, to);
+                sample_rows(
+                    purposes.map(|purpose| Independent::new(number, depth, purpose)),
+                    key,
+                    &lights,
+                    &receivers,
+                    to,
+                );
             }
             Sampler::Stratified => {
                 let all = sampling.samples;
-                aim_rows(purposes.map(|purpose| Stratified::new(number, all, depth, purpose)), key, &lights, &lit, to);
+                sample_rows(
+                    purposes.map(|purpose| Stratified::new(number, all, depth, purpose)),
+                    key,
+                    &lights,
+                    &receivers,
+                    to,
+                );
             }
             Sampler::Sobol => {
-                aim_rows(purposes.map(|purpose| Sobol::new(number, depth, purpose)), key, &lights, &lit, to);
+                sample_rows(purposes.map(|purpose| Sobol::new(number, depth, purpose)), key, &lights, &receivers, to);
             }
         }
     }
 }
 
 #[inline(always)]
-fn aim_rows<D: Draw>(
+fn sample_rows<D: Draw>(
     [choice, place]: [D; 2],
     key: impl Fn(usize) -> PixelKey,
     lights: &AreaLightTable,
-    lit: &LightRows<'_>,
+    receivers: &LightRows<'_>,
     to: RayLists<'_>,
 ) {
-    append_chosen(lit, to, |row, surface, normal| {
+    append_sampled(receivers, to, |row, surface, normal| {
         let key = key(row);
         let light = lights.chosen(choice.one(key));
         sample_light(lights, light, surface, normal, place.two(key).map(unit))
     });
 }
 
-/// The stage on offer: the alternative to meeting such light by chance.
+/// The stage that runs [`sample_area_lights`]: next-event estimation, the alternative to BSDF sampling alone.
 pub fn area_light_stage() -> Stage {
     Stage::new("Sample area lights", TileSystems::SampleLights, sample_area_lights)
         .kind(StageKind::Alternative)

@@ -5,7 +5,7 @@ use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::{Background, Rgb};
 use bevy_ecs::prelude::*;
 
-/// Adds the background's radiance to the rows that met nothing; to all rows where the scene has no shapes.
+/// Adds the background's radiance to the rows that hit nothing; to all rows where the scene has no shapes.
 pub fn add_background(background: Res<Shared<BackgroundTable>>, mut tiles: Query<(Option<&Hits>, &mut Radiance)>) {
     let [red, green, blue] = background.radiance;
     for (hits, mut radiance) in &mut tiles {
@@ -23,7 +23,7 @@ pub fn add_background(background: Res<Shared<BackgroundTable>>, mut tiles: Query
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`add_background`].
 pub fn background_stage() -> Stage {
     Stage::new("Add the background", TileSystems::Background, add_background).when(|scene| {
         let found = Evidence::among::<With<Background>>(scene, "coloured background", |entity| {

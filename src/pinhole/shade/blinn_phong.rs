@@ -10,9 +10,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: half_vector_cosine
-/// cos β between the normal and the direction half way between light and eye; no vector need have length 1.
+/// cos β between the normal and the half vector of the directions to light and eye; no vector need be normalised.
 ///
-/// Where light and eye face each other there is no half way and the answer is not a number, which is no highlight.
+/// Where light and eye are opposite each other there is no half vector, and the result is NaN, which gives no
+/// highlight.
 #[inline(always)]
 pub fn half_vector_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
     let half_vector = to_light / to_light.length() + to_eye / to_eye.length();
@@ -20,7 +21,7 @@ pub fn half_vector_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 
 }
 // ANCHOR_END: half_vector_cosine
 
-/// Adds what Blinn–Phong surfaces send towards the eye in their highlights.
+/// Adds the light that Blinn–Phong highlights reflect to the eye.
 pub fn add_blinn_phong(
     materials: Res<Shared<MaterialTable>>,
     highlights: Res<Shared<BlinnPhongTable>>,
@@ -30,8 +31,8 @@ pub fn add_blinn_phong(
     )>,
 ) {
     for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
-        let lit = HighlightRow { eye, surfaces, shading, light, shadow };
-        lit.add_highlights(&materials, MaterialKind::BlinnPhong, &mut radiance, |row, [normal, to_light, to_eye]| {
+        let row = HighlightRow { eye, surfaces, shading, light, shadow };
+        row.add_highlights(&materials, MaterialKind::BlinnPhong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = half_vector_cosine(normal, to_light, to_eye);
             let height = highlight(highlights.peak[row], highlights.exponent[row], cosine);
             highlights.specular[row].map(|part| part * height)
@@ -39,7 +40,7 @@ pub fn add_blinn_phong(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`add_blinn_phong`].
 pub fn blinn_phong_stage() -> Stage {
     Stage::new("Add Blinn–Phong highlights", TileSystems::Shade, add_blinn_phong)
         .when(|scene| material_kind_evidence::<BlinnPhong>(scene, "Blinn–Phong surface").and(|| light_evidence(scene)))

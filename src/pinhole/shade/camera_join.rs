@@ -1,5 +1,5 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, ShadowRay, append_chosen, shadow_t_max};
+use super::light::{LightRay, LightRows, ShadowRay, append_sampled, shadow_t_max};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine, offset_origin};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
@@ -9,17 +9,17 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 column! {
-    /// Where on the lens each surface that light from a lamp falls on is joined to the camera.
+    /// The point on the lens to which each surface on a light path is connected.
     pub struct JoinPoints("join", "camera", "scene units", Ray) {
-        /// To the right.
+        /// x, to the right.
         x: f64,
-        /// Upward.
+        /// y, upward.
         y: f64,
     }
 }
 
 impl JoinPoints {
-    /// To the right as red, upward as green.
+    /// x as red, y as green.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.x[row] as f32, self.y[row] as f32, 0.0]
     }
@@ -31,35 +31,35 @@ impl JoinPoints {
     }
 }
 
-/// Draws the points, a new one on every leg.
-pub fn draw_join_points(
+/// Samples the points on the lens, a new one at every bounce.
+pub fn sample_join_points(
     lens: Res<Shared<LensTable>>,
     sampling: Res<Shared<SamplingTable>>,
-    mut drawn: Local<Vec<[f64; 2]>>,
+    mut points_of_square: Local<Vec<[f64; 2]>>,
     mut tiles: Query<(&Tile, &Depth, &SampleNumber, &Paths, &MaterialRows, &mut JoinPoints)>,
 ) {
     for (tile, &depth, number, paths, list, mut points) in &mut tiles {
         let draws = Draws { sampling: &sampling, tile, number: Some(number), samples: None, paths: Some(paths), depth };
-        draws_of_two(&draws, Purpose::Lens, &list.row, &mut drawn);
+        draws_of_two(&draws, Purpose::Lens, &list.row, &mut points_of_square);
         let (xs, ys) = points.slices_mut(paths.rows());
-        for (&row, &u) in list.row.iter().zip(&*drawn) {
+        for (&row, &u) in list.row.iter().zip(&*points_of_square) {
             (xs[row as usize], ys[row as usize]) = lens_point(u.into(), &lens).into();
         }
     }
 }
 
-/// The stage that draws points.
+/// The stage that samples points on the lens.
 pub fn join_point_stage() -> Stage {
-    Stage::new("Sample the lens for connections", TileSystems::Join, draw_join_points)
+    Stage::new("Sample the lens for connections", TileSystems::Join, sample_join_points)
         .on_light_paths()
         .kind(StageKind::Alternative)
         .when(|scene| traced_evidence(scene).and(|| lens_evidence(scene)))
 }
 
-/// What a surface that is shaded by another normal than its own sends to the camera of each unit of power, but for its
-/// matter: cos θ to the camera by its own normal, times by how much the other normal changes the cosine of what falls.
+/// The cosine factor of a connection to the camera at a surface with a shading normal: cos θ to the camera by the
+/// geometric normal, times the ratio of the two cosines of the incident light.
 ///
-/// Rays from the camera weigh the light that falls by the normal to shade by; so must rays from the light (Veach 1997,
+/// Paths from the camera count incident light by the shading normal, and so must paths from the lights (Veach 1997,
 /// 5.3.2).
 #[inline(always)]
 pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64 {
@@ -67,10 +67,10 @@ pub fn join_cosine(to_camera: f64, falling: f64, falling_by_shading: f64) -> f64
 }
 
 // ANCHOR: connect_to_camera
-/// Appends a ray to the camera from every surface that light from a lamp falls on, and what the pixel there makes of it.
+/// Appends a ray to the camera from every surface that a light path reaches, with the importance of the pixel there.
 ///
-/// The camera stands in for a light: what falls on the surface is known, and what it sends there is asked for; matter
-/// answers the same either way.
+/// The camera takes the place of a light: the incident power is known, and the light sent to the camera is wanted; the
+/// BSDF is the same in both directions.
 pub fn connect_to_camera(
     join: Res<Shared<CameraJoinTable>>,
     mut tiles: Query<(
@@ -79,8 +79,8 @@ pub fn connect_to_camera(
     )>,
 ) {
     for ((arriving, surfaces, shading, list, points), mut rays) in &mut tiles {
-        let lit = LightRows { surfaces, shading, rows: &list.row };
-        append_chosen(&lit, (&mut rays, None), |row, surface, normal| {
+        let receivers = LightRows { surfaces, shading, rows: &list.row };
+        append_sampled(&receivers, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
             let joined = join_camera(&join, lens, origin.as_dvec3()).unwrap_or_default();
@@ -89,14 +89,14 @@ pub fn connect_to_camera(
             let (own, from) = (surface.normal.as_dvec3(), -arriving.direction_of(row));
             let seen = if distance > 0.0 { own.dot(direction.as_dvec3()) } else { 0.0 };
             let cosine = join_cosine(seen, own.dot(from), falling_cosine(own, normal, from));
-            let aimed = ShadowRay { origin, direction, distance, cosine };
-            (LightRay { aimed, reach: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
+            let ray = ShadowRay { origin, direction, distance, cosine };
+            (LightRay { ray, t_max: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
         });
     }
 }
 // ANCHOR_END: connect_to_camera
 
-/// The stage on offer.
+/// The stage that runs [`connect_to_camera`].
 pub fn camera_join_stage() -> Stage {
     Stage::new("Connect to the camera", TileSystems::SampleLights, connect_to_camera)
         .on_light_paths()

@@ -5,22 +5,22 @@ use crate::plan::{Shared, Stage, TileSystems};
 use crate::scene::{Checker, Stripes};
 use bevy_ecs::prelude::*;
 
-/// 1 where x lies in an even cell, −1 in an odd one.
+/// A square wave: 1 where x is in an even cell, −1 in an odd one.
 #[inline(always)]
 pub fn wave(x: f64) -> f64 {
     if x.floor().rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }
 }
 
 // ANCHOR: wave_mean
-/// The area under `wave` from 0 to x: it rises to 1 over every even cell and falls back to 0 over every odd one.
+/// The integral of `wave` from 0 to x: it rises to 1 over every even cell and falls back to 0 over every odd one.
 #[inline(always)]
 fn wave_area(x: f64) -> f64 {
     1.0 - (x.rem_euclid(2.0) - 1.0).abs()
 }
 
-/// The mean of `wave` over a range of this width about x.
+/// The mean of `wave` over an interval of this width about x.
 ///
-/// Within a cell it is the wave itself, also where the width is 0; over a range without end it is 0.
+/// Within a cell it is the wave itself, even for width 0; over an infinite interval it is 0.
 #[inline(always)]
 pub fn wave_mean(x: f64, width: f64) -> f64 {
     let (low, high) = (x - 0.5 * width, x + 0.5 * width);
@@ -35,51 +35,52 @@ pub fn wave_mean(x: f64, width: f64) -> f64 {
 // ANCHOR_END: wave_mean
 
 // ANCHOR: box_width
-/// The width of the range whose numbers spread as much as those in a pixel do, where they change by `right` and `down`
-/// from one pixel to the next.
+/// The width of the interval with the same variance as the coordinate within a pixel, where `right` and `down` are its
+/// changes from one pixel to the next.
 ///
-/// Numbers spread evenly over a range of width w have the variance w² / 12; those of a pixel are the sum of two such.
+/// A uniform distribution over width w has the variance w² / 12, and the coordinate within a pixel is the sum of two
+/// such.
 #[inline(always)]
 pub fn box_width(right: f64, down: f64) -> f64 {
     (right * right + down * down).sqrt()
 }
 // ANCHOR_END: box_width
 
-// ANCHOR: checker_share
-/// The share of the first colour in what a pixel covers of a checker.
+// ANCHOR: checker_fraction
+/// The fraction of a checker's first colour within a pixel's footprint.
 ///
-/// The colour is the first where an even number of the three coordinates lie in odd cells, so it is a product of three
-/// waves; and the mean of a product over a box is the product of the means.
-pub fn checker_share(at: &TexturePoint) -> f64 {
+/// The colour is the first where an even number of the three coordinates are in odd cells, so it is a product of three
+/// waves, and the mean of a product over a box is the product of the means.
+pub fn checker_fraction(at: &TexturePoint) -> f64 {
     let [right, down] = at.steps;
     let mean = |axis: usize| wave_mean(at.point[axis], box_width(right[axis], down[axis]));
     0.5 + 0.5 * mean(0) * mean(1) * mean(2)
 }
-// ANCHOR_END: checker_share
+// ANCHOR_END: checker_fraction
 
-/// The share of the first colour in what a pixel covers of stripes across x.
-pub fn stripes_share(at: &TexturePoint) -> f64 {
+/// The fraction of the first colour of stripes across x within a pixel's footprint.
+pub fn stripes_fraction(at: &TexturePoint) -> f64 {
     let [right, down] = at.steps;
     0.5 + 0.5 * wave_mean(at.point.x, box_width(right.x, down.x))
 }
 
-/// Colours the rows of checkered materials.
-pub fn colour_checkers(
+/// Evaluates the colours of checkered materials.
+pub fn evaluate_checkers(
     checkers: Res<Shared<CheckerTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        colour_rows(&checkers.0, surfaces, &list.row, points, &mut colours, checker_share);
+        colour_rows(&checkers.0, surfaces, &list.row, points, &mut colours, checker_fraction);
     }
 }
 
-/// Colours the rows of striped materials.
-pub fn colour_stripes(
+/// Evaluates the colours of striped materials.
+pub fn evaluate_stripes(
     stripes: Res<Shared<StripesTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        colour_rows(&stripes.0, surfaces, &list.row, points, &mut colours, stripes_share);
+        colour_rows(&stripes.0, surfaces, &list.row, points, &mut colours, stripes_fraction);
     }
 }
 
@@ -90,7 +91,7 @@ fn colour_rows(
     rows: &[u32],
     points: &TexturePoints,
     colours: &mut SurfaceColours,
-    share_of: impl Fn(&TexturePoint) -> f64,
+    fraction_of: impl Fn(&TexturePoint) -> f64,
 ) {
     for &row in rows {
         let row = row as usize;
@@ -100,21 +101,21 @@ fn colour_rows(
         }
         let texture = texture as usize;
         let at = points.get(row);
-        let share = share_of(&if table.filter[texture] { at } else { at.alone() });
+        let fraction = fraction_of(&if table.filter[texture] { at } else { at.alone() });
         let (first, second) = (table.first[texture], table.second[texture]);
-        colours.set(row, [0, 1, 2].map(|part| share * first[part] + (1.0 - share) * second[part]));
+        colours.set(row, [0, 1, 2].map(|part| fraction * first[part] + (1.0 - fraction) * second[part]));
     }
 }
 
-/// The stage on offer for checkers.
+/// The stage for checkers.
 pub fn checker_stage() -> Stage {
-    Stage::new("Evaluate textures: checkers", TileSystems::Texture, colour_checkers)
+    Stage::new("Evaluate textures: checkers", TileSystems::Texture, evaluate_checkers)
         .when(|scene| texture_of_kind::<Checker>(scene, "checkered material", |_| true))
 }
 
-/// The stage on offer for stripes.
+/// The stage for stripes.
 pub fn stripes_stage() -> Stage {
-    Stage::new("Evaluate textures: stripes", TileSystems::Texture, colour_stripes)
+    Stage::new("Evaluate textures: stripes", TileSystems::Texture, evaluate_stripes)
         .when(|scene| texture_of_kind::<Stripes>(scene, "striped material", |_| true))
 }
 
@@ -123,13 +124,13 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Numbers from 0 to 1 that look like chance.
+    /// Pseudorandom numbers from 0 to 1.
     fn random(index: u64, purpose: u64) -> f64 {
         let mixed = (index * 31 + purpose + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         ((mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 40) as f64 / (1 << 24) as f64
     }
 
-    /// The mean of the wave by counting whole and cut cells one after the other.
+    /// The mean of the wave, by adding whole and partial cells one after the other.
     fn counted_mean(low: f64, high: f64) -> f64 {
         let mut sum = 0.0;
         let mut at = low;
@@ -155,14 +156,14 @@ mod tests {
     }
 
     #[test]
-    fn a_range_without_width_is_its_point_and_one_without_end_is_the_mean() {
+    fn an_interval_of_width_0_is_its_point_and_an_infinite_one_is_the_mean() {
         for x in [-3.5, -1.0, -0.0, 0.0, 0.25, 1.0, 7.5, 1e7, 1e15, 1e300] {
             assert_eq!(wave_mean(x, 0.0), wave(x), "{x}");
             assert_eq!(wave_mean(x, f64::INFINITY), 0.0);
             assert!(wave_mean(x, 1e300).abs() < 1e-280 && (x > 1e15 || wave_mean(x, 1e9).abs() <= 1e-9), "{x}");
         }
         assert_eq!((wave(0.5), wave(1.5), wave(-0.5), wave(-1.5)), (1.0, -1.0, -1.0, 1.0));
-        // Far away a range may be shorter than the step from one number to the next.
+        // Far from the origin an interval may be narrower than the spacing of floating-point numbers.
         for step in 0..1000 {
             let mean = wave_mean(1e7 + f64::from(step) * 1e-3, 1e-10);
             assert!(mean == 1.0 || mean == -1.0 || step % 1000 == 0);
@@ -177,23 +178,23 @@ mod tests {
             let point = DVec3::new(random(index, 2) * 6.0, random(index, 3) * 6.0, random(index, 4) * 6.0);
             let width = DVec3::new(random(index, 5), random(index, 6), random(index, 7)) * 3.0;
             let steps = [DVec3::new(width.x, 0.0, 0.6 * width.z), DVec3::new(0.0, width.y, 0.8 * width.z)];
-            let share = checker_share(&TexturePoint { point, steps });
+            let fraction = checker_fraction(&TexturePoint { point, steps });
             let inside = (0..POINTS)
                 .map(|number| {
                     let within = |axis: u64| random(number, 10 + axis + 3 * index) - 0.5;
                     let at = point + width * DVec3::new(within(0), within(1), within(2));
-                    checker_share(&TexturePoint { point: at, ..TexturePoint::default() })
+                    checker_fraction(&TexturePoint { point: at, ..TexturePoint::default() })
                 })
                 .sum::<f64>();
-            worst = worst.max((share - inside / POINTS as f64).abs());
+            worst = worst.max((fraction - inside / POINTS as f64).abs());
         }
         eprintln!("mean of a checker: 20 boxes of {POINTS} points, worst {worst:.4}");
-        // Four standard errors of a share near a half.
+        // Four standard errors of a fraction near one half.
         assert!(worst < 4.0 * 0.5 / (POINTS as f64).sqrt(), "{worst}");
     }
 
     #[test]
-    fn a_range_spreads_as_a_pixel_does() {
+    fn an_interval_has_the_variance_of_a_pixel() {
         for (right, down) in [(1.0, 0.0), (0.3, 0.4), (-2.0, 1.0)] {
             let side = 400;
             let within = |number: i32| (f64::from(number) + 0.5) / f64::from(side) - 0.5;

@@ -1,8 +1,7 @@
 use crate::plan::column;
 
 column! {
-    /// The share of light that each surface sends on equally in all directions; exists where it is not the material's
-    /// own colour everywhere.
+    /// The albedo of each surface's diffuse reflection; exists where it is not the material's own colour everywhere.
     pub struct SurfaceColours("colour", "surface", "linear Rec. 709", Ray, begun in Colour) {
         /// Red, from 0 to 1.
         r: f64,
@@ -14,7 +13,7 @@ column! {
 }
 
 impl SurfaceColours {
-    /// The colour itself, without the curve that the picture gets.
+    /// The colour itself, without the sRGB curve that the picture gets.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.r[row] as f32, self.g[row] as f32, self.b[row] as f32]
     }

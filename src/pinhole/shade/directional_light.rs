@@ -8,39 +8,44 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: irradiance_from_direction
-/// What a surface receives of a light whose rays are parallel: E cos θ, whatever the distance.
+/// The irradiance from a light with parallel rays: E cos θ, at any distance.
 #[inline(always)]
 pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] {
     [irradiance[0] * cosine, irradiance[1] * cosine, irradiance[2] * cosine]
 }
 // ANCHOR_END: irradiance_from_direction
 
-/// Aims along parallel rays; nothing is beyond such a light.
+/// The shadow ray along parallel light; nothing is beyond such a light.
 #[inline(always)]
-fn aim_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> ShadowRay {
+fn shadow_ray_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> ShadowRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let direction = to_light.as_vec3();
     ShadowRay { origin, direction, distance: f64::INFINITY, cosine: cosine_of(surface, normal, direction) }
 }
 
-/// Appends a tile's rays to directional lights, light after light; each looks without end.
+/// Appends shadow rays to directional lights, light after light; they have no end.
 pub fn sample_directional_lights(
     lights: Res<Shared<DirectionalLightTable>>,
     mut tiles: Query<(&Surfaces, Option<&ShadingNormals>, &MaterialRows, &mut LightRays, Option<&mut LightPdfs>)>,
 ) {
     for (surfaces, shading, list, mut rays, mut pdfs) in &mut tiles {
-        let lit = LightRows { surfaces, shading, rows: &list.row };
+        let receivers = LightRows { surfaces, shading, rows: &list.row };
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
-            append_rays(&lit, (&mut rays, pdfs.as_deref_mut()), lights.casts_shadows[light], |surface, normal| {
-                let aimed = aim_along(surface, normal, lights.to_light[light]);
-                let irradiance = irradiance_from_direction(irradiance, aimed.cosine);
-                LightRay { aimed, reach: f32::INFINITY, irradiance }
-            });
+            append_rays(
+                &receivers,
+                (&mut rays, pdfs.as_deref_mut()),
+                lights.casts_shadows[light],
+                |surface, normal| {
+                    let ray = shadow_ray_along(surface, normal, lights.to_light[light]);
+                    let irradiance = irradiance_from_direction(irradiance, ray.cosine);
+                    LightRay { ray, t_max: f32::INFINITY, irradiance }
+                },
+            );
         }
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`sample_directional_lights`].
 pub fn directional_light_stage() -> Stage {
     Stage::new("Sample directional lights", TileSystems::SampleLights, sample_directional_lights)
         .appends::<LightRays>()

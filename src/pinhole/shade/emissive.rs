@@ -8,7 +8,7 @@ use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: add_emission
-/// Adds what the surface that a ray hit emits on the side where it was hit; from how far does not matter.
+/// Adds the emission of the surface that a ray hit, on the side where it was hit; radiance does not depend on distance.
 pub fn add_emission(
     emissive: Res<Shared<EmissiveTable>>,
     mut tiles: Query<(&EmissiveRows, Option<&SurfaceSides>, &mut Radiance)>,
@@ -27,7 +27,7 @@ pub fn add_emission(
 }
 // ANCHOR_END: add_emission
 
-/// The stage on offer.
+/// The stage that runs [`add_emission`].
 pub fn emissive_stage() -> Stage {
     Stage::new("Add emission", TileSystems::Shade, add_emission)
         .on_camera_paths()
@@ -38,10 +38,10 @@ pub fn emissive_stage() -> Stage {
             let follows = followed_evidence(scene).needed;
             let traced = || traced_evidence(scene).needed;
             if found.needed && follows && (light_sampling_evidence(scene).needed || traced()) {
-                let reason = "added as far as it is not aimed at".into();
+                let reason = "added with its MIS weight".into();
                 return Evidence { needed: false, reason, count: 0 };
             }
-            let unlit = if found.needed && !follows { ", seen, but lighting nothing else" } else { "" };
+            let unlit = if found.needed && !follows { ", seen, but not lighting other surfaces" } else { "" };
             unless_occlusion(scene, Evidence { reason: format!("{}{unlit}", found.reason), ..found })
         })
 }

@@ -12,10 +12,10 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 // ANCHOR: equirectangular
-/// Where a direction is in an image of all directions: (0, 0) the upper left corner, (1, 1) the lower right.
+/// The position of a direction in an equirectangular image: (0, 0) is the upper left corner, (1, 1) the lower right.
 ///
-/// −z is in the middle, +x to the right of it, +y along the upper edge. No length is asked of the direction, and none is
-/// lost near the poles, where an arc cosine of y would lose half of its digits.
+/// −z is in the middle, +x to the right of it, and +y along the upper edge. The direction need not be normalised, and
+/// no precision is lost near the poles, where an arc cosine of y would lose half of its digits.
 #[inline(always)]
 pub fn equirectangular(direction: DVec3) -> DVec2 {
     let longitude = libm::atan2(direction.x, -direction.z);
@@ -24,24 +24,24 @@ pub fn equirectangular(direction: DVec3) -> DVec2 {
 }
 // ANCHOR_END: equirectangular
 
-/// The direction that is at a point of an image of all directions; what `equirectangular` undoes.
+/// The unit direction at a position of an equirectangular image; the inverse of [`equirectangular`].
 pub fn direction_of(at: DVec2) -> DVec3 {
     let (sine, cosine) = libm::sincos((at.x - 0.5) * (2.0 * PI));
     let (across, up) = libm::sincos(at.y * PI);
     DVec3::new(across * sine, up, -across * cosine)
 }
 
-/// The solid angle that each texel of a row stands for; all rows' together are 4π.
+/// The solid angle of each texel of a row, in steradians; those of all texels add up to 4π.
 pub fn texel_solid_angle(image: &Texels, row: usize) -> f64 {
     let cosine = |edge: usize| libm::cos(edge as f64 / image.height as f64 * PI);
     2.0 * PI / image.width as f64 * (cosine(row) - cosine(row + 1))
 }
 
 // ANCHOR: around
-/// The colour at a point of an image of all directions, blended from the four texels around it.
+/// The colour at a position of an equirectangular image, interpolated bilinearly from four texels.
 ///
-/// Beyond the left edge is the right one. Beyond the upper or lower edge, over the pole, is the same row again, half way
-/// round.
+/// The image continues from its left edge to its right one; over a pole it continues in the same row, half a turn
+/// further.
 pub fn around(image: &Texels, at: DVec2) -> [f64; 3] {
     let (width, height) = (image.width as f64, image.height as f64);
     let (x, y) = (at.x * width - 0.5, at.y * height - 0.5);
@@ -56,17 +56,17 @@ pub fn around(image: &Texels, at: DVec2) -> [f64; 3] {
 }
 // ANCHOR_END: around
 
-/// The radiance that comes from a direction, the environment turned.
+/// The environment's radiance from a direction, with its rotation.
 #[inline(always)]
 pub fn environment_radiance(environment: &EnvironmentTable, direction: DVec3) -> [f64; 3] {
     let [sine, cosine] = environment.turn;
     let DVec3 { x, y, z } = direction;
-    // The turn by which the environment came here, undone.
+    // The inverse of the environment's rotation.
     let there = DVec3::new(x * cosine - z * sine, y, x * sine + z * cosine);
     around(&environment.image, equirectangular(there))
 }
 
-/// Adds the environment's radiance to the rows that met nothing; to all rows where the scene has no shapes.
+/// Adds the environment's radiance to the rows that hit nothing; to all rows where the scene has no shapes.
 pub fn add_environment(
     environment: Res<Shared<EnvironmentTable>>,
     mut tiles: Query<(&WorldRays, Option<&Hits>, &mut Radiance)>,
@@ -83,18 +83,18 @@ pub fn add_environment(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`add_environment`].
 pub fn environment_stage() -> Stage {
     Stage::new("Add the environment", TileSystems::Background, add_environment).kind(StageKind::Alternative).when(
         |scene| {
             let found = Evidence::among::<With<Environment>>(scene, "environment", |entity| {
                 entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
             });
-            let aimed = environment_light_evidence(scene)
+            let sampled = environment_light_evidence(scene)
                 .and(|| light_sampling_evidence(scene))
                 .and(|| followed_evidence(scene));
-            if found.needed && aimed.needed {
-                let reason = "added as far as it is not aimed at".into();
+            if found.needed && sampled.needed {
+                let reason = "added with its MIS weight".into();
                 return Evidence { needed: false, reason, count: 0 };
             }
             unless_occlusion(scene, found)
@@ -106,7 +106,7 @@ pub fn environment_stage() -> Stage {
 mod tests {
     use super::*;
 
-    /// A smooth radiance of every direction.
+    /// A smooth radiance as a function of direction.
     fn smooth(direction: DVec3) -> [f64; 3] {
         [0.5 + 0.4 * direction.x, 1.0 + 0.5 * direction.y * direction.z, 2.0 + direction.z]
     }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_have_their_places() {
+    fn directions_have_their_positions() {
         let close = |direction: DVec3, x: f64, y: f64| {
             let at = equirectangular(direction);
             assert!((at - DVec2::new(x, y)).length() < 1e-15, "{direction}: {at}");
@@ -135,7 +135,7 @@ mod tests {
         close(DVec3::new(-1e-300, 0.0, 1.0), 0.0, 0.5);
         close(DVec3::new(0.0, 1.0, -1.0), 0.5, 0.25);
         assert!(equirectangular(DVec3::Y).y == 0.0 && equirectangular(DVec3::NEG_Y).y == 1.0);
-        // Where an arc cosine gives 0 or 6.7e-8 for all of them.
+        // For all of these, an arc cosine gives 0 or 6.7e-8.
         for small in [1e-8, 1e-12, 1e-200] {
             let y = equirectangular(DVec3::new(0.0, 1.0, -small)).y * PI;
             assert!((y / small - 1.0).abs() < 1e-15, "{y} for {small}");
@@ -147,18 +147,19 @@ mod tests {
     }
 
     #[test]
-    fn a_known_function_comes_back_to_within_the_error_of_blending() {
+    fn a_known_function_is_reproduced_within_the_error_of_interpolation() {
         let mut worsts = Vec::new();
         for (width, height) in [(64, 32), (128, 64), (256, 128), (101, 51)] {
             let image = image(width, height, smooth);
             let mut worst = 0.0_f64;
             for direction in directions() {
-                let told = around(&image, equirectangular(direction));
-                for (told, truth) in told.into_iter().zip(smooth(direction)) {
-                    worst = worst.max((told - truth).abs());
+                let found = around(&image, equirectangular(direction));
+                for (found, truth) in found.into_iter().zip(smooth(direction)) {
+                    worst = worst.max((found - truth).abs());
                 }
             }
-            // Linear blending is off by h²/8 of each second derivative, which here are at most 1.5 in either angle.
+            // Bilinear interpolation is off by h²/8 of each second derivative, which here are at most 1.5 in either
+            // angle.
             let step = PI / height as f64;
             assert!(worst < 2.0 * 1.5 * step * step / 8.0 * 4.0, "{width} × {height}: {worst}");
             worsts.push(worst);
@@ -168,13 +169,13 @@ mod tests {
     }
 
     #[test]
-    fn poles_and_seam_are_whole() {
+    fn poles_and_seam_are_continuous() {
         for (width, height) in [(1, 1), (1, 2), (2, 1), (3, 5), (64, 32)] {
             let image = image(width, height, smooth);
             for y in [1.0, -1.0] {
                 for (x, z) in [(0.0, 0.0), (-0.0, -0.0), (1e-300, 0.0), (0.0, -1e-30), (-1e-9, 1e-9)] {
-                    let told = around(&image, equirectangular(DVec3::new(x, y, z)));
-                    assert!(told.iter().all(|part| part.is_finite()), "{width} × {height} at {x} {y} {z}");
+                    let found = around(&image, equirectangular(DVec3::new(x, y, z)));
+                    assert!(found.iter().all(|part| part.is_finite()), "{width} × {height} at {x} {y} {z}");
                 }
             }
             for y in [-0.9, 0.0, 0.7] {
@@ -184,7 +185,7 @@ mod tests {
                 }
             }
         }
-        // Over the pole: from one side and from the other the same.
+        // Over the pole, the colour is the same from either side.
         let image = image(64, 32, smooth);
         let near = |x: f64| around(&image, equirectangular(DVec3::new(x, 1.0, 0.0)));
         for (one, other) in near(1e-9).into_iter().zip(near(-1e-9)) {
@@ -193,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_sphere_shines_4_pi() {
+    fn a_constant_sphere_integrates_to_4_pi() {
         for (width, height) in [(1, 1), (7, 3), (64, 32), (512, 256)] {
             let image = image(width, height, |_| [2.0, 0.5, 1.0]);
             let mut power = [0.0; 3];
@@ -213,15 +214,15 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_goes_by_the_right_hand() {
+    fn rotation_is_right_handed() {
         let image = image(64, 32, smooth);
         let (sine, cosine) = libm::sincos(PI / 2.0);
         let straight = EnvironmentTable { image: image.clone().into(), turn: [0.0, 1.0] };
         let turned = EnvironmentTable { image: image.into(), turn: [sine, cosine] };
         for (there, here) in [(DVec3::NEG_Z, DVec3::NEG_X), (DVec3::NEG_X, DVec3::Z), (DVec3::X, DVec3::NEG_Z)] {
-            let (expected, told) = (environment_radiance(&straight, there), environment_radiance(&turned, here));
-            for (expected, told) in expected.into_iter().zip(told) {
-                assert!((expected - told).abs() < 1e-12, "what was at {there} is at {here}");
+            let (expected, found) = (environment_radiance(&straight, there), environment_radiance(&turned, here));
+            for (expected, found) in expected.into_iter().zip(found) {
+                assert!((expected - found).abs() < 1e-12, "the radiance at {there} is rotated to {here}");
             }
         }
     }

@@ -1,4 +1,4 @@
-use super::light::{LightRay, LightRows, ShadowRay, append_chosen, cosine_of};
+use super::light::{LightRay, LightRows, ShadowRay, append_sampled, cosine_of};
 use super::{LightPdfs, LightRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{
     EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
@@ -14,10 +14,10 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 
 // ANCHOR: environment_direction
-/// A direction chosen by how much light comes from it, and how likely it was, in 1/sr.
+/// A direction sampled in proportion to the environment's light, and its pdf, in 1/sr.
 ///
-/// A cell of the image is chosen by its light; in it, longitude and the cosine from the top are spread evenly, which is
-/// evenly over its solid angle.
+/// A texel is chosen by its light; within it, longitude and the cosine of the polar angle are uniform, which is uniform
+/// in solid angle.
 #[inline(always)]
 pub fn environment_direction(light: &EnvironmentLightTable, turn: [f64; 2], u: [f64; 2]) -> (DVec3, f64) {
     let ([row, column], [down, across]) = light.chosen(u);
@@ -31,7 +31,7 @@ pub fn environment_direction(light: &EnvironmentLightTable, turn: [f64; 2], u: [
 }
 // ANCHOR_END: environment_direction
 
-/// How likely [`environment_direction`] was to choose a direction, in 1/sr.
+/// The pdf with which [`environment_direction`] samples a direction, in 1/sr.
 #[inline(always)]
 pub fn environment_pdf(light: &EnvironmentLightTable, turn: [f64; 2], direction: DVec3) -> f64 {
     let [sine, cosine] = turn;
@@ -43,13 +43,13 @@ pub fn environment_pdf(light: &EnvironmentLightTable, turn: [f64; 2], direction:
     light.pdf([row, column])
 }
 
-/// A fraction of 32 bits as a number: all of its bits, for a bright cell may be narrow.
+/// A 32-bit fraction as a number with all of its bits, since a bright texel may be very narrow.
 #[inline(always)]
 fn whole_unit(bits: u32) -> f64 {
     f64::from(bits) * (1.0 / 4_294_967_296.0)
 }
 
-/// Aims along a direction of the environment; nothing is beyond.
+/// Samples the environment for one surface: a shadow ray without end, and its pdf.
 #[inline(always)]
 fn sample_environment_at(
     environment: &EnvironmentTable,
@@ -64,11 +64,11 @@ fn sample_environment_at(
     let direction = direction.as_vec3();
     let cosine = if pdf > 0.0 { cosine_of(surface, normal, direction) } else { 0.0 };
     let irradiance = irradiance_from_area(radiance, cosine, pdf);
-    let aimed = ShadowRay { origin, direction, distance: f64::INFINITY, cosine };
-    (LightRay { aimed, reach: f32::INFINITY, irradiance }, pdf)
+    let ray = ShadowRay { origin, direction, distance: f64::INFINITY, cosine };
+    (LightRay { ray, t_max: f32::INFINITY, irradiance }, pdf)
 }
 
-/// Appends, for each row, a ray to a bright place of the environment.
+/// Appends, for each row, a shadow ray to a bright part of the environment.
 pub fn sample_environment(
     environment: Res<Shared<EnvironmentTable>>,
     light: Res<Shared<EnvironmentLightTable>>,
@@ -81,35 +81,35 @@ pub fn sample_environment(
     )>,
 ) {
     for ((tile, number, depth, samples, paths), (surfaces, shading, list), mut rays, mut pdfs) in &mut tiles {
-        let lit = LightRows { surfaces, shading, rows: &list.row };
+        let receivers = LightRows { surfaces, shading, rows: &list.row };
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
         let (to, purpose) = ((&mut *rays, pdfs.as_deref_mut()), Purpose::EnvironmentPoint);
-        let aim = |surface: &Surface, normal, u| sample_environment_at(&environment, &light, surface, normal, u);
+        let sample = |surface: &Surface, normal, u| sample_environment_at(&environment, &light, surface, normal, u);
         match sampling.sampler {
             Sampler::Independent => {
                 let draw = Independent::new(number, depth, purpose);
-                append_chosen(&lit, to, |row, surface, normal| {
-                    aim(surface, normal, draw.two(key(row)).map(whole_unit))
+                append_sampled(&receivers, to, |row, surface, normal| {
+                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
             }
             Sampler::Stratified => {
                 let draw = Stratified::new(number, sampling.samples, depth, purpose);
-                append_chosen(&lit, to, |row, surface, normal| {
-                    aim(surface, normal, draw.two(key(row)).map(whole_unit))
+                append_sampled(&receivers, to, |row, surface, normal| {
+                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
             }
             Sampler::Sobol => {
                 let draw = Sobol::new(number, depth, purpose);
-                append_chosen(&lit, to, |row, surface, normal| {
-                    aim(surface, normal, draw.two(key(row)).map(whole_unit))
+                append_sampled(&receivers, to, |row, surface, normal| {
+                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
                 });
             }
         }
     }
 }
 
-/// The stage on offer: the alternative to meeting such light by chance.
+/// The stage that runs [`sample_environment`]: light sampling, the alternative to BSDF sampling alone.
 pub fn environment_light_stage() -> Stage {
     Stage::new("Sample the environment", TileSystems::SampleLights, sample_environment)
         .kind(StageKind::Alternative)

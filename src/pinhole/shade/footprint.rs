@@ -6,26 +6,27 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 column! {
-    /// What a pixel covers of each surface: where its right and its lower neighbour's rays would meet the tangent plane,
-    /// from where its own does; infinite where they would not.
+    /// The footprint of each pixel on the surface that it sees: the offsets from its ray's intersection with the
+    /// tangent plane to those of its right and lower neighbours' rays; infinite where they do not intersect it.
     pub struct Footprints("footprint", "world", "scene units", Ray, begun in Footprint) {
-        /// The step to the right, x.
+        /// The offset to the right, x.
         rx: f64,
-        /// The step to the right, y.
+        /// The offset to the right, y.
         ry: f64,
-        /// The step to the right, z.
+        /// The offset to the right, z.
         rz: f64,
-        /// The step down, x.
+        /// The offset down, x.
         dx: f64,
-        /// The step down, y.
+        /// The offset down, y.
         dy: f64,
-        /// The step down, z.
+        /// The offset down, z.
         dz: f64,
     }
 }
 
 impl Footprints {
-    /// The root of each step's length, right as red and down as green, on a scale on which 1 unit is half of it.
+    /// The square root of each offset's length, right as red and down as green, scaled such that 1 scene unit is one
+    /// half.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let shade = |step: DVec3| {
             let root = step.length().sqrt();
@@ -35,7 +36,7 @@ impl Footprints {
         [shade(right), shade(down), 0.0]
     }
 
-    /// The steps of a row: to the right, down.
+    /// The offsets of a row: to the right, and down.
     #[inline(always)]
     pub fn get(&self, row: usize) -> [DVec3; 2] {
         [DVec3::new(self.rx[row], self.ry[row], self.rz[row]), DVec3::new(self.dx[row], self.dy[row], self.dz[row])]
@@ -43,12 +44,13 @@ impl Footprints {
 }
 
 // ANCHOR: step_on_surface
-/// How far a hit moves along its tangent plane where its ray moves to the next pixel's (Igehy 1999).
+/// The differential of a hit along its tangent plane, as its ray changes to the next pixel's (ray differentials, Igehy
+/// 1999).
 ///
-/// Without the plane the hit at O + tR would move by `moved`: by the step of the origin, and by t times that of the
-/// direction.
-/// That leaves the plane n · x = k by n · moved; so much is taken back along R.
-/// A ray along the plane divides by 0: its pixel has no end on the surface.
+/// Without the plane, the hit at O + tR would be displaced by `moved`: by the change of the origin, and t times that of
+/// the direction.
+/// That leaves the plane n · x = k by n · moved, which is corrected along R.
+/// A ray parallel to the plane divides by 0: its footprint is infinite.
 #[inline(always)]
 pub fn step_on_surface(moved: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
     let step = moved - direction * (normal.dot(moved) / normal.dot(direction));
@@ -56,8 +58,8 @@ pub fn step_on_surface(moved: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
 }
 // ANCHOR_END: step_on_surface
 
-/// Fills what each pixel covers of the surface that it sees.
-pub fn measure_footprints(
+/// Computes the footprint of each pixel on the surface that it sees.
+pub fn compute_footprints(
     steps: Res<Shared<PixelSteps>>,
     mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &MaterialRows, &mut Footprints)>,
 ) {
@@ -68,12 +70,13 @@ pub fn measure_footprints(
             let row = row as usize;
             let direction = rays.direction_of(row);
             let normal = surfaces.get(row).normal.as_dvec3();
-            // The steps are those of a direction that reaches the image plane at distance 1; this one has length 1.
+            // The offsets are those of a direction that ends on the image plane at distance 1, while this direction has
+            // length 1.
             let distance = hits.t[row] * direction.dot(steps.ahead);
             let moved = match steps.angle {
-                None => [0, 1].map(|way| steps.origin[way] + steps.direction[way] * distance),
+                None => [0, 1].map(|axis| steps.origin[axis] + steps.direction[axis] * distance),
                 Some(angle) => {
-                    <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|way| way * (angle * hits.t[row]))
+                    <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|tangent| tangent * (angle * hits.t[row]))
                 }
             };
             let [right, down] = moved.map(|moved| step_on_surface(moved, direction, normal));
@@ -83,9 +86,9 @@ pub fn measure_footprints(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`compute_footprints`].
 pub fn footprint_stage() -> Stage {
-    Stage::new("Compute footprints", TileSystems::Footprint, measure_footprints).when(filtered_evidence)
+    Stage::new("Compute footprints", TileSystems::Footprint, compute_footprints).when(filtered_evidence)
 }
 
 #[cfg(test)]
@@ -93,8 +96,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_step_lies_in_the_plane_and_ends_on_the_neighbour_s_ray() {
-        // A floor 1 below the eye, a ray 45° down and ahead, its lower neighbour a thousandth steeper on the image plane.
+    fn an_offset_is_in_the_plane_and_ends_on_the_neighbour_s_ray() {
+        // A floor 1 below the eye, a ray at 45° down and ahead, and its lower neighbour, a thousandth steeper on the
+        // image plane.
         let (normal, unit) = (DVec3::Y, DVec3::new(0.0, -1.0, -1.0));
         let direction = unit.normalize();
         let (t, distance) = (2.0_f64.sqrt(), 1.0);
@@ -103,7 +107,7 @@ mod tests {
         let neighbour = (unit + small) / 1.001;
         let truth = neighbour - direction * t;
         assert!(step.y.abs() < 1e-15 && (step - truth).length() < 2e-6, "{step} for {truth}");
-        // The other way: towards the horizon, where a derivative is no longer a difference, but finite.
+        // Towards the horizon the derivative is no longer close to the difference, but it is finite.
         assert!(step_on_surface(DVec3::X, DVec3::NEG_Z, DVec3::Y) == DVec3::INFINITY);
         assert!(step_on_surface(DVec3::X, DVec3::new(0.0, -1e-300, -1.0), DVec3::Y).x == 1.0);
     }

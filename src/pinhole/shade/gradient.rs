@@ -15,7 +15,7 @@ pub fn gradient_radiance(bottom: [f64; 3], top: [f64; 3], y: f64) -> [f64; 3] {
 }
 // ANCHOR_END: gradient_radiance
 
-/// Adds the gradient's radiance to the rows that met nothing; to all rows where the scene has no shapes.
+/// Adds the gradient's radiance to the rows that hit nothing; to all rows where the scene has no shapes.
 pub fn add_gradient(
     gradient: Res<Shared<GradientTable>>,
     mut tiles: Query<(&WorldRays, Option<&Hits>, &mut Radiance)>,
@@ -32,7 +32,7 @@ pub fn add_gradient(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`add_gradient`].
 pub fn gradient_stage() -> Stage {
     Stage::new("Add the gradient", TileSystems::Background, add_gradient).when(|scene| {
         let found = Evidence::among::<With<Gradient>>(scene, "coloured gradient", |entity| {
@@ -52,7 +52,7 @@ mod tests {
         assert_eq!(gradient_radiance(bottom, top, -1.0), bottom);
         assert_eq!(gradient_radiance(bottom, top, 1.0), top);
         assert_eq!(gradient_radiance(bottom, top, 0.0), [0.75, 0.5, 0.2]);
-        // A direction that rounding made longer than 1 does not leave the range.
+        // A direction that rounding made longer than 1 stays within the range.
         assert_eq!(gradient_radiance(bottom, top, 1.0 + 1e-7), top);
     }
 }

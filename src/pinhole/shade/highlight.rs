@@ -1,4 +1,4 @@
-//! What the kinds of material with highlights share.
+//! The part that the materials with highlights have in common.
 
 use super::{LightRays, Radiance, ShadowHits};
 use crate::extract::{MaterialKind, MaterialTable};
@@ -8,16 +8,16 @@ use crate::rays::WorldRays;
 use glam::DVec3;
 
 // ANCHOR: highlight
-/// What a highlight sends towards the eye of each unit of irradiance: N cosⁿ of the angle off its middle, in 1/sr.
+/// The BRDF of a highlight, a lobe of N cosⁿ of the angle from its axis, in 1/sr.
 ///
-/// Nothing from a right angle on; rounding may take a cosine past 1, where a large power would run away.
+/// It is 0 from a right angle on; a cosine above 1 by rounding is clamped, since a large power would amplify it.
 #[inline(always)]
 pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
     if cosine > 0.0 { peak * libm::pow(cosine.min(1.0), exponent) } else { 0.0 }
 }
 // ANCHOR_END: highlight
 
-/// The columns of a tile that a highlight is made of.
+/// The columns of a tile from which highlights are computed.
 pub(super) struct HighlightRow<'a> {
     pub eye: &'a WorldRays,
     pub surfaces: &'a Surfaces,
@@ -27,17 +27,17 @@ pub(super) struct HighlightRow<'a> {
 }
 
 impl HighlightRow<'_> {
-    /// Adds the highlights of one kind of material, light ray after light ray, where nothing is in the way.
+    /// Adds the highlights of one kind of material, for each shadow ray that is not blocked.
     ///
-    /// `share` gets the row of the kind's table, the normal, the way to the light and the way to the eye, and gives what
-    /// is sent on of each unit of irradiance.
+    /// `brdf` gets the row of the kind's table, the normal, the direction to the light and the direction to the eye,
+    /// and returns the BRDF in 1/sr.
     #[inline(always)]
     pub fn add_highlights(
         &self,
         materials: &MaterialTable,
         kind: MaterialKind,
         radiance: &mut Radiance,
-        share: impl Fn(usize, [DVec3; 3]) -> [f64; 3],
+        brdf: impl Fn(usize, [DVec3; 3]) -> [f64; 3],
     ) {
         for ray in 0..self.light.rows() {
             let path = self.light.path[ray] as usize;
@@ -48,9 +48,9 @@ impl HighlightRow<'_> {
             }
             let [to_light, to_eye] = [self.light.direction_of(ray), -self.eye.direction_of(path)];
             let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(path));
-            let share = share(materials.row[material] as usize, [normal, to_light, to_eye]);
+            let brdf = brdf(materials.row[material] as usize, [normal, to_light, to_eye]);
             let irradiance = self.light.irradiance(ray);
-            let [r, g, b] = [0, 1, 2].map(|part| (share[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+            let [r, g, b] = [0, 1, 2].map(|part| (brdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
             radiance.r[path] += r;
             radiance.g[path] += g;
             radiance.b[path] += b;
@@ -65,15 +65,15 @@ mod tests {
     use crate::measure::ray_aim::Draws;
     use crate::shade::{half_vector_cosine, mirror_cosine};
 
-    /// Light and eye change places, and the answer stays.
+    /// The BRDF stays the same when light and eye are exchanged.
     #[test]
     fn highlights_are_reciprocal() {
         for index in 0..20_000 {
             let mut draws = Draws::new(1511, index);
             let exponent = draws.power_of_ten(0.0, 6.0);
             let normal = draws.unit_vector();
-            let mut way = || (normal * draws.between(0.0, 1.0) + draws.unit_vector_across(normal)).normalize();
-            let (light, eye) = (way(), way());
+            let mut direction = || (normal * draws.between(0.0, 1.0) + draws.unit_vector_across(normal)).normalize();
+            let (light, eye) = (direction(), direction());
             for (peak, cosine) in [
                 (phong_peak(exponent), mirror_cosine as fn(_, _, _) -> f64),
                 (blinn_phong_peak(exponent), half_vector_cosine),
@@ -84,17 +84,17 @@ mod tests {
                 assert!((there - back).abs() <= doubt * there.max(back), "{index}: {there} {back}");
             }
         }
-        eprintln!("highlights: 20000 pairs of ways, two models, reciprocal");
+        eprintln!("highlights: 20000 pairs of directions, two models, reciprocal");
     }
 
     #[test]
-    fn highlights_at_their_ends() {
-        assert_eq!(highlight(2.0, 1e9, 1.000_001), 2.0, "a cosine past 1 by rounding");
+    fn highlights_at_their_limits() {
+        assert_eq!(highlight(2.0, 1e9, 1.000_001), 2.0, "a cosine above 1 by rounding");
         assert_eq!(highlight(2.0, 1e9, 0.999), 0.0);
         assert_eq!([highlight(2.0, 0.0, 1e-300), highlight(2.0, 0.0, 0.0), highlight(2.0, 2.0, -1.0)], [2.0, 0.0, 0.0]);
         assert_eq!(highlight(2.0, 5.0, f64::NAN), 0.0);
         let opposite = half_vector_cosine(DVec3::Y, DVec3::X, -DVec3::X);
-        assert_eq!(highlight(2.0, 5.0, opposite), 0.0, "light and eye face each other");
+        assert_eq!(highlight(2.0, 5.0, opposite), 0.0, "light and eye are opposite");
         assert!(phong_peak(1e9).is_finite() && blinn_phong_peak(1e9).is_finite());
         assert!((blinn_phong_peak(0.0) - std::f64::consts::FRAC_1_PI).abs() < 1e-16, "an exponent of 0 is matte");
     }

@@ -5,14 +5,14 @@ use crate::rays::ScreenPoints;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-/// Whether a fisheye shows what is at a screen point: within its circle, the edge included.
+/// Whether a screen point is within the image circle of a fisheye camera, edge included.
 #[inline(always)]
 pub fn in_image_circle(screen: DVec2, circle: &ImageCircle) -> bool {
     screen.length() <= circle.radius
 }
 
-/// Blackens what lies outside a fisheye's circle; such samples count, so that the circle's edge is as smooth as others.
-pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
+/// Blackens the samples outside a fisheye's image circle; they still count, so that its edge is antialiased.
+pub fn mask_image_circle(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&ScreenPoints, &mut Radiance)>) {
     for (screen, mut radiance) in &mut tiles {
         let (x, y) = screen.slices();
         let (r, g, b) = radiance.slices_mut(screen.rows());
@@ -24,9 +24,9 @@ pub fn blacken_outside(circle: Res<Shared<ImageCircle>>, mut tiles: Query<(&Scre
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`mask_image_circle`].
 pub fn image_circle_stage() -> Stage {
-    Stage::new("Mask the image circle", TileSystems::Mask, blacken_outside)
+    Stage::new("Mask the image circle", TileSystems::Mask, mask_image_circle)
         .kind(StageKind::Alternative)
         .when(fisheye_evidence)
 }

@@ -7,8 +7,8 @@ use crate::scene::ImageTexture;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
-/// Colours the rows of materials that have an image.
-pub fn colour_images(
+/// Evaluates the colours of materials with an image texture.
+pub fn evaluate_images(
     images: Res<Shared<ImageTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
@@ -35,7 +35,7 @@ pub fn colour_images(
     }
 }
 
-/// The same with its second coordinate stretched about the image's middle.
+/// The same point with its second coordinate stretched about the image's middle.
 #[inline(always)]
 fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     let stretched = |step: DVec3| DVec3::new(step.x, step.y * aspect, step.z);
@@ -43,8 +43,8 @@ fn about_the_middle(at: TexturePoint, aspect: f64) -> TexturePoint {
     TexturePoint { point, steps: at.steps.map(stretched) }
 }
 
-/// The stage on offer.
+/// The stage that runs [`evaluate_images`].
 pub fn image_stage() -> Stage {
-    Stage::new("Evaluate textures: images", TileSystems::Texture, colour_images)
+    Stage::new("Evaluate textures: images", TileSystems::Texture, evaluate_images)
         .when(|scene| texture_of_kind::<ImageTexture>(scene, "image texture", |_| true))
 }

@@ -12,12 +12,12 @@ use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
 column! {
-    /// Rays from surfaces towards lights that their side faces, light after light, and what each will bring if nothing is
-    /// in the way.
+    /// Shadow rays from surfaces to the lights that they face, light after light, with the irradiance that each carries
+    /// if it is not blocked.
     pub struct LightRays("light", "world, from the eye", "scene units", Ray, begun in Start) {
         /// The row of the tile whose surface it starts on.
         path: u32,
-        /// Origin, x: off the surface by its bound.
+        /// Origin, x: offset from the surface by its error bound.
         ox: f32,
         /// Origin, y.
         oy: f32,
@@ -29,9 +29,9 @@ column! {
         dy: f32,
         /// Direction, z.
         dz: f32,
-        /// The distance before which something in between counts; 0 for a light without shadows.
-        reach: f32,
-        /// The irradiance it brings to its surface, red.
+        /// The distance up to which a shape blocks the ray; 0 for a light without shadows.
+        t_max: f32,
+        /// The irradiance at its surface if it is not blocked, red.
         r: f32,
         /// Green.
         g: f32,
@@ -41,43 +41,43 @@ column! {
 }
 
 column! {
-    /// How likely each light ray was to be sent where it goes; beside the light rays, where something reads it.
+    /// The pdf of each shadow ray, row by row as in [`LightRays`]; exists where something reads it.
     pub struct LightPdfs("light pdf", "directions", "1/sr", Ray) {
-        /// The row of the tile whose surface the light ray starts on.
+        /// The row of the tile whose surface the shadow ray starts on.
         path: u32,
-        /// Per unit of solid angle, the chance of having chosen that light included; 0 for a light without an area, which
-        /// no other ray can find by chance.
+        /// In 1/sr, including the probability of choosing that light; 0 for a light without an area, which BSDF
+        /// sampling cannot find.
         pdf: f64,
     }
 }
 
 impl LightPdfs {
-    /// Grey, the brighter the likelier.
+    /// Grey, brighter where the pdf is higher.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [(self.pdf[row] / (1.0 + self.pdf[row])) as f32; 3]
     }
 }
 
 impl LightRays {
-    /// The direction: each part from −1 to 1 becomes 0 to 1.
+    /// The direction, each component mapped from [−1, 1] to [0, 1].
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.dx[row], self.dy[row], self.dz[row]].map(|part| 0.5 + 0.5 * part)
     }
 
-    /// The direction of a ray, exact in f64.
+    /// The direction of a ray, converted to f64.
     #[inline(always)]
     pub fn direction_of(&self, ray: usize) -> DVec3 {
         DVec3::new(f64::from(self.dx[ray]), f64::from(self.dy[ray]), f64::from(self.dz[ray]))
     }
 
-    /// Lets a ray bring only this share of what it would.
+    /// Multiplies a ray's irradiance by a weight.
     #[inline(always)]
-    pub fn mis(&mut self, ray: usize, share: f64) {
-        let weighed = |part: f32| (f64::from(part) * share) as f32;
-        (self.r[ray], self.g[ray], self.b[ray]) = (weighed(self.r[ray]), weighed(self.g[ray]), weighed(self.b[ray]));
+    pub fn weight_by(&mut self, ray: usize, weight: f64) {
+        let weighted = |part: f32| (f64::from(part) * weight) as f32;
+        (self.r[ray], self.g[ray], self.b[ray]) = (weighted(self.r[ray]), weighted(self.g[ray]), weighted(self.b[ray]));
     }
 
-    /// The irradiance that a ray brings.
+    /// The irradiance of a ray if it is not blocked.
     #[inline(always)]
     pub fn irradiance(&self, ray: usize) -> [f64; 3] {
         [f64::from(self.r[ray]), f64::from(self.g[ray]), f64::from(self.b[ray])]
@@ -95,87 +95,88 @@ impl RayColumn for LightRays {
 }
 
 // ANCHOR: matte_radiance
-/// What a matte surface sends towards the eye of the irradiance E that it receives: (colour / π) · E.
+/// The radiance that a matte surface reflects of the irradiance E: (colour / π) · E.
 ///
-/// The same in all directions (Lambert): summed over the hemisphere, each direction by its cosine, it is colour · E.
+/// It is the same in all directions (Lambert); the cosine-weighted integral over the hemisphere is colour · E.
 #[inline(always)]
 pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
-    const SHARE: f64 = std::f64::consts::FRAC_1_PI;
-    [colour[0] * irradiance[0] * SHARE, colour[1] * irradiance[1] * SHARE, colour[2] * irradiance[2] * SHARE]
+    const BRDF: f64 = std::f64::consts::FRAC_1_PI;
+    [colour[0] * irradiance[0] * BRDF, colour[1] * irradiance[1] * BRDF, colour[2] * irradiance[2] * BRDF]
 }
 // ANCHOR_END: matte_radiance
 
-// ANCHOR: aim
-/// A ray from a surface to a light.
+// ANCHOR: shadow_ray_to
+/// The geometry of a ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ShadowRay {
     pub origin: Vec3,
     pub direction: Vec3,
     pub distance: f64,
-    /// Of the angle between the shading normal and the direction; not above 0 where the surface faces away.
+    /// Cosine of the angle between the shading normal and the direction; at most 0 where the surface faces away.
     pub cosine: f64,
 }
 
-/// Aims at a point; `normal` is the one to shade by, which is the surface's own where it has no other.
+/// The shadow ray to a point; `normal` is the shading normal, which is the geometric one where there is no other.
 #[inline(always)]
-pub(super) fn aim(surface: &Surface, normal: DVec3, light: DVec3) -> ShadowRay {
+pub(super) fn shadow_ray_to(surface: &Surface, normal: DVec3, light: DVec3) -> ShadowRay {
     let origin = offset_origin(surface.position, surface.normal, surface.bound);
     let to_light = light - origin.as_dvec3();
     let distance = to_light.length();
     let direction = (to_light * (1.0 / distance)).as_vec3();
     ShadowRay { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
 }
-// ANCHOR_END: aim
+// ANCHOR_END: shadow_ray_to
 
-/// The cosine by the shading normal, or 0 where the light is behind the surface itself.
+/// The cosine by the shading normal, or 0 where the light is behind the geometric surface.
 #[inline(always)]
 pub(super) fn cosine_of(surface: &Surface, normal: DVec3, direction: Vec3) -> f64 {
     falling_cosine(surface.normal.as_dvec3(), normal, direction.as_dvec3())
 }
 
 // ANCHOR: shadow_t_max
-/// How far a shadow ray looks: a little short of the light, by more than its direction's length can be off.
+/// The t_max of a shadow ray: slightly less than the distance to the light, by more than the error of its direction's
+/// length.
 #[inline(always)]
 pub fn shadow_t_max(distance: f64) -> f32 {
     (distance * (1.0 - f64::from(f32::EPSILON) * 4.0)) as f32
 }
 // ANCHOR_END: shadow_t_max
 
-/// A ray to a light as a kind of light makes it, and the irradiance that it brings.
+/// A shadow ray with the irradiance that it carries.
 pub(super) struct LightRay {
-    pub aimed: ShadowRay,
-    pub reach: f32,
+    pub ray: ShadowRay,
+    pub t_max: f32,
     pub irradiance: [f64; 3],
 }
 
-/// The surfaces that light may fall on.
+/// The surfaces that lights may illuminate.
 pub(super) struct LightRows<'a> {
     pub surfaces: &'a Surfaces,
     pub shading: Option<&'a ShadingNormals>,
     pub rows: &'a [u32],
 }
 
-/// The lists that rays to lights are appended to.
+/// The columns that shadow rays are appended to.
 pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightPdfs>);
 
-/// Aims from all surfaces of a list at one light and appends the rays that bring something.
+/// Appends the shadow rays from all surfaces of a list to one light, where they carry light.
 ///
-/// A scene without shading normals has a loop of its own, that knows nothing of them.
+/// A scene without shading normals has a loop of its own.
 #[inline(always)]
 pub(super) fn append_rays(
-    lit: &LightRows<'_>,
+    receivers: &LightRows<'_>,
     (rays, pdfs): RayLists<'_>,
     casts_shadows: bool,
     ray_of: impl Fn(&Surface, DVec3) -> LightRay,
 ) {
-    let surfaces = lit.surfaces;
-    match lit.shading {
-        None => append(lit.rows, rays, casts_shadows, |row| {
+    let surfaces = receivers.surfaces;
+    match receivers.shading {
+        None => append(receivers.rows, rays, casts_shadows, |row| {
             let surface = surfaces.get(row);
             ray_of(&surface, surface.normal.as_dvec3())
         }),
         Some(normals) => {
-            append(lit.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
+            append(receivers.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
     }
     if let Some(pdfs) = pdfs {
@@ -184,56 +185,56 @@ pub(super) fn append_rays(
     }
 }
 
-/// Every row is written and the next one overwrites it unless it counts, so that no branch depends on the surface.
+/// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
 #[inline(always)]
 fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
     let length = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(length + rows.len());
+    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(length + rows.len());
     let mut at = length;
     for &row in rows {
-        let ray = ray_of(row as usize);
+        let light_ray = ray_of(row as usize);
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
-        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
-        reach[at] = ray.reach;
-        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
-        // Nearer than that the square of the distance is no ordinary number; no direction leads there.
-        let apart = ray.aimed.distance * ray.aimed.distance >= f64::MIN_POSITIVE;
-        at += usize::from(ray.aimed.cosine > 0.0 && apart);
+        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
+        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
+        t_max[at] = light_ray.t_max;
+        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
+        // At shorter distances the square is subnormal, and the direction is undefined.
+        let apart = light_ray.ray.distance * light_ray.ray.distance >= f64::MIN_POSITIVE;
+        at += usize::from(light_ray.ray.cosine > 0.0 && apart);
     }
     if !casts_shadows {
-        reach[length..at].fill(0.0);
+        t_max[length..at].fill(0.0);
     }
     rays.slices_mut(at);
 }
 
-/// Appends one ray a row whose direction was chosen, and beside it how likely that was; all cast shadows.
+/// Appends one shadow ray per row in a sampled direction, and its pdf; all of them cast shadows.
 ///
-/// `ray_of` gets the row, the surface and the normal to shade by.
+/// `ray_of` gets the row, the surface and the shading normal.
 #[inline(always)]
-pub(super) fn append_chosen(
-    lit: &LightRows<'_>,
+pub(super) fn append_sampled(
+    receivers: &LightRows<'_>,
     (rays, mut pdfs): RayLists<'_>,
     ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
 ) {
     let length = rays.rows();
-    let most = length + lit.rows.len();
-    let (path, ox, oy, oz, dx, dy, dz, reach, r, g, b) = rays.slices_mut(most);
-    let mut likely = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
+    let most = length + receivers.rows.len();
+    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(most);
+    let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
     let mut at = length;
-    for &row in lit.rows {
-        let surface = lit.surfaces.get(row as usize);
-        let normal = lit.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (ray, pdf) = ray_of(row as usize, &surface, normal);
+    for &row in receivers.rows {
+        let surface = receivers.surfaces.get(row as usize);
+        let normal = receivers.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
+        let (light_ray, pdf) = ray_of(row as usize, &surface, normal);
         path[at] = row;
-        (ox[at], oy[at], oz[at]) = ray.aimed.origin.into();
-        (dx[at], dy[at], dz[at]) = ray.aimed.direction.into();
-        reach[at] = ray.reach;
-        [r[at], g[at], b[at]] = ray.irradiance.map(|part| part.min(MOST) as f32);
-        if let Some(likely) = &mut likely {
-            (likely.0[at], likely.1[at]) = (row, pdf);
+        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
+        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
+        t_max[at] = light_ray.t_max;
+        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
+        if let Some(columns) = &mut pdf_columns {
+            (columns.0[at], columns.1[at]) = (row, pdf);
         }
-        at += usize::from(ray.aimed.cosine > 0.0);
+        at += usize::from(light_ray.ray.cosine > 0.0);
     }
     rays.slices_mut(at);
     if let Some(pdfs) = pdfs {
@@ -241,10 +242,10 @@ pub(super) fn append_chosen(
     }
 }
 
-/// The most light that a ray brings: what is more than f32 holds counts as its largest number.
+/// The greatest irradiance of a ray: more than f32 can represent is clamped.
 const MOST: f64 = f32::MAX as f64;
 
-/// Empties every tile's list of light rays.
+/// Clears every tile's list of shadow rays.
 pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
     for (mut rays, pdfs) in &mut tiles {
         rays.clear();
@@ -255,7 +256,7 @@ pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
 }
 
 // ANCHOR: add_light
-/// Adds what a matte surface sends on of each light ray's irradiance, unless something stands in between.
+/// Adds the light of each unblocked shadow ray that a matte surface reflects.
 pub fn add_light(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
@@ -277,33 +278,33 @@ pub fn add_light(
 }
 // ANCHOR_END: add_light
 
-/// The stage that starts.
+/// The stage that clears the list.
 pub fn start_light_stage() -> Stage {
     Stage::new("Clear light rays", TileSystems::Start, start_light)
         .when(|scene| either(lit_evidence(scene), occlusion_evidence(scene)))
 }
 
-/// The stage that adds.
+/// The stage that evaluates direct light on matte surfaces.
 pub fn light_stage() -> Stage {
     Stage::new("Evaluate direct light", TileSystems::Shade, add_light).kind(StageKind::Alternative).when(lit_evidence)
 }
 
-/// Evidence of the one where it is needed, or else the other.
+/// The first evidence where it is needed, or else the second.
 ///
-/// Unlike `or` it says nothing of an integrator that nobody asked for.
+/// Unlike `or`, it does not name an integrator that the scene does not have.
 pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
     if !one.needed && other.needed { other } else { one }
 }
 
-/// Evidence that there is a light and material that it can fall on.
+/// Evidence that there is a light, and a material that it can illuminate.
 pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
     light_evidence(scene).and(|| material_evidence(scene))
 }
 
-/// Evidence that there is a light of any kind that rays are sent to.
+/// Evidence that there is a light of any kind to which shadow rays are traced.
 pub(super) fn light_evidence(scene: &Census<'_>) -> Evidence {
-    let aimed_at = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
-    either(aimed_at, traced_evidence(scene))
+    let sampled = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
+    either(sampled, traced_evidence(scene))
 }
 
 /// Evidence that there is a light without an area.
@@ -311,13 +312,13 @@ pub fn point_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
 }
 
-/// The evidence of lights without an area, or else that there are others and that they are aimed at.
+/// The evidence of lights without an area, or else that there are others and they are sampled.
 pub(super) fn or_light(scene: &Census<'_>, points: Evidence) -> Evidence {
     let others =
         area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| light_sampling_evidence(scene));
     if others.needed { points.or(others) } else { points }
 }
 
-/// Every component that is a light without an area; a new one joins here.
+/// The components that are lights without an area; a new one is added here.
 pub(super) const LIGHTS: [ComponentKind; 3] =
     [ComponentKind::of::<PointLight>(), ComponentKind::of::<DirectionalLight>(), ComponentKind::of::<SpotLight>()];

@@ -5,13 +5,13 @@ use crate::extract::{Pyramid, Texels};
 use crate::scene::Wrap;
 use glam::DVec2;
 
-/// Between a and b; a where the share is 0, and what both are where they are the same.
+/// Linear interpolation from a to b; exactly a at t = 0, and exact where a and b are equal.
 #[inline(always)]
-pub fn between(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    [0, 1, 2].map(|part| a[part] + share * (b[part] - a[part]))
+pub fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+    [0, 1, 2].map(|part| a[part] + t * (b[part] - a[part]))
 }
 
-/// The number of a texel, brought back into the image.
+/// The index of a texel, wrapped into the image.
 #[inline(always)]
 fn wrapped(at: f64, side: usize, wrap: Wrap) -> usize {
     match wrap {
@@ -20,10 +20,10 @@ fn wrapped(at: f64, side: usize, wrap: Wrap) -> usize {
     }
 }
 
-/// A point of the unit square as a point of the image in texels.
+/// A point of the unit square in texel units.
 #[inline(always)]
 fn texel_point(image: &Texels, at: DVec2, wrap: Wrap) -> DVec2 {
-    // First what counts, then the scale: far from the origin the product would lose it.
+    // Wrap first, then scale: far from the origin the product would lose the fraction.
     let at = if wrap == Wrap::Repeat { at - at.floor() } else { at };
     DVec2::new(at.x * image.width as f64, at.y * image.height as f64)
 }
@@ -34,43 +34,43 @@ fn texel(image: &Texels, x: f64, y: f64, wrap: Wrap) -> [f64; 3] {
     image.rgb[y * image.width + x].map(f64::from)
 }
 
-/// The texel that a point of the unit square lies in; (0, 0) is the image's upper left corner.
+/// The texel that contains a point of the unit square; (0, 0) is the image's upper left corner.
 pub fn nearest_texel(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
     let point = texel_point(image, at, wrap);
     texel(image, point.x.floor(), point.y.floor(), wrap)
 }
 
 // ANCHOR: bilinear
-/// The colour at a point of the unit square, blended from the four texels whose centres are around it.
+/// The colour at a point of the unit square by bilinear interpolation of the four nearest texel centres.
 ///
-/// A texel's centre is half a texel from its edges, as a pixel's is; there, its colour comes back to the last bit.
+/// A texel's centre is half a texel from its edges, as a pixel's is; there, its colour is reproduced to the last bit.
 pub fn bilinear(image: &Texels, at: DVec2, wrap: Wrap) -> [f64; 3] {
     let point = texel_point(image, at, wrap) - 0.5;
-    let (corner, share) = (point.floor(), point - point.floor());
-    let row = |y: f64| between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), share.x);
-    between(row(corner.y), row(corner.y + 1.0), share.y)
+    let (corner, t) = (point.floor(), point - point.floor());
+    let row = |y: f64| between(texel(image, corner.x, y, wrap), texel(image, corner.x + 1.0, y, wrap), t.x);
+    between(row(corner.y), row(corner.y + 1.0), t.y)
 }
 // ANCHOR_END: bilinear
 
-/// The colour about a point of the unit square over this many texels' width, blended from the two levels whose texels are
-/// nearest in size.
+/// The colour about a point of the unit square over a width of this many texels, interpolated between the two pyramid
+/// levels whose texels are nearest in size.
 pub fn trilinear(pyramid: &Pyramid, at: DVec2, width: f64, wrap: Wrap) -> [f64; 3] {
     let top = pyramid.levels.len() - 1;
     let level = if width > 1.0 { libm::log2(width).min(top as f64) } else { 0.0 };
     let lower = level.floor() as usize;
     let below = bilinear(&pyramid.levels[lower], at, wrap);
-    let share = level - level.floor();
-    if share == 0.0 { below } else { between(below, bilinear(&pyramid.levels[lower + 1], at, wrap), share) }
+    let t = level - level.floor();
+    if t == 0.0 { below } else { between(below, bilinear(&pyramid.levels[lower + 1], at, wrap), t) }
 }
 
-/// The most lookups that a long footprint gets.
+/// The greatest number of lookups for a long footprint.
 const MOST_LOOKUPS: f64 = 16.0;
 
 // ANCHOR: image_mean
-/// About the mean of an image over what a pixel covers of it.
+/// An approximation of the mean of an image over a pixel's footprint (anisotropic filtering).
 ///
-/// Seen at a slant a pixel covers a long strip. A single lookup as wide as the strip is long would blur across it; so
-/// several, each about as wide as the strip, are laid along it.
+/// At grazing incidence the footprint is a long strip. A single lookup as wide as the strip is long would blur across
+/// it, so several lookups, each about as wide as the strip, are placed along it.
 pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] {
     let image = &pyramid.levels[0];
     let size = DVec2::new(image.width as f64, image.height as f64);
@@ -80,7 +80,7 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] 
     if !length.is_finite() {
         return trilinear(pyramid, at.point.truncate(), f64::INFINITY, wrap);
     }
-    // Two steps that point the same way cover less than their lengths say: what counts is the area that they span.
+    // Two offsets in the same direction cover less than their lengths suggest: the area of their parallelogram counts.
     let across = if length > 0.0 { long.perp_dot(short).abs() / length } else { 0.0 };
     let lookups = (length / across.max(1.0)).ceil().clamp(1.0, MOST_LOOKUPS);
     let width = across.max(length / lookups);
@@ -88,7 +88,7 @@ pub fn image_mean(pyramid: &Pyramid, at: &TexturePoint, wrap: Wrap) -> [f64; 3] 
     for number in 0..lookups as usize {
         let along = (number as f64 + 0.5) / lookups - 0.5;
         let colour = trilinear(pyramid, at.point.truncate() + long / size * along, width, wrap);
-        // Differences to the first are summed, so that a constant stays what it is.
+        // Differences to the first lookup are summed, so that a constant image keeps its value exactly.
         sum = Some(match sum {
             None => (colour, [0.0; 3]),
             Some((first, sum)) => (first, [0, 1, 2].map(|part| sum[part] + (colour[part] - first[part]))),
@@ -111,7 +111,7 @@ mod tests {
     const SIZES: [(usize, usize); 7] = [(1, 1), (1, 7), (2, 2), (3, 5), (64, 32), (101, 37), (256, 3)];
 
     #[test]
-    fn at_a_texel_s_centre_its_colour_comes_back() {
+    fn at_a_texel_s_centre_its_colour_is_reproduced() {
         let (mut tried, mut exact) = (0, 0);
         for (width, height) in SIZES {
             let image = image(width, height);
@@ -119,20 +119,20 @@ mod tests {
                 let (x, y) = ((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
                 let centre = DVec2::new(x / width as f64, y / height as f64);
                 for wrap in [Wrap::Repeat, Wrap::Clamp] {
-                    let told = bilinear(&image, centre, wrap);
+                    let found = bilinear(&image, centre, wrap);
                     let there = centre * DVec2::new(width as f64, height as f64);
-                    // A third of an image has no binary fraction: then the point is next to the centre.
+                    // A third has no finite binary fraction; then the point is beside the centre.
                     if there == DVec2::new(x, y) {
-                        assert_eq!(told, texel.map(f64::from), "{width} × {height} at {at}");
+                        assert_eq!(found, texel.map(f64::from), "{width} × {height} at {at}");
                         exact += 1;
                     }
-                    assert!(told.iter().zip(texel).all(|(told, texel)| (told - f64::from(texel)).abs() < 1e-12));
+                    assert!(found.iter().zip(texel).all(|(found, texel)| (found - f64::from(texel)).abs() < 1e-12));
                     assert_eq!(nearest_texel(&image, centre, wrap), texel.map(f64::from));
                     tried += 1;
                 }
             }
         }
-        eprintln!("texel centres: {tried} lookups, {exact} of them at the very centre, give the texel");
+        eprintln!("texel centres: {tried} lookups, {exact} of them exactly at the centre, give the texel");
         assert!(exact > tried / 2);
     }
 
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_that_covers_everything_gets_the_mean() {
+    fn a_footprint_over_the_whole_image_gets_the_mean() {
         for (width, height) in SIZES {
             let pyramid = Pyramid::on(image(width, height));
             let mean = pyramid.levels.last().expect("a level").rgb[0].map(f64::from);
@@ -170,9 +170,9 @@ mod tests {
     }
 
     #[test]
-    fn seams_and_places_far_away_are_looked_up_like_any_other() {
+    fn seams_and_points_far_away_are_looked_up_like_any_other() {
         let image = image(8, 4);
-        // On both sides of an edge the same colour, blended half and half.
+        // On both sides of an edge the colour is the same, half of either texel.
         let below = bilinear(&image, DVec2::new(-1e-12, 0.125), Wrap::Repeat);
         let above = bilinear(&image, DVec2::new(1e-12, 0.125), Wrap::Repeat);
         for part in 0..3 {
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn a_footprint_s_mean_is_near_that_of_many_points() {
-        // A smooth image, so that how the footprint is weighted matters little.
+        // The image is smooth, so that the weighting of the footprint makes little difference.
         let (width, height) = (128, 128);
         let texel = |at: usize| {
             let (x, y) = ((at % width) as f64 / width as f64, (at / width) as f64 / height as f64);
@@ -209,7 +209,7 @@ mod tests {
         for (right, down) in [((0.1, 0.0), (0.0, 0.1)), ((0.02, 0.0), (0.0, 0.2)), ((0.1, 0.1), (0.01, -0.01))] {
             let steps = [DVec3::new(right.0, right.1, 0.0), DVec3::new(down.0, down.1, 0.0)];
             let point = DVec3::new(0.4, 0.9, 0.0);
-            let told = image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0];
+            let found = image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0];
             let side = 64;
             let within = |number: usize| (number as f64 + 0.5) / side as f64 - 0.5;
             let mut sum = 0.0;
@@ -217,7 +217,7 @@ mod tests {
                 let at = point + steps[0] * within(number % side) + steps[1] * within(number / side);
                 sum += bilinear(&pyramid.levels[0], at.truncate(), Wrap::Repeat)[0];
             }
-            worst = worst.max((told - sum / (side * side) as f64).abs());
+            worst = worst.max((found - sum / (side * side) as f64).abs());
         }
         eprintln!("footprints on an image: worst {worst:.4}");
         assert!(worst < 0.02, "{worst}");

@@ -1,7 +1,8 @@
-//! Surfaces → light: what each ray brings back.
+//! Surfaces → light: the radiance that each ray carries to its origin.
 //!
-//! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of matter and lights.
-//! Writes: [`LightRays`] towards lights, [`ShadowHits`] on the way there, [`Radiance`] in linear Rec. 709.
+//! Reads: [`Hits`](crate::intersect::Hits), [`Surfaces`](crate::intersect::Surfaces), the tables of materials and
+//! lights.
+//! Writes: [`LightRays`] towards lights, [`ShadowHits`] along them, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
 
 mod area_light;
@@ -29,18 +30,18 @@ mod shadow;
 mod spot_light;
 mod surface_colour;
 mod texture_point;
+mod unintersected;
 mod unlit;
-mod unmet;
 
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 pub use background::{add_background, background_stage};
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_vector_cosine};
 pub use camera_join::{
-    JoinPoints, camera_join_stage, connect_to_camera, draw_join_points, join_cosine, join_point_stage,
+    JoinPoints, camera_join_stage, connect_to_camera, join_cosine, join_point_stage, sample_join_points,
 };
 pub use checker::{
-    box_width, checker_share, checker_stage, colour_checkers, colour_stripes, stripes_share, stripes_stage, wave,
-    wave_mean,
+    box_width, checker_fraction, checker_stage, evaluate_checkers, evaluate_stripes, stripes_fraction, stripes_stage,
+    wave, wave_mean,
 };
 pub use colour::SurfaceColours;
 pub use directional_light::{directional_light_stage, irradiance_from_direction, sample_directional_lights};
@@ -49,11 +50,11 @@ pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
 };
 pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
-pub use footprint::{Footprints, footprint_stage, measure_footprints, step_on_surface};
+pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 pub use highlight::highlight;
-pub use image_circle::{blacken_outside, image_circle_stage, in_image_circle};
-pub use image_texture::{colour_images, image_stage};
+pub use image_circle::{image_circle_stage, in_image_circle, mask_image_circle};
+pub use image_texture::{evaluate_images, image_stage};
 pub use light::{
     LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_t_max,
     start_light, start_light_stage,
@@ -67,8 +68,8 @@ pub use shadow::{
     plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
     triangle_shadow_stage,
 };
-pub use spot_light::{sample_spot_lights, spot_light_stage, spot_share, versine};
+pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};
 pub use surface_colour::{colour_stage, colour_surfaces};
-pub use texture_point::{TexturePoint, TexturePoints, face_from_space, lay_stage, lay_textures};
+pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+pub use unintersected::check_shapes_are_intersected;
 pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
-pub use unmet::check_shapes_are_intersected;

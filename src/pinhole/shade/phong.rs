@@ -10,9 +10,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 // ANCHOR: mirror_cosine
-/// cos α between the way to the eye and the way to the light mirrored in the surface; no vector need have length 1.
+/// cos α between the direction to the eye and the mirror reflection of the direction to the light; no vector need be
+/// normalised.
 ///
-/// The mirrored way is 2(n·l)n − l; the formula stays the same when eye and light change places.
+/// The reflection is 2(n·l)n − l; the formula is symmetric in eye and light.
 #[inline(always)]
 pub fn mirror_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
     let twice = 2.0 * normal.dot(to_light) * normal.dot(to_eye) / normal.dot(normal);
@@ -20,7 +21,7 @@ pub fn mirror_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 {
 }
 // ANCHOR_END: mirror_cosine
 
-/// Adds what Phong surfaces send towards the eye in their highlights.
+/// Adds the light that Phong highlights reflect to the eye.
 pub fn add_phong(
     materials: Res<Shared<MaterialTable>>,
     highlights: Res<Shared<PhongTable>>,
@@ -30,8 +31,8 @@ pub fn add_phong(
     )>,
 ) {
     for ((eye, surfaces, shading), (light, shadow, mut radiance)) in &mut tiles {
-        let lit = HighlightRow { eye, surfaces, shading, light, shadow };
-        lit.add_highlights(&materials, MaterialKind::Phong, &mut radiance, |row, [normal, to_light, to_eye]| {
+        let row = HighlightRow { eye, surfaces, shading, light, shadow };
+        row.add_highlights(&materials, MaterialKind::Phong, &mut radiance, |row, [normal, to_light, to_eye]| {
             let cosine = mirror_cosine(normal, to_light, to_eye);
             let height = highlight(highlights.peak[row], highlights.exponent[row], cosine);
             highlights.specular[row].map(|part| part * height)
@@ -39,7 +40,7 @@ pub fn add_phong(
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`add_phong`].
 pub fn phong_stage() -> Stage {
     Stage::new("Add Phong highlights", TileSystems::Shade, add_phong)
         .when(|scene| material_kind_evidence::<Phong>(scene, "Phong surface").and(|| light_evidence(scene)))

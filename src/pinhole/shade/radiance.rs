@@ -3,7 +3,7 @@ use crate::rays::RasterPoints;
 use bevy_ecs::prelude::*;
 
 column! {
-    /// The light that comes back along each ray.
+    /// The radiance that each ray carries to its origin.
     pub struct Radiance("radiance", "light", "linear Rec. 709", Ray, begun in Start) {
         /// Red.
         r: f32,
@@ -15,13 +15,13 @@ column! {
 }
 
 impl Radiance {
-    /// The numbers themselves, without the curve that the picture gets.
+    /// The values themselves, without the sRGB curve that the picture gets.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.r[row], self.g[row], self.b[row]]
     }
 }
 
-/// Sets every row of a tile's radiance to black.
+/// Sets the radiance of every row of a tile to zero.
 pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
     for (raster, mut radiance) in &mut tiles {
         let (r, g, b) = radiance.slices_mut(raster.rows());
@@ -31,7 +31,7 @@ pub fn start_radiance(mut tiles: Query<(&RasterPoints, &mut Radiance)>) {
     }
 }
 
-/// The stage on offer.
+/// The stage that runs [`start_radiance`].
 pub fn start_stage() -> Stage {
     Stage::new("Clear radiance", TileSystems::Start, start_radiance)
         .on_first_bounce()

@@ -11,19 +11,19 @@ use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
 column! {
-    /// What stands between a surface and a light.
+    /// The shape, if any, that blocks each shadow ray.
     pub struct ShadowHits("shadow", "along the light ray", "scene units", Ray, begun in ClearShadows) {
-        /// The distance of what stands in between, or the light ray's reach where nothing does.
+        /// The distance to the blocking shape, or the shadow ray's t_max where it is not blocked.
         t: f64,
-        /// The number of the shape in between; none where the light is seen.
+        /// The number of the blocking shape; none where the light is visible.
         shape: u32,
-        /// The row of the tile whose surface the light ray starts on.
+        /// The row of the tile whose surface the shadow ray starts on.
         path: u32,
     }
 }
 
 impl ShadowHits {
-    /// White where the light is seen, black in shadow.
+    /// White where the light is visible, black in shadow.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [if self.shape[row] == NO_SHAPE { 1.0 } else { 0.0 }; 3]
     }
@@ -37,19 +37,19 @@ impl HitColumn for ShadowHits {
     }
 }
 
-/// Sets every shadow hit to nothing met within its light ray's reach.
+/// Sets every shadow ray to unblocked up to its t_max.
 pub fn start_shadows(mut tiles: Query<(&LightRays, &mut ShadowHits)>) {
     for (rays, mut hits) in &mut tiles {
         let (t, shape, path) = hits.slices_mut(rays.rows());
-        for (t, &reach) in t.iter_mut().zip(&rays.reach) {
-            *t = f64::from(reach);
+        for (t, &t_max) in t.iter_mut().zip(&rays.t_max) {
+            *t = f64::from(t_max);
         }
         shape.fill(NO_SHAPE);
         path.copy_from_slice(&rays.path);
     }
 }
 
-/// The stage that starts.
+/// The stage that clears shadow hits.
 pub fn start_shadow_stage() -> Stage {
     Stage::new("Clear shadow hits", TileSystems::ClearShadows, start_shadows).when(shadow_evidence)
 }
@@ -103,20 +103,20 @@ pub fn triangle_shadow_stage() -> Stage {
         .when(|scene| triangle_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
-/// The stage that intersects shadow rays with moving shapes, each at the time of the ray that met the surface.
+/// The stage that intersects shadow rays with moving shapes, each at the time of the ray that hit the surface.
 pub fn moving_shadow_stage() -> Stage {
     let intersect = intersect_moving::<LightRays, ShadowHits>;
     Stage::new("Trace shadow rays: moving shapes", TileSystems::TraceShadowRays, intersect)
         .when(|scene| moving_evidence(scene).and(|| shadow_evidence(scene)))
 }
 
-/// Evidence that a light casts shadows on matter.
+/// Evidence that a light casts shadows on a material.
 pub fn shadow_evidence(scene: &Census<'_>) -> Evidence {
     let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
     });
-    let lit = or_light(scene, points).and(|| material_evidence(scene));
-    either(either(unless_occlusion(scene, lit), traced_evidence(scene)), occlusion_evidence(scene))
+    let receiving = or_light(scene, points).and(|| material_evidence(scene));
+    either(either(unless_occlusion(scene, receiving), traced_evidence(scene)), occlusion_evidence(scene))
 }

@@ -4,7 +4,7 @@ use crate::intersect::{MaterialRows, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use bevy_ecs::prelude::*;
 
-/// Gives every row that sends on light the colour of its material, and black to the others.
+/// Gives every row with a diffuse material that material's colour, and black to the others.
 pub fn colour_surfaces(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, &MaterialRows, &mut SurfaceColours)>,
@@ -22,14 +22,14 @@ pub fn colour_surfaces(
 }
 
 impl SurfaceColours {
-    /// Writes a row.
+    /// Sets the colour of a row.
     #[inline(always)]
     pub(super) fn set(&mut self, row: usize, colour: [f64; 3]) {
         [self.r[row], self.g[row], self.b[row]] = colour;
     }
 }
 
-/// The stage on offer: what textures then colour again.
+/// The stage that runs [`colour_surfaces`]; the texture stages overwrite its colours.
 pub fn colour_stage() -> Stage {
     Stage::new("Look up surface colours", TileSystems::Colour, colour_surfaces).when(texture_evidence)
 }

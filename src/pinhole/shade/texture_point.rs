@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
 column! {
-    /// Where each surface lies on its texture, and what its pixel covers there; all 0 where it has none.
+    /// The texture coordinates of each surface, and the pixel's footprint in them; all 0 where there is no texture.
     pub struct TexturePoints("texture", "of the texture", "cells, stripes, images", Ray) {
         /// The first coordinate.
         x: f64,
@@ -18,17 +18,17 @@ column! {
         y: f64,
         /// The third.
         z: f64,
-        /// The pixel's step to the right, x; 0 where nothing is filtered.
+        /// The footprint's offset to the right, x; 0 where nothing is filtered.
         rx: f64,
-        /// The step to the right, y.
+        /// The offset to the right, y.
         ry: f64,
-        /// The step to the right, z.
+        /// The offset to the right, z.
         rz: f64,
-        /// The step down, x.
+        /// The offset down, x.
         dx: f64,
-        /// The step down, y.
+        /// The offset down, y.
         dy: f64,
-        /// The step down, z.
+        /// The offset down, z.
         dz: f64,
     }
 }
@@ -36,14 +36,14 @@ column! {
 /// One row of [`TexturePoints`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TexturePoint {
-    /// Where, in units of the texture.
+    /// The texture coordinates, in units of the texture.
     pub point: DVec3,
-    /// The pixel's steps to the right and down.
+    /// The pixel's offsets to the right and down.
     pub steps: [DVec3; 2],
 }
 
 impl TexturePoint {
-    /// The same without what the pixel covers.
+    /// The same point without a footprint.
     #[inline(always)]
     pub fn alone(self) -> Self {
         Self { steps: [DVec3::ZERO; 2], ..self }
@@ -51,12 +51,12 @@ impl TexturePoint {
 }
 
 impl TexturePoints {
-    /// Each coordinate's part after the point.
+    /// The fractional part of each coordinate.
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         [self.x[row], self.y[row], self.z[row]].map(|part| (part - part.floor()) as f32)
     }
 
-    /// Reads a row.
+    /// Gets a row.
     #[inline(always)]
     pub fn get(&self, row: usize) -> TexturePoint {
         TexturePoint {
@@ -76,7 +76,7 @@ impl TexturePoints {
     }
 }
 
-/// A step through a matrix; a step without end has none in any direction.
+/// An offset transformed by a matrix; an infinite offset stays infinite, without becoming NaN.
 #[inline(always)]
 fn mapped(matrix: DMat3, step: DVec3) -> DVec3 {
     ended(matrix * step)
@@ -87,8 +87,8 @@ fn ended(step: DVec3) -> DVec3 {
     if step.is_finite() { step } else { DVec3::INFINITY }
 }
 
-/// The two axes of a shape's space that an image is laid along on a side that faces this way, as rows: those of the side
-/// of a cuboid across the axis that the normal has most of.
+/// The two axes of a shape's space along which an image is mapped on a face with this normal, as rows: those of the
+/// cuboid face whose axis has the normal's largest component.
 #[inline(always)]
 pub fn face_from_space(normal: DVec3) -> DMat3 {
     let axis = most_of(normal);
@@ -96,8 +96,8 @@ pub fn face_from_space(normal: DVec3) -> DMat3 {
     DMat3::from_cols(right, down, DVec3::ZERO).transpose()
 }
 
-/// Fills where on its texture each row is.
-pub fn lay_textures(
+/// Computes each row's texture coordinates.
+pub fn compute_texture_points(
     maps: Res<Shared<TextureMaps>>,
     spaces: Res<Shared<ShapeSpaces>>,
     slopes: Option<Res<Shared<UvSlopes>>>,
@@ -119,14 +119,15 @@ pub fn lay_textures(
             let map = &maps.map[surfaces.material[row] as usize];
             let shape = hits.shape[row] as usize;
             let steps = footprints.map_or([DVec3::ZERO; 2], |footprints| footprints.get(row));
-            let at = match map.laid {
+            let at = match map.mapping {
                 TextureMapping::Nowhere => continue,
                 TextureMapping::AlongUv => {
                     let uv = uvs.map_or(DVec3::ZERO, |uvs| DVec3::new(uvs.u[row], uvs.v[row], 0.0));
                     let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
                         let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
                         let normal = surfaces.get(row).normal.as_dvec3();
-                        [0, 1].map(|way| ended(slopes.slope[shape].step(at.point, normal, steps[way], at.steps[way])))
+                        [0, 1]
+                            .map(|axis| ended(slopes.slope[shape].step(at.point, normal, steps[axis], at.steps[axis])))
                     });
                     TexturePoint { point: uv, steps }
                 }
@@ -143,7 +144,7 @@ pub fn lay_textures(
 }
 
 // ANCHOR: in_space
-/// A point and its pixel's steps, in the shape's own space.
+/// A point and its pixel's offsets, in the shape's own space.
 #[inline(always)]
 fn in_space(spaces: &ShapeSpaces, shape: usize, point: DVec3, steps: [DVec3; 2]) -> TexturePoint {
     let matrix = spaces.shape_from_world[shape];
@@ -160,9 +161,9 @@ fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
     TexturePoint { point: map.matrix * at.point + map.shift, steps: at.steps.map(|step| mapped(map.matrix, step)) }
 }
 
-/// The stage on offer.
-pub fn lay_stage() -> Stage {
-    Stage::new("Compute texture points", TileSystems::Colour, lay_textures)
+/// The stage that runs [`compute_texture_points`].
+pub fn texture_point_stage() -> Stage {
+    Stage::new("Compute texture points", TileSystems::Colour, compute_texture_points)
         .reads_where::<SurfaceUvs>(by_uv_evidence)
         .table_where::<UvSlopes>(filtered_by_uv_evidence)
         .when(texture_evidence)
@@ -178,8 +179,8 @@ mod tests {
         for side in sides {
             let face = face_from_space(side * 0.8 + DVec3::new(0.1, -0.2, 0.3));
             let (right, down) = (face.row(0), face.row(1));
-            assert_eq!(down.cross(right), side, "right and down are seen as such from outside");
-            assert!(side.y != 0.0 || down == DVec3::NEG_Y, "it stands upright");
+            assert_eq!(down.cross(right), side, "from outside, right is right and down is down");
+            assert!(side.y != 0.0 || down == DVec3::NEG_Y, "the image is upright");
         }
     }
 }

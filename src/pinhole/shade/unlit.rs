@@ -6,8 +6,7 @@ use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: shade_unlit
-/// Gives every row the colour of the surface that it hit, as if colour were light: the picture of a scene in which
-/// nothing shines.
+/// Sets every row's radiance to the colour of the surface that it hit: the picture of a scene without light.
 pub fn shade_unlit(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &MaterialRows, &mut Radiance)>,
@@ -23,7 +22,7 @@ pub fn shade_unlit(
 }
 // ANCHOR_END: shade_unlit
 
-/// The stage on offer: the alternative to light, for scenes without any.
+/// The stage that runs [`shade_unlit`], the alternative to lighting for scenes without any.
 pub fn unlit_stage() -> Stage {
     Stage::new("Show unlit surfaces", TileSystems::Shade, shade_unlit).kind(StageKind::Alternative).when(|scene| {
         let material = shown_evidence(scene);
@@ -33,7 +32,7 @@ pub fn unlit_stage() -> Stage {
     })
 }
 
-/// Evidence that there is a surface to be shown.
+/// Evidence that there is a surface to show.
 pub fn shown_evidence(scene: &Census<'_>) -> Evidence {
     let shapes = shape_evidence(scene);
     if shapes.needed { material_evidence(scene) } else { shapes }

@@ -57,7 +57,7 @@ impl Exact {
                 (ShapeKind::Disk, row) => ExactShape::Disk(disks.planar[row]),
                 (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.planar[row]),
                 (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
-                (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.facet[row], triangles.normal[row]),
+                (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.triangle[row], triangles.normal[row]),
                 (ShapeKind::Moving, _) => return None,
             })
         };

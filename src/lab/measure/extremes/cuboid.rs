@@ -175,7 +175,8 @@ fn check_starts(view: View, range: Range<u64>) -> Tally {
             side > 0 || (side < 0 && thinnest > 4.0 * f64::from(surface.bound))
         });
         let left = left.and_then(|(_, surface)| {
-            let away = leaving(&mut draws, surface.normal, 6.0) * (slabs.reach * draws.power_of_ten(-3.0, 2.0));
+            let away =
+                leaving(&mut draws, surface.normal, 6.0) * (slabs.bounding_radius * draws.power_of_ten(-3.0, 2.0));
             Some((surface, stages.shadow(surface, surface.position.as_dvec3() + away)?))
         });
         tally.count(left.is_some());

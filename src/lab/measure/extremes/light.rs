@@ -4,7 +4,9 @@ use super::bench::Bench;
 use super::{Group, Method, Tally, Trial, light_albedo};
 use crate::measure::exact::UNIT_ROUNDOFF_F32 as U;
 use crate::measure::ray_aim::{Draws, rounded_ray};
-use crate::naive::light::{highlight_f32, lit_f32, spot_share_by_cosine, spot_share_by_cosine_f32, sun_as_a_far_lamp};
+use crate::naive::light::{
+    highlight_f32, lit_f32, spot_falloff_by_cosine, spot_falloff_by_cosine_f32, sun_as_a_far_lamp,
+};
 use glam::{DVec3, Vec3};
 use pinhole::extract::{
     BlinnPhongTable, DirectionalLightTable, MaterialKind, MaterialTable, PhongTable, PointLightTable, SpotLightTable,
@@ -12,7 +14,7 @@ use pinhole::extract::{
 };
 use pinhole::intersect::{MaterialRows, Surface, Surfaces, offset_bound};
 use pinhole::scene::Degrees;
-use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_share, versine};
+use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_falloff, versine};
 use std::ops::Range;
 
 const HIGHLIGHT: [Method; 2] =
@@ -90,11 +92,11 @@ fn check_spots(range: Range<u64>) -> Tally {
         // Where the two cones are nearly one, a direction's own rounding decides; what it can do is taken off.
         let doubt = 8.0 * f64::EPSILON * libm::sin(true_angle).max(f64::EPSILON) / (versine_outer - versine_inner);
         let off = |share: f64| ((share - exact).abs() - doubt).max(0.0);
-        tally.scores[0].measure(off(spot_share(versine(along, axis), versine_inner, versine_outer)));
+        tally.scores[0].measure(off(spot_falloff(versine(along, axis), versine_inner, versine_outer)));
         let cosines = [axis.dot(along), libm::cos(inner * std::f64::consts::PI / 360.0), libm::cos(edge_of(outer))];
-        tally.scores[1].measure(off(spot_share_by_cosine(cosines[0], cosines[1], cosines[2])));
+        tally.scores[1].measure(off(spot_falloff_by_cosine(cosines[0], cosines[1], cosines[2])));
         let [c, i, o] = cosines.map(|cosine| cosine as f32);
-        tally.scores[2].measure(off(f64::from(spot_share_by_cosine_f32(c, i, o))));
+        tally.scores[2].measure(off(f64::from(spot_falloff_by_cosine_f32(c, i, o))));
     }
     tally
 }
@@ -133,7 +135,7 @@ fn check_suns(range: Range<u64>) -> Tally {
         bench.run();
         let rays = bench.column::<LightRays>();
         let (kit, reach) =
-            rays.r.first().zip(rays.reach.first()).map_or((0.0, f32::INFINITY), |(&r, &reach)| (r, reach));
+            rays.r.first().zip(rays.t_max.first()).map_or((0.0, f32::INFINITY), |(&r, &reach)| (r, reach));
         tally.scores[0].check(reach == f32::INFINITY);
         tally.scores[0].measure((f64::from(kit) - exact).abs() / U);
         let naive = sun_as_a_far_lamp(1.0, to_light.as_vec3(), position, normal);

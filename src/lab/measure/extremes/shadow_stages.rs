@@ -139,8 +139,8 @@ impl ShadowStages {
     fn shapes(&mut self, kind: ShapeKind, count: usize) {
         let row = (0..count as u32).collect();
         let (material, emissive) = (vec![0; count], vec![NO_ROW; count]);
-        let spreads = vec![true; count];
-        let table = ShapeTable { kind: vec![kind; count], row, material, spreads, emissive };
+        let non_specular = vec![true; count];
+        let table = ShapeTable { kind: vec![kind; count], row, material, non_specular, emissive };
         self.to_surface.share(table);
     }
 
@@ -168,7 +168,7 @@ impl ShadowStages {
         (rays.rows() == 1).then(|| Shadow {
             origin: Vec3::new(rays.ox[0], rays.oy[0], rays.oz[0]),
             direction: Vec3::new(rays.dx[0], rays.dy[0], rays.dz[0]),
-            reach: rays.reach[0],
+            reach: rays.t_max[0],
             blocked: Some(hits.shape[0]).filter(|&shape| shape != NO_SHAPE),
         })
     }

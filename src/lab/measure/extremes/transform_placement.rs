@@ -151,7 +151,7 @@ fn check_pixels(range: Range<u64>) -> Tally {
         let map = ellipsoid.unit_from_world;
         let gradient = map.transpose() * (map * (point - ellipsoid.centre)) * 2.0;
         let off = excess(point, &ellipsoid).to_f64().abs() / gradient.length();
-        tally.scores[0].measure(off / ellipsoid.reach / SMALLEST_PIXEL);
+        tally.scores[0].measure(off / ellipsoid.bounding_radius / SMALLEST_PIXEL);
     }
     tally
 }

@@ -97,7 +97,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     bench.run();
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
-        let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+        let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
         score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
             score.check_t(Some(hits.t[row]), exact[row]);

@@ -167,7 +167,7 @@ impl Mesh {
 
 /// A ray at an edge or a corner of a mesh, and the corners of the edge, or the corner twice.
 pub fn ray_at(draws: &mut Draws, table: &TriangleTable, origin: Vec3) -> (AimedRay, [DVec3; 2]) {
-    let corners = table.facet[(draws.unit() * table.facet.len() as f64) as usize].corners;
+    let corners = table.triangle[(draws.unit() * table.triangle.len() as f64) as usize].corners;
     let first = (draws.unit() * 3.0) as usize;
     let second = if draws.unit() < 0.5 { first } else { (first + 1) % 3 };
     let (a, b) = (corners[first], corners[second]);

@@ -110,7 +110,7 @@ fn no_rays() -> Trial {
         let hits = bench.column::<Hits>();
         tally.count(true);
         for (component, &ray) in rays.iter().enumerate() {
-            let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+            let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
             let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
             tally.scores[0].check(if component == bad {
                 nothing

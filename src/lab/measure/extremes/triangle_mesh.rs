@@ -92,7 +92,7 @@ fn check_mesh(
     tally: &mut Tally,
 ) {
     bench.share(table.clone());
-    let rounded: Vec<[Vec3; 3]> = table.facet.iter().map(|facet| facet.corners.map(|c| c.as_vec3())).collect();
+    let rounded: Vec<[Vec3; 3]> = table.triangle.iter().map(|facet| facet.corners.map(|c| c.as_vec3())).collect();
     let rays: Vec<(AimedRay, [DVec3; 2])> = range.map(|index| aimed(view, table, centre, index)).collect();
     for rays in rays.chunks(AT_ONCE) {
         bench.aim(&rays.iter().map(|&(ray, _)| ray).collect::<Vec<_>>());
@@ -101,11 +101,11 @@ fn check_mesh(
         for (row, &(ray, at)) in rays.iter().enumerate() {
             let met = hits.shape[row] != NO_SHAPE;
             tally.count(met);
-            let nearest = table.facet.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
-            let must = view.inside || met || table.facet.iter().any(|facet| exact(ray, facet.corners).is_some());
+            let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+            let must = view.inside || met || table.triangle.iter().any(|facet| exact(ray, facet.corners).is_some());
             tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && met == must);
-            let found = table.facet.get(hits.shape[row] as usize);
-            let about = table.facet.iter().filter(|facet| at.iter().all(|corner| facet.corners.contains(corner)));
+            let found = table.triangle.get(hits.shape[row] as usize);
+            let about = table.triangle.iter().filter(|facet| at.iter().all(|corner| facet.corners.contains(corner)));
             for facet in about.chain(found) {
                 let t = by_function(ray, facet);
                 tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
@@ -138,7 +138,7 @@ fn check_on_edges(range: Range<u64>) -> Tally {
         let mut eighth = |most: f64| draws.between(-most, most + 1.0).floor() / 8.0;
         let origin = DVec3::new(eighth(2.0), eighth(2.0), eighth(2.0));
         let share = eighth(4.0) + 0.5;
-        let face = &table.facet[(draws.unit() * 8.0) as usize];
+        let face = &table.triangle[(draws.unit() * 8.0) as usize];
         let target = face.corners[0] * share + face.corners[1] * (1.0 - share);
         let ray = AimedRay { origin: origin.as_vec3(), direction: (target - origin).as_vec3() };
         bench.aim(&[ray]);
@@ -146,13 +146,13 @@ fn check_on_edges(range: Range<u64>) -> Tally {
         let met = bench.column::<Hits>().shape[0] != NO_SHAPE;
         tally.count(met);
         tally.scores[0].check(met);
-        for facet in &table.facet {
+        for facet in &table.triangle {
             let t = by_function(ray, facet);
             tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
         }
         let strictly =
             |corners| hit_inside_strictly(ray.origin.as_dvec3(), ray.direction.as_dvec3(), corners).is_some();
-        tally.scores[2].check(table.facet.iter().any(|facet| strictly(facet.corners)));
+        tally.scores[2].check(table.triangle.iter().any(|facet| strictly(facet.corners)));
     }
     tally
 }

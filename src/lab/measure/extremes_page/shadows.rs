@@ -40,7 +40,7 @@ pub fn with_start(
         let ShadowStart { origin, t_min } = start(surface.position, surface.normal);
         let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);
         let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
-        let counts = |t: f64| t > f64::from(t_min) && t < f64::from(rays.reach[ray]);
+        let counts = |t: f64| t > f64::from(t_min) && t < f64::from(rays.t_max[ray]);
         let of_sphere = |row: usize| counts(sphere_t(o, d, spheres.centre(row), spheres.radius[row]));
         let of_plane = |row: usize| counts(plane_t(o, d, planes.normal[row], planes.offset[row]));
         let blocked = (0..spheres.radius.len()).any(of_sphere) || (0..planes.offset.len()).any(of_plane);

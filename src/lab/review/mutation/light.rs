@@ -43,7 +43,7 @@ pub fn sun_without_slant(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Qu
     for mut rays in &mut tiles {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
-            if rays.reach[ray] == f32::INFINITY {
+            if rays.t_max[ray] == f32::INFINITY {
                 [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.irradiance[0].map(|part| part as f32);
             }
         }
@@ -55,7 +55,7 @@ pub fn no_distance(mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
-            let squared = rays.reach[ray] * rays.reach[ray];
+            let squared = rays.t_max[ray] * rays.t_max[ray];
             for part in [&mut rays.r[ray], &mut rays.g[ray], &mut rays.b[ray]] {
                 *part *= squared;
             }
@@ -70,7 +70,7 @@ pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<
             let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
             let way = spots.position[0] - origin;
             let direction = rays.direction_of(ray);
-            if way.normalize().dot(direction) < 1.0 - 1e-9 || rays.reach[ray] == f32::INFINITY {
+            if way.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
                 continue;
             }
             let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);

@@ -16,9 +16,9 @@ use pinhole::rays::{
 use pinhole::shade::{
     area_light_stage, background_stage, blinn_phong_stage, checker_stage, colour_stage, cuboid_shadow_stage,
     directional_light_stage, disk_shadow_stage, ellipsoid_shadow_stage, emissive_stage, environment_stage,
-    footprint_stage, gradient_stage, image_stage, lay_stage, light_stage, moving_shadow_stage, phong_stage,
-    plane_shadow_stage, point_light_stage, rectangle_shadow_stage, sphere_shadow_stage, spot_light_stage,
-    start_light_stage, start_shadow_stage, stripes_stage, triangle_shadow_stage, unlit_stage,
+    footprint_stage, gradient_stage, image_stage, light_stage, moving_shadow_stage, phong_stage, plane_shadow_stage,
+    point_light_stage, rectangle_shadow_stage, sphere_shadow_stage, spot_light_stage, start_light_stage,
+    start_shadow_stage, stripes_stage, texture_point_stage, triangle_shadow_stage, unlit_stage,
 };
 use pinhole::{intersect, shade};
 
@@ -100,7 +100,7 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("turned-inward", moving_surface_stage, "sign of the normal", MOVING, Bug::After(|| moving::turned_inward.into_configs())),
     bug("two-pixels", footprint_stage, "two pixels for one", TEXTURED, Bug::After(|| textures::two_pixels.into_configs())),
     bug("half-colour", colour_stage, "half of red", TEXTURED, Bug::After(|| textures::half_colour.into_configs())),
-    bug("half-cell", lay_stage, "corner for middle", TEXTURED, Bug::After(|| textures::half_cell.into_configs())),
+    bug("half-cell", texture_point_stage, "corner for middle", TEXTURED, Bug::After(|| textures::half_cell.into_configs())),
     bug("colours-exchanged", checker_stage, "colours exchanged", TEXTURED, Bug::After(|| textures::colours_exchanged.into_configs())),
     bug("stripes-at-a-point", stripes_stage, "a point for the mean", TEXTURED, Bug::After(|| textures::stripes_at_a_point.into_configs())),
     bug("bytes-for-light", image_stage, "bytes taken for light", TEXTURED, Bug::After(|| textures::bytes_for_light.into_configs())),

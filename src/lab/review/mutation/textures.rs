@@ -7,8 +7,8 @@ use pinhole::intersect::{Hits, MaterialRows, NO_SHAPE, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade::{
-    Footprints, Radiance, SurfaceColours, TexturePoint, TexturePoints, checker_share, environment_radiance,
-    stripes_share,
+    Footprints, Radiance, SurfaceColours, TexturePoint, TexturePoints, checker_fraction, environment_radiance,
+    stripes_fraction,
 };
 
 /// The step across two pixels for that across one.
@@ -42,7 +42,7 @@ pub fn colours_exchanged(
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        recolour(&checkers.0, surfaces, list, points, &mut colours, |at| 1.0 - checker_share(&at));
+        recolour(&checkers.0, surfaces, list, points, &mut colours, |at| 1.0 - checker_fraction(&at));
     }
 }
 
@@ -52,7 +52,7 @@ pub fn stripes_at_a_point(
     mut tiles: Query<(&Surfaces, &MaterialRows, &TexturePoints, &mut SurfaceColours)>,
 ) {
     for (surfaces, list, points, mut colours) in &mut tiles {
-        recolour(&stripes.0, surfaces, list, points, &mut colours, |at| stripes_share(&at.alone()));
+        recolour(&stripes.0, surfaces, list, points, &mut colours, |at| stripes_fraction(&at.alone()));
     }
 }
 

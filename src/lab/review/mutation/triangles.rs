@@ -10,7 +10,7 @@ use pinhole::rays::WorldRays;
 pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for row in 0..rays.rows() {
-            for (facet, &number) in triangles.facet.iter().zip(&triangles.shape) {
+            for (facet, &number) in triangles.triangle.iter().zip(&triangles.shape) {
                 let ([a, b, c], direction) = (facet.corners, rays.direction_of(row));
                 let (e1, e2, s) = (b - a, c - a, rays.origin_of(row) - a);
                 let (p, q) = (direction.cross(e2), s.cross(e1));
@@ -33,7 +33,7 @@ pub fn next_corner(
     for (rays, hits, list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let facet = &triangles.facet[shapes.row[hits.shape[row] as usize] as usize];
+            let facet = &triangles.triangle[shapes.row[hits.shape[row] as usize] as usize];
             let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), facet);
             triangle_hit.weights.rotate_left(1);
             let mut surface = surfaces.get(row);

@@ -2,7 +2,7 @@ use super::{Described, Opening, PlacedCamera, Program, theirs_from_pinhole};
 use crate::scene::FovAxis;
 use glam::{DMat3, DQuat, DVec3};
 
-/// What to type in a program to get our camera there, line by line; numbers have twelve digits.
+/// What to type in another program to place the same camera, line by line; numbers have twelve digits.
 pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
     let theirs = theirs_from_pinhole(program, camera);
     let opening = short(theirs.opening);
@@ -42,7 +42,7 @@ pub fn lines(program: Program, camera: &PlacedCamera) -> Vec<String> {
     }
 }
 
-/// What to write in the kit for a camera found in a program: how wide, then where.
+/// How to write a camera from another program in pinhole: its field of view, then its placement.
 pub fn back(program: Program) -> [String; 2] {
     let words = match program.opening() {
         Opening::Degrees(axis) => format!("axis {axis:?}, the same number"),
@@ -53,7 +53,7 @@ pub fn back(program: Program) -> [String; 2] {
     let place = match program {
         Program::Gltf => "translation and rotation as position and orientation",
         Program::OpenCv => "eye −Rᵀt; the rows of R are x right, y down, z ahead",
-        Program::Blender => "the columns are x right, y up, z back, eye; each (x, y, z) is our (x, z, −y)",
+        Program::Blender => "the columns are x right, y up, z back, eye; each (x, y, z) is pinhole's (x, z, −y)",
         Program::Pbrt => "eye, target and up as they stand if Scale -1 1 1 is above them",
         _ => "eye, target and up as they stand",
     };
@@ -72,7 +72,7 @@ fn gltf(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String>
 }
 
 fn open_cv(theirs: &Described, opening: &str, camera: &PlacedCamera) -> Vec<String> {
-    // A pixel's centre is a whole number there, so the image's is half a pixel less than half its size.
+    // OpenCV puts pixel centres at integers, so the image's centre is half a pixel less than half its size.
     let [cx, cy] = [camera.image.width, camera.image.height].map(|side| short((f64::from(side) - 1.0) / 2.0));
     let camera_from_world = theirs.axes.transpose();
     let t = camera_from_world * -theirs.eye;
@@ -105,9 +105,9 @@ fn parts(vector: DVec3, between: &str) -> String {
     vector.to_array().map(short).join(between)
 }
 
-/// Twelve digits at most: more than a 32-bit number can hold, and without the noise of the last.
+/// A number to twelve digits: more than a 32-bit float has, fewer than rounding errors show in.
 fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.11e}").parse().unwrap_or(number);
-    // A zero keeps no sign.
+    // −0 is written as 0.
     (rounded + 0.0).to_string()
 }

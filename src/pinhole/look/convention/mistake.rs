@@ -7,43 +7,47 @@ use glam::{DMat3, DQuat, DVec3};
 use std::fmt;
 use std::str::FromStr;
 
-/// A word of another program, read as if it were ours.
+/// A mistake made with a convention of another program: it is read as if it were pinhole's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
-    /// Left and right change places.
+    /// Left and right are exchanged.
     Mirrored,
-    /// Top and bottom change places.
+    /// Top and bottom are exchanged.
     UpsideDown,
-    /// The camera looks along its +z.
+    /// The camera looks along its +z axis.
     Backwards,
-    /// The vertical angle is taken across the width.
+    /// The vertical field of view is applied to the width.
     TooNarrow,
-    /// The horizontal angle is taken across the height.
+    /// The horizontal field of view is applied to the height.
     TooWide,
-    /// The world's z is taken for up.
+    /// The world's z axis is taken for up.
     Rolled,
 }
 
 impl Mistake {
-    /// All of them.
+    /// All of the mistakes.
     pub const ALL: [Self; 6] =
         [Self::Mirrored, Self::UpsideDown, Self::Backwards, Self::TooNarrow, Self::TooWide, Self::Rolled];
 
-    /// How the kit makes the picture.
+    /// How the picture of the mistake is made in pinhole.
     pub fn made_by(self) -> &'static str {
         match self {
-            Self::Mirrored => "the shapes and lamps get a parent that mirrors them left to right before the camera",
-            Self::UpsideDown => "the shapes and lamps get a parent that mirrors them top to bottom before the camera",
-            Self::Backwards => "the camera is turned half round about its own y",
-            Self::TooNarrow => "the vertical angle's number is kept, with FovAxis::Horizontal",
-            Self::TooWide => "the horizontal angle's number is kept, with FovAxis::Vertical",
+            Self::Mirrored => {
+                "the shapes and lights get a parent that mirrors them left to right in front of the camera"
+            }
+            Self::UpsideDown => {
+                "the shapes and lights get a parent that mirrors them top to bottom in front of the camera"
+            }
+            Self::Backwards => "the camera is turned by 180° about its own y axis",
+            Self::TooNarrow => "the vertical angle is kept as a number, with FovAxis::Horizontal",
+            Self::TooWide => "the horizontal angle is kept as a number, with FovAxis::Vertical",
             Self::Rolled => "the camera's up is (0, 0, 1)",
         }
     }
 
-    /// Changes a scene to what one sees after this mistake.
+    /// Changes a scene to what this mistake makes of it.
     ///
-    /// Errors: a scene that would not render; a camera of parallel rays.
+    /// Errors: a scene that would not render, and an orthographic camera.
     pub fn commit(self, scene: &mut World) -> Result {
         let placed = PlacedCamera::of(scene)?;
         let camera = camera_entity(scene)?;
@@ -71,7 +75,8 @@ impl Mistake {
     }
 }
 
-/// Puts all but the camera under two parents that mirror along the camera's axes: scaled in them, then turned back.
+/// Puts everything but the camera under two parents that together mirror along the camera's axes: a scaling in those
+/// axes, and a rotation back.
 fn mirror(scene: &mut World, camera: Entity, eye: DVec3, axes: DMat3, scale: DVec3) {
     let mut roots = scene.query_filtered::<Entity, (With<Placement>, Without<ChildOf>)>();
     let roots: Vec<Entity> = roots.iter(scene).filter(|&root| root != camera).collect();

@@ -1,9 +1,9 @@
-//! The same camera in the words of other programs and books.
+//! The same camera in the conventions of other programs and books.
 //!
 //! Reads: the camera of a scene.
-//! Writes: what a reader types elsewhere, and scenes as they look where a word of theirs was misread.
-//! Space: each program's own world and camera axes; between theirs and ours lie swaps and signs only, so nothing is
-//! rounded there.
+//! Writes: what to type in another program, and scenes as they look when one of its conventions is misread.
+//! Space: each program's own world and camera axes; they differ from pinhole's by permutations and signs only, so
+//! nothing is rounded.
 
 mod lines;
 mod mistake;

@@ -5,31 +5,33 @@ use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use glam::DMat3;
 
-/// A perspective camera that stands somewhere: all that a description of it in other words must keep.
+/// A perspective camera and its placement: all that a description in another convention must preserve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedCamera {
-    /// Eye, target and up in the world: as the author wrote them, or else a point one unit ahead and the camera's own y.
+    /// Eye, target and up in world space: as the author wrote them, or else a point one unit ahead and the camera's own
+    /// y axis.
     pub look: LookAt,
-    /// Columns: the camera's x (right), y (up) and z (back) as unit vectors of the world.
+    /// Columns: the camera's x (right), y (up) and z (back) axes as unit vectors in world space.
     pub world_from_camera: DMat3,
-    /// tan(vertical angle / 2).
+    /// tan(fov / 2) for the vertical field of view.
     pub tan_half_vertical: f64,
-    /// The image's shape.
+    /// The image's resolution and aspect ratio.
     pub image: ImageFrame,
 }
 
 impl PlacedCamera {
     /// The camera of a scene.
     ///
-    /// Errors: what a render would be refused for; a camera of parallel rays, which has no field of view.
+    /// Errors: whatever a render would refuse, and an orthographic camera, which has no field of view.
     pub fn of(scene: &World) -> Result<Self> {
         let scene = &Census::of(scene);
         let camera = camera_entity(scene)?;
         if scene.get::<PerspectiveCamera>(camera).is_none() {
             let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
             let kind = if orthographic { "orthographic" } else { "none" };
-            let told = format!("the conventions are those of perspective cameras, and this scene's camera is {kind}");
-            return Err(Error::Usage(told));
+            let message =
+                format!("the conventions are those of perspective cameras, and this scene's camera is {kind}");
+            return Err(Error::Usage(message));
         }
         let world_from_camera = scene.table::<CameraAxes>()?.world_from_camera;
         let eye = eye(scene)?;

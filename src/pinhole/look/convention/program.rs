@@ -4,7 +4,7 @@ use crate::scene::{Degrees, FovAxis, LookAt};
 use glam::{DMat3, DVec3};
 use std::fmt;
 
-/// A program or a book that describes cameras in words of its own.
+/// A program or a book with a camera convention of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Program {
     /// *Ray Tracing in One Weekend*, version 4.
@@ -25,40 +25,40 @@ pub enum Program {
     Blender,
 }
 
-/// How a program says how wide a camera sees.
+/// The form in which a program states a camera's field of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Opening {
-    /// The full angle across this, in degrees.
+    /// The full angle along this axis of the image, in degrees.
     Degrees(FovAxis),
-    /// The full angle across this, in radians.
+    /// The full angle along this axis of the image, in radians.
     Radians(FovAxis),
-    /// The distance of the image plane, in pixels.
+    /// The distance of the image plane from the eye, in pixels.
     Pixels,
-    /// The focal length over a film of this width across the axis, both in millimetres.
+    /// The focal length, for a film of this size along the axis, both in millimetres.
     Millimetres(f64, FovAxis),
 }
 
-/// A camera in a program's own words.
+/// A camera in a program's own convention.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Described {
-    /// How wide it sees, in the unit of the program's [`Opening`].
+    /// The field of view, in the form and unit of the program's [`Opening`].
     pub opening: f64,
-    /// Columns: the program's camera x, y and z as unit vectors of the program's world.
+    /// Columns: the camera's x, y and z axes as unit vectors in the program's world space.
     pub axes: DMat3,
-    /// Where it stands in the program's world.
+    /// The eye in the program's world space.
     pub eye: DVec3,
 }
 
-/// Right, up, back.
-const OURS: DMat3 = DMat3::IDENTITY;
+/// Camera axes x, y and z: right, up and back, as pinhole has them.
+const RIGHT_UP_BACK: DMat3 = DMat3::IDENTITY;
 const RIGHT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z);
 const LEFT_UP_AHEAD: DMat3 = DMat3::from_cols(DVec3::NEG_X, DVec3::Y, DVec3::NEG_Z);
 const RIGHT_DOWN_AHEAD: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
-/// Our (x, y, z) is (x, −z, y) where z points up.
+/// pinhole's (x, y, z) is (x, −z, y) where z points up.
 const Z_UP_FROM_PINHOLE: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
 
 impl Program {
-    /// All of them, those that share our axes first.
+    /// All of them, those with pinhole's axes first.
     pub const ALL: [Self; 8] = [
         Self::OneWeekend,
         Self::GroundUp,
@@ -71,7 +71,7 @@ impl Program {
     ];
 
     // ANCHOR: opening
-    /// How it says how wide a camera sees.
+    /// The form in which it states a camera's field of view.
     pub fn opening(self) -> Opening {
         match self {
             Self::OneWeekend | Self::OpenGl => Opening::Degrees(FovAxis::Vertical),
@@ -85,17 +85,17 @@ impl Program {
     // ANCHOR_END: opening
 
     // ANCHOR: camera_axes
-    /// Columns: its camera's x, y and z, seen from our camera, where x is right, y is up and z is back.
+    /// Columns: its camera's x, y and z axes in pinhole's camera space, where x is right, y is up and z is back.
     pub fn camera_axes(self) -> DMat3 {
         match self {
-            Self::OneWeekend | Self::GroundUp | Self::OpenGl | Self::Gltf | Self::Blender => OURS,
+            Self::OneWeekend | Self::GroundUp | Self::OpenGl | Self::Gltf | Self::Blender => RIGHT_UP_BACK,
             Self::Pbrt => RIGHT_UP_AHEAD,
             Self::Mitsuba => LEFT_UP_AHEAD,
             Self::OpenCv => RIGHT_DOWN_AHEAD,
         }
     }
 
-    /// From our world to its world.
+    /// The rotation from pinhole's world space to the program's.
     pub fn world_from_pinhole(self) -> DMat3 {
         if self == Self::Blender { Z_UP_FROM_PINHOLE } else { DMat3::IDENTITY }
     }
@@ -118,7 +118,7 @@ impl fmt::Display for Program {
 }
 
 // ANCHOR: theirs_from_pinhole
-/// Our camera in a program's words.
+/// A camera of pinhole's in a program's convention.
 pub fn theirs_from_pinhole(program: Program, camera: &PlacedCamera) -> Described {
     let (tan, aspect) = (camera.tan_half_vertical, camera.image.aspect());
     let opening = match program.opening() {
@@ -131,7 +131,7 @@ pub fn theirs_from_pinhole(program: Program, camera: &PlacedCamera) -> Described
     Described { opening, axes: world * camera.world_from_camera * program.camera_axes(), eye: world * camera.look.eye }
 }
 
-/// A program's camera in ours.
+/// A program's camera in pinhole's convention.
 pub fn pinhole_from_theirs(program: Program, described: &Described, image: ImageFrame) -> PlacedCamera {
     let (number, aspect) = (described.opening, image.aspect());
     let tan_half_vertical = match program.opening() {
@@ -140,7 +140,7 @@ pub fn pinhole_from_theirs(program: Program, described: &Described, image: Image
         Opening::Pixels => f64::from(image.height) / (2.0 * number),
         Opening::Millimetres(film, axis) => film / (2.0 * number * half_extent(axis, aspect)),
     };
-    // Swaps and signs are undone by turning the matrix over its diagonal.
+    // A matrix of permutations and signs is inverted by transposing it.
     let world = program.world_from_pinhole().transpose();
     let world_from_camera = world * described.axes * program.camera_axes().transpose();
     let eye = world * described.eye;
@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn handedness_is_as_each_program_says() {
+    fn handedness_is_as_each_program_documents() {
         for program in Program::ALL {
             let (camera, world) = (program.camera_axes().determinant(), program.world_from_pinhole().determinant());
             assert_eq!(camera, if program == Program::Pbrt { -1.0 } else { 1.0 }, "{program}");
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_square_image_has_one_angle_for_all_sides() {
+    fn a_square_image_has_one_angle_for_all_axes() {
         for axis in [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger] {
             assert_eq!(half_extent(axis, 1.0), 1.0);
         }
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn smaller_and_larger_change_places_where_the_image_is_upright() {
+    fn smaller_and_larger_change_places_in_a_portrait_image() {
         for (aspect, smaller, larger) in [(16.0 / 9.0, 1.0, 16.0 / 9.0), (9.0 / 16.0, 9.0 / 16.0, 1.0)] {
             assert_eq!(
                 [half_extent(FovAxis::Smaller, aspect), half_extent(FovAxis::Larger, aspect)],

@@ -3,20 +3,20 @@ use super::parallelogram::{parallelogram_pdf, parallelogram_point, parallelogram
 use crate::extract::{EmittingCuboid, Parallelogram};
 use glam::DVec3;
 
-/// The faces of a cuboid that face a point, and how much of its sight each fills.
+/// The faces of a cuboid that are visible from a point, and the solid angle of each.
 #[derive(Clone, Copy, Debug)]
 pub struct CuboidSeen {
-    /// In sr: the faces at the ends of the three edges, then those at their beginnings; 0 for a face that is hidden.
+    /// In sr: the faces at the ends of the three edges, then those at their beginnings; 0 for a hidden face.
     pub solid_angles: [f64; 6],
-    /// Their sum.
+    /// Their sum, in sr.
     pub whole: f64,
 }
 
 impl CuboidSeen {
-    /// From outside up to three faces are seen, from inside all six.
+    /// From outside up to three faces are visible, from inside all six.
     #[inline(always)]
     pub fn new(cuboid: &EmittingCuboid, from: DVec3) -> Self {
-        let inside = cuboid.holds(from);
+        let inside = cuboid.contains(from);
         let mut solid_angles = [0.0; 6];
         for (number, solid_angle) in solid_angles.iter_mut().enumerate() {
             let face = face(cuboid, number);
@@ -29,7 +29,7 @@ impl CuboidSeen {
     }
 }
 
-/// A point of a cuboid: a face is chosen by how much it fills, then a point on it.
+/// Samples a point on a cuboid: a face in proportion to its solid angle, then a point on it.
 #[inline(always)]
 pub fn cuboid_point(cuboid: &EmittingCuboid, from: DVec3, u: [f64; 2]) -> LightPoint {
     let seen = CuboidSeen::new(cuboid, from);
@@ -48,19 +48,19 @@ pub fn cuboid_point(cuboid: &EmittingCuboid, from: DVec3, u: [f64; 2]) -> LightP
     LightPoint { pdf: random * point.pdf, ..point }
 }
 
-/// How likely [`cuboid_point`] was to choose a direction, in 1/sr; `to` leads to the cuboid's point there.
+/// The pdf of a direction sampled by [`cuboid_point`], in 1/sr; `to` is the offset to the cuboid's point there.
 #[inline(always)]
 pub fn cuboid_pdf(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
     let seen = CuboidSeen::new(cuboid, from);
     let at = from + to - cuboid.centre;
-    let share = |number: usize| {
+    let nearness = |number: usize| {
         let face = face(cuboid, number);
         let out = face.centre - cuboid.centre;
         face.normal.dot(at) / face.normal.dot(out)
     };
     let mut nearest = 0;
     for number in 1..6 {
-        if share(number) > share(nearest) {
+        if nearness(number) > nearness(nearest) {
             nearest = number;
         }
     }
@@ -68,7 +68,8 @@ pub fn cuboid_pdf(cuboid: &EmittingCuboid, from: DVec3, to: DVec3) -> f64 {
     if seen.whole > 0.0 { pdf * (seen.solid_angles[nearest] / seen.whole) } else { 0.0 }
 }
 
-/// Where a ray aimed at a cuboid meets it: where it has entered all slabs, or from inside left one.
+/// The distance to a cuboid along a ray sampled towards it: where it has entered all slabs, or from inside has left
+/// one.
 #[inline(always)]
 pub fn cuboid_distance(cuboid: &EmittingCuboid, from: DVec3, direction: DVec3) -> f64 {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -79,14 +80,14 @@ pub fn cuboid_distance(cuboid: &EmittingCuboid, from: DVec3, direction: DVec3) -
             continue;
         }
         let to_middle = normal.dot(cuboid.centre - from);
-        let reach = if along > 0.0 { half } else { -half };
-        enters = enters.max((to_middle - reach) / along);
-        leaves = leaves.min((to_middle + reach) / along);
+        let end = if along > 0.0 { half } else { -half };
+        enters = enters.max((to_middle - end) / along);
+        leaves = leaves.min((to_middle + end) / along);
     }
-    if cuboid.holds(from) { leaves } else { enters }
+    if cuboid.contains(from) { leaves } else { enters }
 }
 
-/// One of the six faces, its normal outward.
+/// One of the six faces, with its outward normal.
 #[inline(always)]
 fn face(cuboid: &EmittingCuboid, number: usize) -> Parallelogram {
     let axis = number % 3;

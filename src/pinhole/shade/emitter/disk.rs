@@ -4,19 +4,19 @@ use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// From farther than this many of its longest radii a disk is aimed at by its area.
+/// From farther away than this many of its longest radii, a disk is sampled by area.
 const FAR: f64 = 3.0;
-/// And where the box about it fills less than this many sr.
+/// It is also sampled by area where its bounding rectangle subtends less than this many sr.
 const LEAST_SOLID_ANGLE: f64 = 1e-6;
 
 // ANCHOR: disk_point
-/// A point of a disk, or of the ellipse that uneven scales make of one; `disk` is the box about it.
+/// Samples a point on a disk, or on the ellipse that a non-uniform scale makes of it; `disk` is its bounding rectangle.
 ///
-/// From afar evenly over its area.
-/// From near, the box about it is cut into stripes as [`RectangleSeen::at`] does, and the point is chosen evenly over the
-/// directions of that part of its stripe that lies in the disk.
-/// One side of a circle's box is turned to the lit point, so that box and disk fill nearly the same directions even close
-/// to the rim.
+/// From far away, points are uniform over its area.
+/// From nearby, the bounding rectangle is cut into strips as in [`RectangleSeen::at`], and the point is uniform in
+/// solid angle over that part of its strip which is in the disk.
+/// One side of a circle's bounding square faces the lit point, so that square and disk subtend nearly the same solid
+/// angle even close to the rim.
 #[inline(always)]
 pub fn disk_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     match box_seen(disk, from) {
@@ -26,7 +26,7 @@ pub fn disk_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint 
 }
 // ANCHOR_END: disk_point
 
-/// How likely [`disk_point`] was to choose a direction, in 1/sr; `to` leads to the disk's point there.
+/// The pdf of a direction sampled by [`disk_point`], in 1/sr; `to` is the offset to the disk's point there.
 #[inline(always)]
 pub fn disk_pdf(disk: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     match box_seen(disk, from) {
@@ -35,7 +35,7 @@ pub fn disk_pdf(disk: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     }
 }
 
-/// The box about a disk, as seen from a point near it; none from afar.
+/// The bounding rectangle of a disk, as seen from a point nearby; none from far away.
 #[inline(always)]
 fn box_seen(disk: &Parallelogram, from: DVec3) -> Option<RectangleSeen> {
     let [x, y] = disk.half_edges;
@@ -54,7 +54,8 @@ fn box_seen(disk: &Parallelogram, from: DVec3) -> Option<RectangleSeen> {
     (seen.solid_angle >= LEAST_SOLID_ANGLE).then_some(seen)
 }
 
-/// A point of a disk, evenly over its area: circles of the square become circles of the disk (Shirley and Chiu 1997).
+/// Samples a point uniformly over the disk's area; concentric squares map to concentric circles (Shirley and Chiu
+/// 1997).
 #[inline(always)]
 fn disk_area_point(disk: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     let [a, b] = u.map(|u| 2.0 * u - 1.0);

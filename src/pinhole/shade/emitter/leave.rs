@@ -1,27 +1,27 @@
-//! Points on lights where their light starts, and ways that it takes.
+//! Sampling the points and directions in which light leaves emitters.
 
 use super::cone_versine;
 use crate::extract::{Emitter, MOST_TARGETS, Parallelogram, Target};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The chance that a ray starts inside a closed shape that shines on both sides: there is seldom anything in there.
+/// The probability of starting a ray inside a closed shape that emits on both sides, where there is seldom anything.
 const INWARD: f64 = 1.0 / 16.0;
 
-/// Where on a light a ray starts.
+/// A sampled point at which a ray leaves a light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LeavingPoint {
-    /// In render space.
+    /// The position in render space.
     pub position: DVec3,
-    /// The unit normal of the side that it starts on.
+    /// The unit normal of the side that the ray starts on.
     pub normal: DVec3,
-    /// How much light goes with each unit of radiance and cosine: the area over the chance of the side.
+    /// Power per unit of radiance and cosine: the area over the probability of the side.
     pub area: f64,
-    /// The largest number that its position was made from.
+    /// The largest magnitude in the computation of its position, for its error bound.
     pub size: f64,
 }
 
-/// A point of an emitter, evenly over its area, and by `side` on one of its sides.
+/// Samples a point on an emitter uniformly over its area, and one of its sides by `side`.
 #[inline(always)]
 pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64) -> LeavingPoint {
     let (position, normal, size) = match emitter {
@@ -30,11 +30,11 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
             (*centre + *radius * normal, normal, l1_norm(*centre) + radius)
         }
         Emitter::Rectangle(planar) => {
-            (planar_point(planar, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), planar.normal, reach(planar))
+            (planar_point(planar, [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0]), planar.normal, magnitude(planar))
         }
         Emitter::Disk(planar) => {
             let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
-            (planar_point(planar, [radius * cosine, radius * sine]), planar.normal, reach(planar))
+            (planar_point(planar, [radius * cosine, radius * sine]), planar.normal, magnitude(planar))
         }
         Emitter::Triangle { corners: [a, b, c], normal } => {
             let root = u[0].sqrt();
@@ -46,7 +46,7 @@ pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64)
                 |axis: usize| cuboid.half_edges[(axis + 1) % 3].cross(cuboid.half_edges[(axis + 2) % 3]).length();
             let areas = [area(0), area(1), area(2)];
             let all: f64 = areas.iter().sum();
-            // Twice three faces share the first number; what is left of it is even again.
+            // The first number selects one of twice three faces, and its remainder is uniform again.
             let mut left = u[0] * 2.0;
             let sign = if left < 1.0 { 1.0 } else { -1.0 };
             left = left.fract() * all;
@@ -76,7 +76,7 @@ fn planar_point(planar: &Parallelogram, [x, y]: [f64; 2]) -> DVec3 {
     planar.centre + x * planar.half_edges[0] + y * planar.half_edges[1]
 }
 
-fn reach(planar: &Parallelogram) -> f64 {
+fn magnitude(planar: &Parallelogram) -> f64 {
     l1_norm(planar.centre) + l1_norm(planar.half_edges[0]) + l1_norm(planar.half_edges[1])
 }
 
@@ -84,28 +84,28 @@ fn l1_norm(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-/// A direction, evenly over all.
+/// A direction uniform over the sphere.
 #[inline(always)]
 pub fn sphere_direction(u: [f64; 2]) -> DVec3 {
     cone_direction(DVec3::Z, 2.0, u)
 }
 
-/// A direction, evenly over the cone about an axis whose edge has this 1 − cos.
+/// A direction uniform over the cone about an axis, `whole` being 1 − cos of its half angle.
 #[inline(always)]
 pub fn cone_direction(axis: DVec3, whole: f64, u: [f64; 2]) -> DVec3 {
     let versine = u[0] * whole;
     let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
     let (right, up) = axis.any_orthonormal_pair();
-    let (up_share, right_share) = libm::sincos(TAU * u[1]);
-    DMat3::from_cols(right, up, axis) * DVec3::new(sine * right_share, sine * up_share, 1.0 - versine)
+    let (up_part, right_part) = libm::sincos(TAU * u[1]);
+    DMat3::from_cols(right, up, axis) * DVec3::new(sine * right_part, sine * up_part, 1.0 - versine)
 }
 
-/// What f32 takes from a ray, as a share of where it starts and of how far it goes.
+/// The rounding error of a ray in f32, relative to its origin and to the distance travelled.
 const OF_PLACE: f64 = 1.0 / (1_u64 << 21) as f64;
 
-/// The axis of the cone that a sphere fills as seen from a point, and its 1 − cos; all directions from within.
+/// The axis of the cone that a sphere subtends from a point, and 1 − cos of its half angle; all directions from inside.
 ///
-/// The sphere is taken larger by what a ray of f32 from there may miss it by.
+/// The sphere is enlarged by as much as a ray in f32 may miss it by.
 #[inline(always)]
 fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
     let to = target.centre - from;
@@ -116,16 +116,16 @@ fn cone_to(target: &Target, from: DVec3) -> (DVec3, f64) {
 }
 
 // ANCHOR: direction_to_targets
-/// A direction to one of the targets, and 1 over its density, in sr; none where they fill `wide` or more of what is seen
-/// from here, or there is none.
+/// A direction to one of the targets, and 1 over its pdf, in sr; none where the targets subtend `limit` sr or more, or
+/// there is none.
 ///
-/// A target is chosen as often as it is large from here, and a direction evenly over its cone.
-/// So where one cone alone leads, the density is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
+/// A target is chosen in proportion to its solid angle, and a direction uniformly in its cone.
+/// In the cone of a single target the pdf is 1 over the sum Ω of all solid angles; where n cones overlap it is n / Ω.
 #[inline(always)]
 pub fn direction_to_targets(
     targets: &[Target],
     from: DVec3,
-    double_double: f64,
+    limit: f64,
     choice: f64,
     u: [f64; 2],
 ) -> Option<(DVec3, f64)> {
@@ -133,7 +133,7 @@ pub fn direction_to_targets(
     let cones = &mut cones[..targets.len()];
     cones.iter_mut().zip(targets).for_each(|(cone, target)| *cone = cone_to(target, from));
     let all = TAU * cones.iter().map(|(_, whole)| whole).sum::<f64>();
-    if all == 0.0 || all >= double_double {
+    if all == 0.0 || all >= limit {
         return None;
     }
     let (mut left, mut chosen) = (choice * all, 0);
@@ -151,8 +151,8 @@ pub fn direction_to_targets(
 }
 // ANCHOR_END: direction_to_targets
 
-/// With targets that fill more than this, aiming at them gains nothing.
-pub const WIDE: f64 = PI;
+/// Where the targets subtend more than this many sr, sampling directions towards them gains nothing.
+pub const MAX_TARGETS_SOLID_ANGLE: f64 = PI;
 
 #[cfg(test)]
 mod tests {
@@ -160,9 +160,9 @@ mod tests {
     use crate::extract::EmittingCuboid;
     use crate::measure::ray_aim::Draws;
 
-    /// Directions to targets, each weighed by 1 over its density, fill the union of the cones as even directions do.
+    /// Directions to targets, each weighted by 1 over its pdf, cover the union of the cones as uniform directions do.
     #[test]
-    fn directions_to_targets_are_as_dense_as_told() {
+    fn directions_to_targets_have_their_pdf() {
         const TRIED: u64 = 40_000;
         for index in 0..12 {
             let mut draws = Draws::new(2711, index);
@@ -175,28 +175,28 @@ mod tests {
                     0.5 * (direction - axis).length_squared() <= whole
                 })
             };
-            // A smooth function of the direction, and 1: both integrals agree with even directions'.
+            // The integrals of a smooth function of the direction, and of 1, agree with those over uniform directions.
             let function = |direction: DVec3| DVec3::new(1.0, 1.0 + direction.x, libm::exp(2.0 * direction.y));
-            let (mut even, mut aimed, mut squares) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+            let (mut even, mut sampled, mut squares) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
             for _ in 0..TRIED {
                 let direction = sphere_direction([draws.unit(), draws.unit()]);
-                let told = function(direction) * if within(direction) { 4.0 * PI } else { 0.0 };
-                (even, squares) = (even + told, squares + told * told);
+                let value = function(direction) * if within(direction) { 4.0 * PI } else { 0.0 };
+                (even, squares) = (even + value, squares + value * value);
                 let (choice, u) = (draws.unit(), [draws.unit(), draws.unit()]);
-                let drawn = direction_to_targets(&targets, DVec3::ZERO, f64::INFINITY, choice, u);
-                let (direction, weight) = drawn.expect("targets");
-                let told = function(direction) * weight;
-                (aimed, squares) = (aimed + told, squares + told * told);
+                let sample = direction_to_targets(&targets, DVec3::ZERO, f64::INFINITY, choice, u);
+                let (direction, weight) = sample.expect("targets");
+                let value = function(direction) * weight;
+                (sampled, squares) = (sampled + value, squares + value * value);
             }
             let n = TRIED as f64;
             let error = (squares / (n * n)).map(f64::sqrt);
-            let off = (even - aimed) / n / error;
+            let off = (even - sampled) / n / error;
             assert!(off.abs().max_element() < 4.0, "{index}: {off}");
         }
         eprintln!("directions to targets: 12 sets of 3, {TRIED} each");
     }
 
-    /// Points are spread evenly: what they see of a far plane's cosine is the shape's area as seen from there.
+    /// Points are uniform over the area: the sum of their cosines to a distant plane gives the shape's projected area.
     #[test]
     fn points_of_lights_are_spread_over_their_area() {
         const TRIED: u64 = 40_000;

@@ -1,8 +1,8 @@
-//! Points on lights with an area: how one is chosen, seen from a point, and how likely each was to be.
+//! Sampling points on area lights, as seen from a point that they illuminate, and the pdfs of these points.
 //!
-//! Reads: a light's shape, the point that is lit, a point of the unit square.
-//! Gives: the way to a point on the light and its density per unit of solid angle at the lit point, in 1/sr, f64.
-//! Space: any one space; the kit's is render space.
+//! Reads: a light's shape, the lit point, and a point of the unit square.
+//! Gives: the offset to a point on the light and its pdf per unit of solid angle at the lit point, in 1/sr, f64.
+//! Space: any one space; the renderer uses render space.
 
 mod cuboid;
 mod disk;
@@ -13,7 +13,9 @@ mod triangle;
 
 pub use cuboid::{CuboidSeen, cuboid_distance, cuboid_pdf, cuboid_point};
 pub use disk::{disk_pdf, disk_point};
-pub use leave::{LeavingPoint, WIDE, cone_direction, direction_to_targets, leaving_point, sphere_direction};
+pub use leave::{
+    LeavingPoint, MAX_TARGETS_SOLID_ANGLE, cone_direction, direction_to_targets, leaving_point, sphere_direction,
+};
 pub use parallelogram::{
     RectangleSeen, parallelogram_area_pdf, parallelogram_area_point, parallelogram_pdf, parallelogram_point,
 };
@@ -25,21 +27,21 @@ pub use triangle::{
 use crate::extract::Emitter;
 use glam::DVec3;
 
-/// A point on a light, as seen from the point that is lit.
+/// A point sampled on a light, as seen from the lit point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightPoint {
-    /// From the lit point to it, in scene units.
+    /// The offset from the lit point, in scene units.
     pub to: DVec3,
-    /// How likely a direction about this one was to be chosen, in 1/sr; 0 where the light has no side to be seen.
+    /// Its pdf in 1/sr; 0 where the light is seen edge-on.
     pub pdf: f64,
 }
 
 impl LightPoint {
-    /// No point: the light is seen from its edge.
+    /// No point, for a light seen edge-on.
     pub const NONE: Self = Self { to: DVec3::ZERO, pdf: 0.0 };
 }
 
-/// A point of a light for a point of the unit square.
+/// The point of a light for a point of the unit square.
 #[inline(always)]
 pub fn point_on(emitter: &Emitter, from: DVec3, u: [f64; 2]) -> LightPoint {
     match emitter {
@@ -51,7 +53,7 @@ pub fn point_on(emitter: &Emitter, from: DVec3, u: [f64; 2]) -> LightPoint {
     }
 }
 
-/// How likely [`point_on`] was to choose a direction about that to a point of the light, in 1/sr.
+/// The pdf with which [`point_on`] samples the direction to a point of the light, in 1/sr.
 #[inline(always)]
 pub fn pdf_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
     match emitter {
@@ -63,9 +65,9 @@ pub fn pdf_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
     }
 }
 
-/// Where a ray that was aimed at a light meets it; its direction may be rounded, and so miss the light by that much.
+/// The distance to a light along a ray sampled towards it; rounding of the direction may make the ray miss slightly.
 ///
-/// In lengths of the direction.
+/// In units of the direction's length.
 #[inline(always)]
 pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
     match emitter {
@@ -79,18 +81,18 @@ pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
 }
 
 // ANCHOR: pdf_from_area
-/// The density per unit of solid angle of a point chosen evenly on a flat area: d² / (A cos θ), θ at the light.
+/// The pdf per unit of solid angle of a point uniform over a planar area: d² / (A cos θ), with θ at the light.
 ///
-/// 0 where the area is seen from its edge, for then it fills no solid angle.
+/// 0 where the area is seen edge-on, since it subtends no solid angle.
 #[inline(always)]
 pub fn pdf_from_area(to: DVec3, unit_normal: DVec3, area: f64) -> f64 {
-    // Not yet over d.
+    // Not yet divided by d.
     let cosine = unit_normal.dot(to).abs();
     if cosine > 0.0 { to.length_squared() * to.length() / (area * cosine) } else { 0.0 }
 }
 // ANCHOR_END: pdf_from_area
 
-/// The angle whose sine and cosine are in this proportion, from 0 to π.
+/// The angle in [0, π] with a sine and a cosine in this ratio.
 #[inline(always)]
 fn angle_of(sine: f64, cosine: f64) -> f64 {
     libm::atan2(sine, cosine)

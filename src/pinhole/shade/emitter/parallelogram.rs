@@ -4,36 +4,37 @@ use crate::extract::Parallelogram;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// From farther than this many half diagonals a parallelogram is aimed at by its area: there its points are nearly equally
-/// near and equally slanted, so that the angles of [`RectangleSeen`] would cost more than they bring.
+/// From farther away than this many half diagonals, a parallelogram is sampled by area: its points then have nearly the
+/// same distance and cosine, and the angles of [`RectangleSeen`] would cost more than they gain.
 const FAR: f64 = 3.0;
-/// A rectangle that fills less than this many sr is aimed at as the two triangles that it is.
+/// A rectangle that subtends less than this many sr is sampled as its two triangles.
 ///
-/// Its solid angle is what four angles have more than 360°, so it is off by some 10⁻¹⁵ sr.
+/// Its solid angle is the excess of four angles over 360°, and so is off by some 10⁻¹⁵ sr.
 const LEAST_OF_FOUR_ANGLES: f64 = 1e-4;
 
-/// A rectangle as the lit point sees it, in its own axes: from x₀ to x₁, from y₀ to y₁, at the depth z below 0.
+/// A rectangle as seen from the lit point, in its own axes: from x₀ to x₁, from y₀ to y₁, at the depth z below 0.
 #[derive(Clone, Copy, Debug)]
 pub struct RectangleSeen {
     x: [f64; 2],
     y: [f64; 2],
     z: f64,
     axes: [DVec3; 3],
-    /// Cosine and sine of what the angles at the last two corners leave of a full turn.
+    /// Cosine and sine of a full turn minus the angles at the last two corners.
     first_angle: [f64; 2],
-    /// Parts along z of the unit normals of the planes through the lit point and the edges y₀ and y₁.
+    /// The z components of the unit normals of the planes through the lit point and the edges y₀ and y₁.
     lean: [f64; 2],
-    /// What the rectangle fills, in sr.
+    /// Its solid angle, in sr.
     pub solid_angle: f64,
 }
 
 impl RectangleSeen {
     // ANCHOR: rectangle_seen
-    /// The rectangle with these half edges across each other, seen from a point.
+    /// The rectangle with these perpendicular half edges, seen from a point.
     ///
-    /// The plane through the lit point and an edge at y leans by −y / √(y² + z²); two such planes meet at the angle whose
-    /// cosine is minus the product of how they lean, and the four angles are 2π and the solid angle together.
-    /// They are added as turns, pairs of a cosine and a sine, so that only their sum is asked of an arc tangent.
+    /// The unit normal of the plane through the lit point and an edge at y has the z component −y / √(y² + z²); two
+    /// such planes intersect at an angle whose cosine is minus the product of these, and the four angles add up to 2π
+    /// plus the solid angle.
+    /// They are added as rotations, pairs of a cosine and a sine, so that only their sum needs an arc tangent.
     #[inline(always)]
     pub fn new(centre: DVec3, half_edges: [DVec3; 2], from: DVec3) -> Self {
         let [a, b] = half_edges.map(|half| half.length());
@@ -55,7 +56,7 @@ impl RectangleSeen {
         let [before, after] = [add_turns(corner(0, 1), corner(1, 2)), add_turns(corner(2, 3), corner(3, 0))];
         let [cosine, sine] = add_turns(before, after);
         let angle = angle_of(sine, cosine);
-        // More than half a turn only from near; else less than 0 is rounding.
+        // More than half a turn is possible only from nearby; otherwise a value below 0 is rounding.
         let near = z * z < a * a + b * b;
         let angle = if angle < 0.0 && near { angle + TAU } else { angle.max(0.0) };
         let solid_angle = if z < 0.0 { angle } else { 0.0 };
@@ -64,17 +65,17 @@ impl RectangleSeen {
     // ANCHOR_END: rectangle_seen
 
     // ANCHOR: rectangle_at
-    /// The way to a point of the rectangle, evenly over its solid angle (Ureña, Fajardo and King 2013).
+    /// The offset to a point of the rectangle, uniform in solid angle (Ureña, Fajardo and King 2013).
     ///
-    /// The first number picks x so that what lies left of it fills that share of the solid angle; the second picks y, where
-    /// the sine of the angle up from the plane y = 0 is spread evenly.
+    /// The first number selects x such that the part to its left subtends that fraction of the solid angle; the second
+    /// selects y, where the sine of the elevation from the plane y = 0 is uniform.
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
         let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
         let (sine, cosine) = libm::sincos(u[0] * self.solid_angle);
         let [cosine, sine] = add_turns([cosine, sine], self.first_angle);
         let f = (cosine * self.lean[0] - self.lean[1]) / sine;
-        // f² + lean² − 1 with 1 − lean² in one piece.
+        // f² + lean² − 1, with 1 − lean² computed as one term.
         let rest = f * f - z * z / (y0 * y0 + z * z);
         let x = -f.signum() * z / rest.max(0.0).sqrt();
         let x = if x.is_nan() { x0 + u[0] * (x1 - x0) } else { x.clamp(x0, x1) };
@@ -82,7 +83,7 @@ impl RectangleSeen {
     }
     // ANCHOR_END: rectangle_at
 
-    /// The way to the point at this x and at a y between two, evenly over the sine of its angle.
+    /// The offset to the point at this x and at a y between two, uniform in the sine of its elevation.
     #[inline(always)]
     fn along(&self, x: f64, y: [f64; 2], u: f64) -> DVec3 {
         let [low, high] = self.sines(x, y);
@@ -93,23 +94,22 @@ impl RectangleSeen {
         self.axes[0] * x + self.axes[1] * at + self.axes[2] * self.z
     }
 
-    /// The sines of the angles of two points at this x, up from the plane y = 0.
+    /// The sines of the elevations of two points at this x above the plane y = 0.
     #[inline(always)]
     fn sines(&self, x: f64, y: [f64; 2]) -> [f64; 2] {
         let depth_squared = x * x + self.z * self.z;
         y.map(|y| y / (y * y + depth_squared).sqrt())
     }
 
-    /// The half of the piece of the line at an x that lies in the ellipse whose box this rectangle is.
+    /// Half the chord at x of the ellipse inscribed in this rectangle.
     #[inline(always)]
     fn half_chord(&self, x: f64) -> f64 {
         let [half_x, half_y] = [self.x, self.y].map(|ends| 0.5 * (ends[1] - ends[0]));
-        let share = (x - self.x[0]) * (self.x[1] - x);
-        half_y * (share.max(0.0)).sqrt() / half_x
+        let product = (x - self.x[0]) * (self.x[1] - x);
+        half_y * (product.max(0.0)).sqrt() / half_x
     }
 
-    /// The way to a point of the ellipse whose box this rectangle is, and its density: x as for the rectangle, y within the
-    /// ellipse.
+    /// Samples a point of the ellipse inscribed in this rectangle: x as for the rectangle, y within the ellipse.
     #[inline(always)]
     pub(super) fn in_ellipse(&self, u: [f64; 2]) -> LightPoint {
         let x = self.axes[0].dot(self.at(u));
@@ -118,7 +118,8 @@ impl RectangleSeen {
         LightPoint { to, pdf: self.ellipse_pdf(to) }
     }
 
-    /// How likely [`Self::in_ellipse`] was to choose a direction, in 1/sr; without end at the two ends, which are points.
+    /// The pdf of a direction sampled by [`Self::in_ellipse`], in 1/sr; infinite at the two ends, where the chord is a
+    /// point.
     #[inline(always)]
     pub(super) fn ellipse_pdf(&self, to: DVec3) -> f64 {
         let x = self.axes[0].dot(to) * (self.z / self.axes[2].dot(to));
@@ -129,13 +130,13 @@ impl RectangleSeen {
     }
 }
 
-/// One turn after another, each as its cosine and sine.
+/// The sum of two rotations, each as its cosine and sine.
 #[inline(always)]
 fn add_turns(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
-/// A point of a parallelogram: evenly over the directions that it fills, or over its area where it is far.
+/// Samples a point on a parallelogram: uniform in solid angle, or over its area where it is far away.
 #[inline(always)]
 pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     match Seen::of(shape, from) {
@@ -152,7 +153,7 @@ pub fn parallelogram_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> L
     }
 }
 
-/// How likely [`parallelogram_point`] was to choose a direction, in 1/sr; `to` leads to the light's point there.
+/// The pdf of a direction sampled by [`parallelogram_point`], in 1/sr; `to` is the offset to the light's point there.
 #[inline(always)]
 pub fn parallelogram_pdf(shape: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     match Seen::of(shape, from) {
@@ -162,7 +163,7 @@ pub fn parallelogram_pdf(shape: &Parallelogram, from: DVec3, to: DVec3) -> f64 {
     }
 }
 
-/// A point of a parallelogram, evenly over its area.
+/// Samples a point on a parallelogram uniformly over its area.
 #[inline(always)]
 pub fn parallelogram_area_point(shape: &Parallelogram, from: DVec3, u: [f64; 2]) -> LightPoint {
     let [x, y] = shape.half_edges;
@@ -170,13 +171,13 @@ pub fn parallelogram_area_point(shape: &Parallelogram, from: DVec3, u: [f64; 2])
     LightPoint { to, pdf: parallelogram_area_pdf(shape, to) }
 }
 
-/// The density of [`parallelogram_area_point`], in 1/sr.
+/// The pdf of [`parallelogram_area_point`], in 1/sr.
 #[inline(always)]
 pub fn parallelogram_area_pdf(shape: &Parallelogram, to: DVec3) -> f64 {
     pdf_from_area(to, shape.normal, shape.area())
 }
 
-/// The solid angle of a parallelogram, in sr; where it is small, what its area would fill at its middle.
+/// The solid angle of a parallelogram, in sr; where it is small, that of its area seen at the distance of its centre.
 #[inline(always)]
 pub(super) fn parallelogram_solid_angle(shape: &Parallelogram, from: DVec3) -> f64 {
     match Seen::of(shape, from) {
@@ -189,7 +190,7 @@ pub(super) fn parallelogram_solid_angle(shape: &Parallelogram, from: DVec3) -> f
     }
 }
 
-/// How a parallelogram is aimed at from a point.
+/// How a parallelogram is sampled from a point.
 enum Seen {
     Rectangle(RectangleSeen),
     Triangles([f64; 2]),
@@ -216,7 +217,7 @@ impl Seen {
     }
 }
 
-/// The two triangles that a parallelogram is.
+/// The two triangles of a parallelogram.
 #[inline(always)]
 fn halves(shape: &Parallelogram) -> [[DVec3; 3]; 2] {
     let (centre, [x, y]) = (shape.centre, shape.half_edges);

@@ -3,9 +3,9 @@ use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
 // ANCHOR: cone_versine
-/// 1 − cos of the angle whose sine squared this is, for angles up to 90°.
+/// 1 − cos of the angle with this squared sine, for angles up to 90°.
 ///
-/// Written as a difference, 1 − √(1 − s²) is 0 for every sphere seen smaller than 10⁻⁸: a light that has gone out.
+/// Written as a difference, 1 − √(1 − s²) is 0 for every sphere seen smaller than 10⁻⁸, and the light would vanish.
 #[inline(always)]
 pub fn cone_versine(sine_squared: f64) -> f64 {
     sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
@@ -13,10 +13,10 @@ pub fn cone_versine(sine_squared: f64) -> f64 {
 // ANCHOR_END: cone_versine
 
 // ANCHOR: sphere_point
-/// A point of a sphere, chosen evenly over the cone of directions that it fills; from inside, evenly over all directions.
+/// Samples a point on a sphere, uniform over the cone of directions that it subtends; from inside, over all directions.
 ///
-/// `axis` leads from the lit point to the sphere's centre.
-/// A cone of half angle θ fills 2π(1 − cos θ) sr, and 1 − cos of a direction in it is spread evenly.
+/// `axis` is the offset from the lit point to the sphere's centre.
+/// A cone of half angle θ subtends 2π(1 − cos θ) sr, and 1 − cos of a direction in it is uniform.
 #[inline(always)]
 pub fn sphere_point(axis: DVec3, radius: f64, u: [f64; 2]) -> LightPoint {
     let (dd, rr) = (axis.length_squared(), radius * radius);
@@ -26,23 +26,25 @@ pub fn sphere_point(axis: DVec3, radius: f64, u: [f64; 2]) -> LightPoint {
     let (sine, turn) = ((versine * (2.0 - versine)).max(0.0).sqrt(), TAU * u[1]);
     let ahead = if inside { DVec3::Z } else { axis / dd.sqrt() };
     let (right, up) = ahead.any_orthonormal_pair();
-    let (up_share, right_share) = libm::sincos(turn);
-    let direction = ahead * (1.0 - versine) + (right * right_share + up * up_share) * sine;
+    let (up_part, right_part) = libm::sincos(turn);
+    let direction = ahead * (1.0 - versine) + (right * right_part + up * up_part) * sine;
     let distance = sphere_distance(axis, radius, direction);
     LightPoint { to: direction * distance, pdf: 1.0 / (TAU * whole) }
 }
 // ANCHOR_END: sphere_point
 
-/// How likely [`sphere_point`] was to choose any one direction that meets the sphere, in 1/sr.
+/// The pdf of any direction sampled by [`sphere_point`] that hits the sphere, in 1/sr.
 #[inline(always)]
 pub fn sphere_pdf(axis: DVec3, radius: f64) -> f64 {
     let (dd, rr) = (axis.length_squared(), radius * radius);
     if dd <= rr { 1.0 / (4.0 * PI) } else { 1.0 / (TAU * cone_versine(rr / dd)) }
 }
 
-/// Where a ray aimed at a sphere meets it first; where rounding made it pass by, where it comes nearest.
+/// The distance at which a ray sampled towards a sphere first hits it; where rounding makes it miss, that of its
+/// closest approach.
 ///
-/// The nearer root is the product of both over the farther, for their difference would lose digits close to the sphere.
+/// The nearer root is the product of both over the farther one, since the difference would lose digits close to the
+/// sphere.
 #[inline(always)]
 pub fn sphere_distance(axis: DVec3, radius: f64, direction: DVec3) -> f64 {
     let (squared, rr) = (direction.length_squared(), radius * radius);

@@ -1,46 +1,47 @@
 use super::{LightPoint, angle_of, pdf_from_area};
 use glam::DVec3;
 
-/// A triangle that fills less than this many sr is aimed at by its area: of a thin one no digits are left for its width.
+/// A triangle that subtends less than this many sr is sampled by area, since the width of a thin one would have no
+/// digits left.
 pub(super) const LEAST_SOLID_ANGLE: f64 = 1e-9;
 
-/// A triangle as the lit point sees it: on the unit sphere about that point.
+/// A triangle as seen from the lit point: projected on the unit sphere about that point.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleSeen {
     corners: [DVec3; 3],
     cross: DVec3,
-    /// The ways to the first two corners.
+    /// The directions to the first two corners.
     first: DVec3,
     second: DVec3,
-    /// Across the way to the first corner, towards the third.
+    /// Perpendicular to the direction to the first corner, towards the third.
     to_third: DVec3,
     /// Cosine and sine of the angle at the first corner.
     alpha: [f64; 2],
     /// The tangent of half the angle from the first corner to the second.
     tan_half: f64,
-    /// What the triangle fills, in sr.
+    /// Its solid angle, in sr.
     pub solid_angle: f64,
 }
 
-/// The solid angle of the triangle whose corners are these steps away (Van Oosterom and Strackee 1983).
+/// The solid angle of the triangle with corners at these offsets (Van Oosterom and Strackee 1983).
 ///
-/// With unit vectors a, b, c its half has the tangent |a · (b × c)| / (1 + a · b + b · c + c · a).
+/// For unit vectors a, b, c its half has the tangent |a · (b × c)| / (1 + a · b + b · c + c · a).
 #[inline(always)]
 pub fn triangle_solid_angle(corners: &[DVec3; 3]) -> f64 {
     let [a, b, c] = *corners;
     let [la, lb, lc] = corners.map(|corner| corner.length());
-    // By the edges, whose cross product does not lose the area of a triangle far away.
+    // From the edges, whose cross product keeps the area of a distant triangle.
     let volume = a.dot((b - a).cross(c - a)).abs();
     let rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * angle_of(volume, rest)
 }
 
 impl TriangleSeen {
-    /// The triangle whose corners are these steps away from the lit point, and which fills so many sr.
+    /// The triangle with corners at these offsets from the lit point, and its solid angle in sr.
     #[inline(always)]
     pub fn new(corners: [DVec3; 3], solid_angle: f64) -> Self {
         let [a, b, c] = corners;
-        // By the edges: the cross product of two ways that hardly differ would lose their difference.
+        // From the edges: the cross product of two nearly equal offsets would lose their difference.
         let (across_b, across_c) = (a.cross(b - a), a.cross(c - a));
         let (sine, cosine) = (across_b.cross(across_c).length(), across_b.dot(across_c));
         let whole = (sine * sine + cosine * cosine).sqrt();
@@ -56,11 +57,12 @@ impl TriangleSeen {
         }
     }
 
-    /// The way to a point of the triangle, evenly over its solid angle (Arvo 1995).
+    /// The offset to a point of the triangle, uniform in solid angle (Arvo 1995).
     ///
-    /// The first number cuts off, with a great circle from b to the edge ac, a triangle that fills that share E: with the
-    /// angle α at a, tan(ab/2) tan(ac'/2) sin(α − E/2) = sin(E/2), which loses no digits however small the triangle.
-    /// The second picks a point on the cut, where 1 − cos of the way from b is spread evenly.
+    /// The first number cuts off a subtriangle of that fraction of the solid angle, E, by a great circle from b to the
+    /// edge ac: with the angle α at a, tan(ab/2) tan(ac'/2) sin(α − E/2) = sin(E/2), which loses no digits however
+    /// small the triangle.
+    /// The second selects a point on that circle, where 1 − cos of the angle from b is uniform.
     #[inline(always)]
     pub fn at(&self, u: [f64; 2]) -> DVec3 {
         let (sine, cosine) = libm::sincos(0.5 * u[0] * self.solid_angle);
@@ -74,7 +76,7 @@ impl TriangleSeen {
     }
 }
 
-/// A point of a triangle: evenly over the directions that it fills, or over its area where it fills hardly any.
+/// Samples a point on a triangle: uniform in solid angle, or over its area where it subtends hardly any.
 #[inline(always)]
 pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
     let there = corners.map(|corner| corner - from);
@@ -85,14 +87,14 @@ pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPo
     LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), pdf: 1.0 / solid_angle }
 }
 
-/// How likely [`triangle_point`] was to choose a direction, in 1/sr; `to` leads to the triangle's point there.
+/// The pdf of a direction sampled by [`triangle_point`], in 1/sr; `to` is the offset to the triangle's point there.
 #[inline(always)]
 pub fn triangle_pdf(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
     let solid_angle = triangle_solid_angle(&corners.map(|corner| corner - from));
     if solid_angle < LEAST_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
 }
 
-/// A point of a triangle, evenly over its area: √u runs from the first corner to the edge across from it.
+/// Samples a point uniformly over a triangle's area: √u runs from the first corner to the opposite edge.
 #[inline(always)]
 pub fn triangle_area_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
     let [a, b, c] = *corners;
@@ -101,7 +103,7 @@ pub fn triangle_area_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> Li
     LightPoint { to, pdf: triangle_area_pdf(corners, to) }
 }
 
-/// The density of [`triangle_area_point`], in 1/sr.
+/// The pdf of [`triangle_area_point`], in 1/sr.
 #[inline(always)]
 pub fn triangle_area_pdf(corners: &[DVec3; 3], to: DVec3) -> f64 {
     let [a, b, c] = *corners;

@@ -1,0 +1,31 @@
+//! The reader's function in the picture of chapter 03: rays with spheres.
+
+use super::question::{Answer, Input};
+use bevy_ecs::prelude::*;
+use pinhole::extract::SphereTable;
+use pinhole::intersect;
+use pinhole::intersect::Hits;
+use pinhole::plan::{Column, Shared};
+use pinhole::rays::WorldRays;
+use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
+
+/// The nearest sphere of each ray.
+pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
+    StandIn::instead(
+        intersect::sphere_stage,
+        move |spheres: Res<Shared<SphereTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
+            for (place, rays, mut hits) in &mut tiles {
+                for row in 0..rays.rows() {
+                    let (origin, direction) = (rays.origin_of(row).into(), rays.direction_of(row).into());
+                    for sphere in 0..spheres.shape.len() {
+                        let centre = spheres.centre(sphere).into();
+                        let t = ask.at(place, row, (origin, direction, centre, spheres.radius[sphere])).flatten();
+                        if let Some(t) = t.filter(|t| *t > 0.0 && *t < hits.t[row]) {
+                            (hits.t[row], hits.shape[row]) = (t, spheres.shape[sphere]);
+                        }
+                    }
+                }
+            }
+        },
+    )
+}

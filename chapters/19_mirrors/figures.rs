@@ -1,0 +1,13 @@
+//! The figures of chapter 19, drawn from its scene.
+
+use pinhole_lab::figure::{Figure, path_mistakes};
+
+/// What the page shows, in its order.
+pub fn figures(chapter: &'static str) -> Vec<Figure> {
+    vec![Figure {
+        name: "19_broken",
+        chapter,
+        about: "rough metal, and rough metal by the pdf of something else",
+        draw: path_mistakes::draw_metal,
+    }]
+}

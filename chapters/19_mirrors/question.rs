@@ -1,0 +1,84 @@
+//! Chapter 19: a direction off a mirror whose normal may be of any length.
+
+use super::mine::mine;
+use glam::DVec3;
+use pinhole::follow::mirror_direction;
+use pinhole_lab::exercise::apart::absolute;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+
+pub(super) type Vector = [f64; 3];
+/// A direction and a normal.
+pub(super) type Input = (Vector, Vector);
+
+/// What the reader writes.
+pub type Yours = fn(Vector, Vector) -> Vector;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::mirrored)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    Exercise::rendered("mirrored", question, move |&(direction, normal)| yours(direction, normal), mine)
+}
+
+fn question() -> Question<Input, Vector> {
+    Question {
+        pinhole_has: ("src/pinhole/follow/fresnel.rs", "mirror_direction"),
+        probes: asked(),
+        tell: |(direction, normal)| format!("direction {}, normal {}", direction.shown(), normal.shown()),
+        right: |input| mirror_direction(input.0.into(), unit(input)).into(),
+        apart: |yours, right| absolute(yours, right),
+        allowed: 1e-12,
+        measured: "in a part",
+        mistakes: vec![
+            Mistake::new("the normal is taken for a unit vector: divide by n · n", |input| {
+                mirror_direction(input.0.into(), input.1.into()).into()
+            }),
+            Mistake::new(
+                "what comes out goes into the mirror: it is d − 2 (d · n) n, not 2 (d · n) n − d",
+                |input| (-mirror_direction(input.0.into(), unit(input))).into(),
+            ),
+            Mistake::new("the 2 is missing: the part along the normal is taken off, and not turned round", |input| {
+                let (direction, normal) = (DVec3::from(input.0), unit(input));
+                (direction - direction.dot(normal) * normal).into()
+            }),
+            Mistake::new("the direction is sent back where it came from", |input| input.0.map(|part| -part)),
+            Mistake::new("from behind a mirror works too; no sign of d · n needs to be asked for", |input| {
+                let (direction, normal) = (DVec3::from(input.0), unit(input));
+                (direction + 2.0 * direction.dot(normal).abs() * normal).into()
+            }),
+        ],
+        hints: &[
+            "split the direction into a part along the normal and a part along the surface; a mirror turns one of them \
+             round",
+            "the part along a unit normal n is (d · n) n; take it off twice",
+            "d − 2 (d · n) / (n · n) n, whatever the length of n",
+        ],
+    }
+}
+
+fn unit(input: &Input) -> DVec3 {
+    DVec3::from(input.1).normalize()
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    let anywhere = |seed, size: f64| {
+        (0..20).map(move |at| {
+            let mut draws = Draws::new(seed, at);
+            let normal = draws.unit_vector() * draws.power_of_ten(-size, size);
+            (draws.unit_vector().to_array(), normal.to_array())
+        })
+    };
+    let up = [0.0, 1.0, 0.0];
+    let mut asked: Vec<_> = probes("at normal incidence", [([0.0, -1.0, 0.0], up)]).collect();
+    asked.extend(probes("at 3, 4 and 5", [([0.6, -0.8, 0.0], up), ([0.0, -0.8, -0.6], up)]));
+    asked.extend(probes("along the mirror", [([1.0, 0.0, 0.0], up)]));
+    asked.extend(probes("anywhere, a normal of length 1", anywhere(1911, 0.0)));
+    asked.extend(probes("from behind", [([0.6, 0.8, 0.0], up)]));
+    asked.extend(probes("a normal of another length", [([0.6, -0.8, 0.0], [0.0, 2.0, 0.0])]));
+    asked.extend(probes("a normal of another length", anywhere(1912, 6.0)));
+    asked
+}

@@ -1,0 +1,21 @@
+//! The figures of chapter 20, drawn from its scene.
+
+use pinhole_lab::figure::{Figure, fresnel, path_mistakes};
+
+/// What the page shows, in its order.
+pub fn figures(chapter: &'static str) -> Vec<Figure> {
+    vec![
+        Figure {
+            name: "20_glass",
+            chapter,
+            about: "how much of the light glass mirrors at each angle, from outside and from inside",
+            draw: fresnel::draw,
+        },
+        Figure {
+            name: "20_broken",
+            chapter,
+            about: "glass, glass that bends with the inverted index, and glass that keeps radiance as it is",
+            draw: path_mistakes::draw_glass,
+        },
+    ]
+}

@@ -1,0 +1,128 @@
+//! Chapter 21: how likely a direction is when a point of an area is chosen evenly.
+
+use super::mine::mine;
+use glam::DVec3;
+use pinhole::shade::emitter::pdf_from_area;
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+
+type Vector = [f64; 3];
+/// The lit point, the light's point, its normal, its area.
+pub(super) type Input = (Vector, Vector, Vector, f64);
+
+/// What the reader writes.
+pub type Yours = fn(Vector, Vector, Vector, f64) -> f64;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::solid_angle_pdf)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    Exercise::rendered(
+        "solid_angle_pdf",
+        question,
+        move |&(from, at, normal, area)| yours(from, at, normal, area),
+        mine,
+    )
+}
+
+fn question() -> Question<Input, f64> {
+    Question {
+        pinhole_has: ("src/pinhole/shade/emitter/mod.rs", "pdf_from_area"),
+        probes: asked(),
+        tell: |(from, at, normal, area)| {
+            let [from, at, normal] = [from, at, normal].map(Shown::shown);
+            format!("from {from}, at {at}, normal {normal}, area {area:?}")
+        },
+        right: pdf,
+        apart: |yours, right| relative(&[*yours], &[*right]),
+        allowed: 1e-10,
+        measured: "of the pdf",
+        mistakes: vec![
+            Mistake::new("that is the pdf per unit of area; of solid angle the area fills A cos θ / d²", |input| {
+                if cosine(input) == 0.0 { 0.0 } else { 1.0 / input.3 }
+            }),
+            Mistake::new("the cosine at the light is missing: an area seen obliquely fills less", |input| {
+                if cosine(input) == 0.0 { 0.0 } else { squared(input) / input.3 }
+            }),
+            Mistake::new(
+                "the cosine is multiplied by; seen obliquely the same points crowd into fewer directions",
+                |i| squared(i) * cosine(i).abs() / i.3,
+            ),
+            Mistake::new("the distance is missing: far away the area fills less", |input| {
+                if cosine(input) == 0.0 { 0.0 } else { 1.0 / (input.3 * cosine(input).abs()) }
+            }),
+            Mistake::new("the distance counts once, not squared", |input| pdf(input) / squared(input).sqrt()),
+            Mistake::new("that is the solid angle of the area; the pdf is one over it", |input| {
+                input.3 * cosine(input).abs() / squared(input)
+            }),
+            Mistake::new(
+                "a light that faces away has a negative pdf; on which side its normal is makes no difference",
+                |i| pdf(i).copysign(-cosine(i)),
+            ),
+            Mistake::new(
+                "a light that faces away has none; on which side its normal is makes no difference here",
+                |input| {
+                    if cosine(input) < 0.0 { pdf(input) } else { 0.0 }
+                },
+            ),
+            Mistake::new(
+                "seen from its edge the area fills no direction, and the answer is to be 0, not 1 / 0",
+                |input| squared(input) / (input.3 * cosine(input).abs()),
+            ),
+        ],
+        hints: &[
+            "how much of the sky does a small part of the area fill, when it is turned to you and when it is not?",
+            "a part dA at distance d fills dA cos θ / d², with θ between its normal and the direction to you; the probability \
+             of the part is dA / A",
+            "d² / (A |cos θ|), where v = at − from, d = |v| and cos θ = normal · v / d; 0 where the cosine is 0",
+        ],
+    }
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    let anywhere = |seed, low: f64, high: f64| {
+        (0..40).map(move |at| {
+            let mut draws = Draws::new(seed, at);
+            let (to_light, normal) = (draws.unit_vector(), draws.unit_vector());
+            let from = draws.unit_vector();
+            let there = from + to_light * draws.power_of_ten(low, high);
+            (from.to_array(), there.to_array(), normal.to_array(), draws.power_of_ten(-2.0, 2.0))
+        })
+    };
+    let (down, origin) = ([0.0, -1.0, 0.0], [0.0; 3]);
+    let mut asked: Vec<_> =
+        probes("a square of area 1 straight above", [(origin, [0.0, 1.0, 0.0], down, 1.0)]).collect();
+    asked.extend(probes("the same at other distances", [2.0, 10.0].map(|y| (origin, [0.0, y, 0.0], down, 1.0))));
+    asked.extend(probes("a larger one", [(origin, [0.0, 2.0, 0.0], down, 6.0)]));
+    asked.extend(probes("obliquely", [(origin, [3.0, 4.0, 0.0], down, 1.0), ([1.0; 3], [1.0, 4.0, 5.0], down, 2.0)]));
+    asked.extend(probes("its back", [(origin, [3.0, 4.0, 0.0], [0.0, 1.0, 0.0], 1.0)]));
+    asked.extend(probes("anywhere", anywhere(2107, -1.0, 2.0)));
+    asked.extend(probes(
+        "from its edge",
+        [(origin, [2.0, 0.0, 0.0], down, 1.0), ([5.0, 1.0, 0.0], [5.0, 1.0, -7.0], down, 3.0)],
+    ));
+    asked.extend(probes("about 1e8 away", anywhere(2108, 7.5, 8.5)));
+    asked.extend(probes("about 1e-6 away", anywhere(2109, -6.5, -5.5)));
+    asked
+}
+
+fn to_light(&(from, at, ..): &Input) -> DVec3 {
+    DVec3::from(at) - DVec3::from(from)
+}
+
+fn squared(input: &Input) -> f64 {
+    to_light(input).length_squared()
+}
+
+/// Between the light's normal and the direction to it: below 0 where its front is seen.
+fn cosine(input: &Input) -> f64 {
+    DVec3::from(input.2).dot(to_light(input)) / squared(input).sqrt()
+}
+
+fn pdf(input: &Input) -> f64 {
+    pdf_from_area(to_light(input), DVec3::from(input.2), input.3)
+}

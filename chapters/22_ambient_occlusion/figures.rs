@@ -1,0 +1,21 @@
+//! The figures of chapter 22, drawn from its scene.
+
+use pinhole_lab::figure::{Figure, integrators, path_mistakes};
+
+/// What the page shows, in its order.
+pub fn figures(chapter: &'static str) -> Vec<Figure> {
+    vec![
+        Figure {
+            name: "22_distance",
+            chapter,
+            about: "how much of the sky points see, with near occluders alone, and with all",
+            draw: integrators::draw_distance,
+        },
+        Figure {
+            name: "22_broken",
+            chapter,
+            about: "how much of the sky points see, with the cosine and without",
+            draw: path_mistakes::draw_sky,
+        },
+    ]
+}

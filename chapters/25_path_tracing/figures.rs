@@ -1,0 +1,21 @@
+//! The figures of chapter 25, drawn from its scene.
+
+use pinhole_lab::figure::{Figure, broken_paths, integrators};
+
+/// What the page shows, in its order.
+pub fn figures(chapter: &'static str) -> Vec<Figure> {
+    vec![
+        Figure {
+            name: "25_legs",
+            chapter,
+            about: "one scene by ray casting, and by paths of two, three and many segments",
+            draw: integrators::draw_segments,
+        },
+        Figure {
+            name: "25_broken",
+            chapter,
+            about: "one scene by paths with a factor too few or too many, and encoded twice",
+            draw: broken_paths::draw,
+        },
+    ]
+}

@@ -1,0 +1,126 @@
+//! Chapter 27: what a pixel gets of a point's light.
+
+use super::mine::mine;
+use glam::{DMat3, DVec2, DVec3};
+use pinhole::extract::CameraJoinTable;
+use pinhole::rays::join_camera;
+use pinhole_lab::exercise::apart::relative;
+use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
+use pinhole_lab::measure::ray_aim::Draws;
+
+pub(super) type Input = ([f64; 3], f64, f64);
+
+/// What the reader writes.
+pub type Yours = fn([f64; 3], f64, f64) -> f64;
+
+/// The exercise with the function as the reader has it now.
+pub fn yours() -> Exercise {
+    exercise(super::exercise::pixel_fraction)
+}
+
+/// The exercise with this function in it.
+pub fn exercise(yours: Yours) -> Exercise {
+    Exercise::rendered(
+        "pixel_fraction",
+        question,
+        move |&(point, tan_half, height)| yours(point, tan_half, height),
+        mine,
+    )
+}
+
+fn question() -> Question<Input, f64> {
+    Question {
+        pinhole_has: ("src/pinhole/rays/project.rs", "join_camera"),
+        probes: asked(),
+        tell: |(point, tan_half, height)| {
+            format!("point {}, tan_half {}, height {}", point.shown(), tan_half.shown(), height.shown())
+        },
+        right: |&(point, tan_half, height)| {
+            let join = CameraJoinTable {
+                camera_from_world: DMat3::IDENTITY,
+                is_perspective: true,
+                half_height: tan_half,
+                focus_distance: f64::INFINITY,
+                size: DVec2::splat(height),
+                // Every pixel that there could be.
+                margin: f64::INFINITY,
+            };
+            join_camera(&join, DVec2::ZERO, DVec3::from(point)).map_or(0.0, |joined| joined.importance)
+        },
+        apart: |yours, right| relative(&[*yours], &[*right]),
+        allowed: 1e-10,
+        measured: "of the fraction",
+        mistakes: vec![
+            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+                fraction(input, 3, 1.0).abs()
+            }),
+            Mistake::new("what lies behind the eye reaches no pixel; there the fraction is 0", |&input| {
+                fraction(input, 3, 1.0)
+            }),
+            Mistake::new(
+                "cos³, not cos⁴: the fourth belongs to an opening, which is seen obliquely too, and an eye is a point",
+                |&input| ahead(input, fraction(input, 4, 1.0)),
+            ),
+            Mistake::new("cos³, not cos: 1/d² is not yet all that the angle does", |&input| {
+                ahead(input, fraction(input, 1, 1.0))
+            }),
+            Mistake::new("cos³ θ is missing: a pixel off the axis fills a smaller solid angle", |&input| {
+                ahead(input, fraction(input, 0, 1.0))
+            }),
+            Mistake::new("A is the area of a pixel, its side squared", |&input| {
+                ahead(input, fraction(input, 3, side(input)))
+            }),
+            Mistake::new("the pixel's area A is missing: a smaller pixel gathers from fewer directions", |&input| {
+                ahead(input, fraction(input, 3, side(input) * side(input)))
+            }),
+            Mistake::new("the plane at distance 1 is 2 tan_half high, not tan_half", |&input| {
+                ahead(input, fraction(input, 3, 4.0).abs())
+            }),
+            Mistake::new("1/d² is missing: light thins out with the distance", |&input| {
+                let distance = DVec3::from(input.0).length_squared();
+                ahead(input, fraction(input, 3, distance))
+            }),
+        ],
+        hints: &[
+            "on the axis θ is 0, and the fraction is 1 / (A d²)",
+            "the pixel's side on the plane at distance 1 is 2 tan_half / height, and A is its square",
+            "cos θ is the depth, −z, over d; so the fraction is d / (A (−z)³), and 0 where −z is not above 0",
+        ],
+    }
+}
+
+fn side((_, tan_half, height): Input) -> f64 {
+    2.0 * tan_half / height
+}
+
+/// With so many cosines, and another factor.
+fn fraction(input: Input, cosines: i32, factor: f64) -> f64 {
+    let (point, ..) = input;
+    let distance = DVec3::from(point).length();
+    let cosine = -point[2] / distance;
+    let power = (0..cosines).fold(1.0, |power, _| power * cosine);
+    factor / (side(input) * side(input) * distance * distance * power)
+}
+
+fn ahead((point, ..): Input, fraction: f64) -> f64 {
+    if point[2] < 0.0 { fraction } else { 0.0 }
+}
+
+fn asked() -> Vec<Probe<Input>> {
+    let mut asked: Vec<_> =
+        probes("straight ahead", [([0.0, 0.0, -1.0], 1.0, 2.0), ([0.0, 0.0, -2.0], 0.5, 100.0)]).collect();
+    let of = |seed, count: u64, widest: f64, size: f64| {
+        (0..count).map(move |at| {
+            let mut draws = Draws::new(seed, at);
+            let depth = draws.power_of_ten(-size, size);
+            let (x, y) = (draws.between(-widest, widest) * depth, draws.between(-widest, widest) * depth);
+            ([x, y, -depth], draws.power_of_ten(-1.5, 0.5), draws.between(2.0, 2000.0).floor())
+        })
+    };
+    asked.extend(probes("before the camera", of(2741, 40, 0.8, 1.0)));
+    asked.extend(probes("far off the axis", of(2742, 30, 6.0, 1.0)));
+    asked.extend(probes("very near and very far", of(2743, 30, 1.0, 8.0)));
+    let behind = of(2744, 10, 1.0, 1.0).map(|([x, y, z], tan_half, height)| ([x, y, -z], tan_half, height));
+    asked.extend(probes("behind the camera", behind));
+    asked
+}

@@ -1,0 +1,185 @@
+//! `render NN --mine`: a solution makes pinhole's picture, a mistake another one, and what fails says so in a sentence.
+
+use super::solutions::{ALL, chapter_05_pinhole};
+use super::{pinhole as perspective, right, run, untouched};
+use ::pinhole::film::Film;
+use ::pinhole::render::{Execution, render};
+use ::pinhole::scene::{Filter, Resolution, Sampling};
+use ::pinhole::{Chapter, Overrides, SamplingOverrides};
+use chapters::all;
+use pinhole_cli::exercises;
+use pinhole_lab::exercise::{Exercise, Mine};
+
+const WIDTH: u32 = 48;
+const HEIGHT: u32 = 27;
+
+/// How a solution's picture may differ from pinhole's.
+enum Differ {
+    /// In no bit.
+    Nowhere,
+    /// By this part of the brightest pixel, in all but so many pixels, whose rays pass an edge on its other side.
+    By(f32, usize),
+    /// In the noise: the mean of all pixels by this part.
+    InTheMean(f32),
+}
+
+/// What each exercise allows; where its answers are exact, so is the picture.
+fn allowed(chapter: &str) -> Differ {
+    match &chapter[..2] {
+        "01" | "06" | "11" | "12" => Differ::Nowhere,
+        "21" => Differ::InTheMean(0.05),
+        "20" | "27" => Differ::By(1e-3, 12),
+        _ => Differ::By(1e-4, 4),
+    }
+}
+
+/// A small size, and few samples where pixels are sampled at all.
+fn asked(chapter: &Chapter) -> Overrides {
+    let resolution = Some(Resolution { width: WIDTH, height: HEIGHT });
+    let own = Overrides { resolution, ..Overrides::default() };
+    let mut scene = chapter.world(&own);
+    let sampled = scene.query::<&Sampling>().iter(&scene).next().is_some();
+    let samples = sampled.then_some(if chapter.name.starts_with("21") { 256 } else { 2 });
+    // The exercise of chapter 17 writes the tent's places.
+    let filter = chapter.name.starts_with("17").then_some(Filter::Tent { radius: 1.0 });
+    Overrides { sampling: SamplingOverrides { samples, filter, ..SamplingOverrides::default() }, ..own }
+}
+
+fn film(chapter: &Chapter, asked: &Overrides) -> ::pinhole::Result<Film> {
+    Ok(render(&chapter.world(asked), &chapter.stages(), &Execution::default(), &())?.film)
+}
+
+/// The picture with a function in it.
+fn mine(chapter: &Chapter, exercise: &Exercise) -> ::pinhole::Result<Film> {
+    let asked = asked(chapter);
+    let mine = Mine::of(exercise, chapter, &chapter.world(&asked))?;
+    let film = film(&mine.chapter, &asked)?;
+    mine.answers()?;
+    Ok(film)
+}
+
+fn pixels(film: &Film) -> Vec<[f32; 3]> {
+    (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))).map(|(x, y)| film.mean(x, y)).collect()
+}
+
+/// Whether the two are alike, and in what they differ.
+fn alike(kept: &Film, made: &Film, allowed: &Differ) -> (bool, String) {
+    let (kept, made) = (pixels(kept), pixels(made));
+    let brightest = kept.iter().flatten().fold(0.0_f32, |most, part| most.max(part.abs()));
+    let apart = |a: &[f32; 3], b: &[f32; 3]| (0..3).map(|part| (a[part] - b[part]).abs()).fold(0.0, f32::max);
+    let off: Vec<f32> = kept.iter().zip(&made).map(|(a, b)| apart(a, b) / brightest).collect();
+    let mean = |pixels: &[[f32; 3]]| pixels.iter().flatten().sum::<f32>();
+    let bits = kept.iter().flatten().zip(made.iter().flatten()).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+    let most = off.iter().fold(0.0_f32, |most, off| most.max(*off));
+    let far = off.iter().filter(|off| **off > 1e-4).count();
+    let told = format!("{bits} numbers differ, {far} pixels by more than 1e-4, the most by {most:.1e}");
+    let is = match *allowed {
+        Differ::Nowhere => bits == 0,
+        Differ::By(part, edges) => off.iter().filter(|off| off.is_nan() || **off > part).count() <= edges,
+        Differ::InTheMean(part) => (mean(&made) / mean(&kept) - 1.0).abs() <= part,
+    };
+    (is, told)
+}
+
+#[test]
+fn a_solution_makes_pinhole_s_picture_and_a_mistake_another_one() {
+    let (chapters, mut seen, mut wrong) = (all(), 0, Vec::new());
+    for (name, solved, mistakes) in ALL {
+        let chapter = chapters.iter().find(|chapter| chapter.name == *name).expect("the chapter");
+        let solved = solved();
+        if !solved.renders() {
+            let why = mine(chapter, &solved).map(|_| ()).expect_err("refused").to_string();
+            assert!(why.contains(solved.function) && !why.contains('\n'), "{name}: {why}");
+            continue;
+        }
+        let kept = film(chapter, &asked(chapter)).expect("renders");
+        match mine(chapter, &solved).map(|made| alike(&kept, &made, &allowed(name))) {
+            Ok((true, told)) => eprintln!("{name}: {told}"),
+            Ok((false, told)) => wrong.push(format!("{name}: the solution's picture is not pinhole's: {told}")),
+            Err(refused) => wrong.push(format!("{name}: {refused}")),
+        }
+        let differs = |exercise: &Exercise| match mine(chapter, exercise) {
+            Ok(made) => !alike(&kept, &made, &allowed(name)).0,
+            Err(_) => true,
+        };
+        let mistakes = mistakes();
+        let shown = mistakes.iter().filter(|(mistake, _)| differs(mistake)).count();
+        eprintln!("{name}: {shown} of {} mistakes show", mistakes.len());
+        if shown == 0 {
+            wrong.push(format!("{name}: no mistake shows in the picture"));
+        }
+        seen += 1;
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    eprintln!("mine: {seen} chapters of {} render with a reader's function", ALL.len());
+    assert!(seen >= 26);
+}
+
+#[test]
+fn what_no_picture_can_hold_is_told_with_pixel_input_and_answer() {
+    let chapters = all();
+    let chapter = chapters.iter().find(|chapter| chapter.name == "05_pinhole").expect("the chapter");
+    let told = |exercise: Exercise| mine(chapter, &exercise).map(|_| ()).expect_err("refused").to_string();
+    let panics = told(perspective(|screen, tan| {
+        assert!(screen[0] < 0.5, "too far\nto the right");
+        chapter_05_pinhole::solution::perspective_direction(screen, tan)
+    }));
+    assert!(panics.starts_with("perspective_direction panicked at pixel ("), "{panics}");
+    assert!(panics.contains("asked screen (") && panics.ends_with(": too far to the right"), "{panics}");
+    let nan = told(perspective(|[x, y], tan| [x / (x - x), y * tan, -1.0]));
+    assert!(nan.starts_with("perspective_direction gave (") && nan.ends_with("no picture can hold that"), "{nan}");
+    assert!(nan.contains(" at pixel (") && nan.contains("tan_half_vertical"), "{nan}");
+    let huge = told(perspective(|_, _| [1e200; 3]));
+    assert!(huge.contains("gave (1e200, 1e200, 1e200)"), "{huge}");
+}
+
+#[test]
+fn every_stub_renders_or_is_refused_in_a_sentence() {
+    let chapters = all();
+    let mut refusals = 0;
+    for (name, exercise) in exercises::all().into_iter().filter(|(name, _)| untouched(name)) {
+        let chapter = chapters.iter().find(|chapter| chapter.name == name).expect("the chapter");
+        match mine(chapter, &exercise) {
+            Ok(film) => assert_eq!(pixels(&film).len(), (WIDTH * HEIGHT) as usize),
+            Err(refused) => {
+                eprintln!("{name}: {refused}");
+                refusals += 1;
+                assert!(!refused.to_string().contains('\n'), "{name}: {refused}");
+            }
+        }
+    }
+    eprintln!("stubs: {refusals} refused");
+}
+
+#[test]
+fn a_render_that_does_not_run_the_stage_says_so() {
+    let chapters = all();
+    let chapter = chapters.iter().find(|chapter| chapter.name == "05_pinhole").expect("the chapter");
+    let seen_by = Overrides { view: Some("raster".into()), ..asked(chapter) };
+    let refused = Mine::of(&right(), chapter, &chapter.world(&seen_by)).err().expect("refused").to_string();
+    assert!(refused.starts_with("perspective_direction stands in \"Generate camera rays: perspective\""), "{refused}");
+}
+
+#[test]
+fn the_command_renders_notes_and_refuses() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let said = |words: &[&str]| {
+        let output = run(folder.path(), words);
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    if untouched("05_pinhole") {
+        let (status, out, notes) = said(&["render", "5", "--mine", "--size", "48x27"]);
+        assert_eq!(status, Some(0), "{notes}");
+        assert!(notes.contains("perspective_direction gives one and the same answer, as the stub does"), "{notes}");
+        assert!(out.contains("out/05_mine.png") && folder.path().join("out/05_mine.png").exists(), "{out}");
+    }
+    let (status, _, notes) = said(&["render", "5", "--mine", "--resume"]);
+    assert!(status == Some(2) && notes.contains("`--mine` begins anew") && notes.lines().count() == 1, "{notes}");
+    let (status, _, notes) = said(&["render", "18", "--mine"]);
+    assert!(status == Some(1) && notes.contains("`report 18` shows both"), "{notes}");
+    let (status, _, notes) = said(&["render", "cover", "--mine"]);
+    assert!(status == Some(1) && notes.contains("cover has no exercise"), "{notes}");
+    let (status, _, notes) = said(&["render", "scene.ron", "--mine"]);
+    assert!(status == Some(2) && notes.contains("a scene file asks for none"), "{notes}");
+}

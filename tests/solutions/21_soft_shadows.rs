@@ -1,9 +1,0 @@
-//! One way to do the exercise of chapter 21; look here when you have done yours.
-
-pub fn solid_angle_pdf(from: [f64; 3], at: [f64; 3], normal: [f64; 3], area: f64) -> f64 {
-    let way = [0, 1, 2].map(|axis| at[axis] - from[axis]);
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let squared = dot(way, way);
-    let cosine = dot(normal, way).abs() / squared.sqrt();
-    if cosine == 0.0 { 0.0 } else { squared / (area * cosine) }
-}
