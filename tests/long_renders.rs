@@ -232,8 +232,8 @@ fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
         damaged += 1;
     }
     assert!(refused(&[good.as_slice(), b"x"].concat(), key).contains("cut short or damaged"));
-    assert!(refused(b"PNG and more than twenty bytes", key).contains("no checkpoint"));
-    assert!(refused(&good, key + 1).contains("to another scene"));
+    assert!(refused(b"PNG and more than twenty bytes", key).contains("not a checkpoint"));
+    assert!(refused(&good, key + 1).contains("belongs to another scene"));
     let mut later = good.clone();
     later[20] = 9;
     assert!(refused(&later, key).contains("version 9"));

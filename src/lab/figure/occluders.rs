@@ -40,7 +40,7 @@ impl Occluders {
         let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
-        let triangles = self.triangles.triangle.iter().map(|facet| triangle_t(origin, direction, facet));
+        let triangles = self.triangles.triangle.iter().map(|triangle| triangle_t(origin, direction, triangle));
         let disks = self.disks.planar.iter().map(|planar| disk_t(origin, direction, planar));
         let rectangles = self.rectangles.planar.iter().map(|planar| rectangle_t(origin, direction, planar));
         let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));

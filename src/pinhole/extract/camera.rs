@@ -116,7 +116,7 @@ impl Table for PerspectiveProjection {
 }
 
 // ANCHOR: tan_half
-/// tan(α / 2) of a full angle α, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
+/// tan(φ / 2) of a full angle φ, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
 /// half the difference to 180°, which is subtracted exactly.
 pub fn tan_half(angle: Degrees) -> f64 {
     if angle.0 > 90.0 {

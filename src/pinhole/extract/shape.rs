@@ -62,7 +62,7 @@ impl Table for ShapeTable {
             let [own, of_used] = [Some(entity), used].map(|entity| row_in(&materials, entity));
             let [emits, used_emits] = [Some(entity), used].map(|entity| row_in(&emissive, entity));
             let material = if own == NO_ROW { of_used } else { own };
-            // A shape that emits light need not reflect any; what it uses must be there all the same.
+            // A shape that emits light need not reflect any, but a material that it uses must exist.
             let is_missing = material.min(if used.is_some() { used_emits } else { emits }) == NO_ROW;
             if is_missing || (own != NO_ROW && used.is_some()) {
                 return Err(wrong_material(scene, &kind_and_name(scene, written.word, entity), own != NO_ROW, used));
@@ -79,7 +79,7 @@ impl Table for ShapeTable {
     }
 }
 
-/// What is wrong with a shape that has no material, or two.
+/// The error of a shape that has no material, or two.
 fn wrong_material(scene: &Census<'_>, who: &str, has_own: bool, used: Option<Entity>) -> SceneError {
     match (has_own, used) {
         (true, Some(used)) => {

@@ -1,4 +1,4 @@
-//! How entities move, and when the shutter is open.
+//! The motion of entities, and when the shutter is open.
 
 use crate::plan::Census;
 use crate::scene::{ChildOf, Motion, Shutter};
