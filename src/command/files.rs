@@ -3,7 +3,7 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::shape_names;
 use pinhole::film::{Curve, Film, FilmLayers, png_bytes, write_exr, write_layered_exr, write_png};
-use pinhole::plan::{Census, Column, Plan};
+use pinhole::plan::{Census, Plan};
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
 use std::io::Write;
@@ -91,8 +91,7 @@ impl Files {
     /// The files of a scene's pictures.
     pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan, mine: Option<Mine>) -> Self {
         let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
-        let keeps_layers = plan.columns.iter().any(|column| column.name == FilmLayers::NAME);
-        let names = if keeps_layers { shape_names(scene) } else { Vec::new() };
+        let names = if plan.keeps::<FilmLayers>() { shape_names(scene) } else { Vec::new() };
         Self { targets, names, curve, mine }
     }
 

@@ -35,7 +35,7 @@ pub fn camera_entity(scene: &World) -> Result<Entity, SceneError> {
     }
 }
 
-/// The same, found once per census.
+/// The camera of the scene, looked up once per census.
 pub(super) fn camera_of(scene: &Census<'_>) -> Result<Entity, SceneError> {
     scene.once(|scene| camera_entity(scene))
 }

@@ -42,7 +42,7 @@ impl Table for MaterialTable {
     }
 }
 
-/// What a material sends on equally in all directions, with all of its numbers checked.
+/// The diffuse colour of a material, after checking all of its values; black where it has none.
 fn colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let own = scene.entity(entity);
     if let Some(matte) = own.get::<Matte>() {
@@ -69,11 +69,11 @@ fn colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], Sce
 const MATTE: [ComponentKind; 3] =
     [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
 
-/// Evidence that a shape is there whose material spreads the light that falls on it: any but mirrors and glass.
+/// Evidence of a shape whose material is not specular: any but mirrors and glass.
 pub fn material_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let used = in_use(scene);
-        let matte = Evidence::among_any(scene, "material", &MATTE, |entity| used.contains(&entity.id()));
+        let in_use = in_use(scene);
+        let matte = Evidence::among_any(scene, "material", &MATTE, |entity| in_use.contains(&entity.id()));
         let metal = metal_evidence(scene);
         if metal.needed { matte.or(metal) } else { matte }
     })
@@ -82,7 +82,7 @@ pub fn material_evidence(scene: &Census<'_>) -> Evidence {
 /// Evidence of a shape with diffuse reflection, whatever else its material has.
 pub fn matte_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let used = in_use(scene);
-        Evidence::among_any(scene, "matte surface", &MATTE, |entity| used.contains(&entity.id()))
+        let in_use = in_use(scene);
+        Evidence::among_any(scene, "matte surface", &MATTE, |entity| in_use.contains(&entity.id()))
     })
 }

@@ -1,4 +1,4 @@
-//! The entities that are materials, their kinds, and those that shapes are made of.
+//! Which entities are a material, of which kind, and which of them shapes are made of.
 
 use super::check::kind_and_name;
 use super::shape_kind::shape_entities;
@@ -140,14 +140,14 @@ pub(super) fn in_use(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
 
 /// Evidence of a shape whose material is of one kind and passes a test; others of the kind do not count.
 pub(super) fn in_use_of<C: Component>(scene: &Census<'_>, noun: &str, such: impl Fn(&C) -> bool) -> Evidence {
-    let used = in_use(scene);
+    let in_use = in_use(scene);
     Evidence::of_kind::<With<C>>(scene, noun, |entity| {
-        used.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
+        in_use.contains(&entity) && scene.get::<C>(entity).is_some_and(&such)
     })
 }
 
 /// Evidence of a shape that carries this component, or uses a material that does.
 pub fn material_kind_evidence<C: Component>(scene: &Census<'_>, noun: &str) -> Evidence {
-    let used = in_use(scene);
-    Evidence::among::<With<C>>(scene, noun, |entity| used.contains(&entity.id()))
+    let in_use = in_use(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| in_use.contains(&entity.id()))
 }

@@ -139,10 +139,10 @@ pub use velocity::{moves_while_open, velocity_of};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
 
-/// The tables that validate the components of a scene, in the order in which mistakes are reported: the camera, shapes,
-/// materials, lights, textures, the background, the view.
+/// The tables whose extraction checks the components of a scene, in the order in which errors are reported: the camera,
+/// shapes, materials, lights, textures, the background, the view.
 ///
-/// A new kind of component is added with a line; every other table is made from these.
+/// A new kind of component is added with a line; every other table is made from what these have checked.
 const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<ImageFrame>,
     answer::<ShutterTable>,
@@ -186,8 +186,8 @@ fn answer<T: Table>(scene: &Census<'_>) -> Result<(), SceneError> {
     scene.table::<T>().map(drop)
 }
 
-/// Extracts what answers for each enabled component of a scene, whether or not the plan will use it; a render of the same
-/// census takes the tables from there.
+/// Checks every enabled component of a scene, whether or not the plan will use it, by extracting its table; a render of
+/// the same census then uses these tables.
 ///
 /// Errors: the first [`SceneError`] in the order camera, shapes, materials, lights, textures, background, view.
 pub fn validate(scene: &Census<'_>) -> Result<(), SceneError> {

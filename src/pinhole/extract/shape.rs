@@ -47,7 +47,7 @@ impl Table for ShapeTable {
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let kinds: Vec<_> = materials.iter().map(|&material| material_kind(scene, material)).collect();
-        let is_non_specular =
+        let non_specular =
             |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(MaterialKind::is_non_specular);
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
@@ -67,7 +67,7 @@ impl Table for ShapeTable {
             if is_missing || (own != NO_ROW && used.is_some()) {
                 return Err(wrong_material(scene, &kind_and_name(scene, written.word, entity), own != NO_ROW, used));
             }
-            table.non_specular.push(is_non_specular(material));
+            table.non_specular.push(non_specular(material));
             table.material.push(material);
             table.emissive.push(if emits == NO_ROW { used_emits } else { emits });
         }

@@ -1,4 +1,4 @@
-//! The entities that are shapes, and their kinds.
+//! Which entities are a shape, and of which kind.
 
 use super::check::kind_and_name;
 use super::pose::unevenly_scaled;
@@ -68,7 +68,7 @@ const WRITTEN: &[Written] = &[
     Written::of::<Triangle>("Triangle", "triangle", |_, _| ShapeKind::Triangle),
 ];
 
-/// The enabled entities that are shapes, in spawn order; an entity's index is its shape number.
+/// The enabled entities that are a shape, in spawn order; the place of one is its number.
 pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
     scene.once(|scene| {
         let lists: Vec<Arc<[Entity]>> = WRITTEN.iter().map(|written| (written.entities)(scene)).collect();
@@ -94,14 +94,14 @@ pub(super) fn moving_shapes(scene: &Census<'_>) -> Arc<[(usize, Entity)]> {
     })
 }
 
-/// The name of a shape in messages, by its number: its kind and its own name.
+/// The name of a shape in messages, by its number: its kind and its entity's name.
 pub fn shape_name(scene: &Census<'_>, shape: usize) -> String {
     let entity = shape_entities(scene).get(shape).copied();
     let written = entity.and_then(|entity| WRITTEN.iter().find(|written| (written.carries)(scene, entity)));
     entity.zip(written).map_or_else(String::new, |(entity, written)| kind_and_name(scene, written.word, entity))
 }
 
-/// The name of each shape in messages, in the order of their numbers.
+/// The names of all shapes in messages, in the order of their numbers.
 pub fn shape_names(scene: &Census<'_>) -> Vec<String> {
     (0..shape_entities(scene).len()).map(|shape| shape_name(scene, shape)).collect()
 }

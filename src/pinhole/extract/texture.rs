@@ -59,9 +59,9 @@ impl Texture for ImageTexture {
 
 /// Evidence that a shape is made of a material with such a texture.
 pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
-    let used = in_use(scene);
+    let in_use = in_use(scene);
     Evidence::among::<With<T>>(scene, noun, |entity| {
-        used.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
+        in_use.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
     })
 }
 

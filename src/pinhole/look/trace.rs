@@ -80,7 +80,7 @@ pub fn trace_sample(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel, samp
     Ok(Trace { pixel, sample, stages, shapes, prints_all: false })
 }
 
-/// What a message calls each shape that a stage wrote the number of.
+/// The names of all shapes whose numbers a stage wrote.
 fn shapes_named(scene: &Census<'_>, stages: &[Recorded]) -> BTreeMap<u32, String> {
     let shapes = shape_entities(scene);
     let name = |&(component, number): &(&str, ComponentNumber)| match number {

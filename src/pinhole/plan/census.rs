@@ -9,14 +9,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A scene that is read once: whatever predicates and tables ask about it is determined at the first request, and
-/// cached.
+/// A scene that is read once: what predicates and tables need of it is computed when it is first needed, and kept.
 ///
-/// Validation, the plan, a render's tables and the preflight checks share one census.
-/// It borrows the scene, which therefore cannot change meanwhile, and dereferences to its [`World`].
+/// Validation, the plan, the tables of a render and the preflight share one census.
+/// It borrows the scene, which therefore cannot change meanwhile, and dereferences to it.
 pub struct Census<'w> {
     scene: &'w World,
-    /// Cached answers, by the type of the question.
+    /// Results by the types of the functions that computed them.
     known: RefCell<HashMap<TypeId, Box<dyn Any>>>,
     extractions: RefCell<BTreeMap<&'static str, usize>>,
 }
@@ -27,7 +26,7 @@ impl<'w> Census<'w> {
         Self { scene, known: RefCell::default(), extractions: RefCell::default() }
     }
 
-    /// A table of the scene, extracted at the first request.
+    /// A table of the scene, extracted when it is first asked for.
     ///
     /// Errors: what is wrong with the entities that the table is made of; the same each time.
     pub fn table<T: Table>(&self) -> Result<Arc<T>, SceneError> {
@@ -42,15 +41,14 @@ impl<'w> Census<'w> {
         self.extractions.borrow().clone()
     }
 
-    /// The result of a function of the scene, which is called at the first request.
+    /// The result of a function of the scene, which is called only the first time.
     ///
-    /// The result is cached by the type of the function, so this must be a closure or a function item that captures
-    /// nothing.
+    /// The result is kept by the type of the function, which must be a closure or a function item that captures nothing.
     pub fn once<A: Clone + 'static, F: Fn(&Census<'_>) -> A + 'static>(&self, find_out: F) -> A {
         const { assert!(size_of::<F>() == 0, "what a function captures is not part of its type") };
         let question = TypeId::of::<F>();
         let known = self.known.borrow().get(&question).and_then(|answer| answer.downcast_ref::<A>()).cloned();
-        // The lock is not held during the call, which may make further requests.
+        // The map is not borrowed during the call, since that may need further results.
         known.unwrap_or_else(|| {
             let answer = find_out(self);
             self.known.borrow_mut().insert(question, Box::new(answer.clone()));
@@ -63,13 +61,13 @@ impl<'w> Census<'w> {
         self.once(|census| entities::<F>(census).into())
     }
 
-    /// The entities that pass a filter, including disabled ones.
+    /// The entities that pass a filter, the disabled ones among them.
     pub fn declared<F: QueryFilter + 'static>(&self) -> Arc<[Entity]> {
         self.once(|census| entities::<(F, Allow<Disabled>)>(census).into())
     }
 }
 
-/// The scene itself, for components that are read directly.
+/// Gives access to the scene itself.
 impl Deref for Census<'_> {
     type Target = World;
     fn deref(&self) -> &World {

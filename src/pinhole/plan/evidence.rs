@@ -31,10 +31,10 @@ impl Evidence {
     pub fn among<F: QueryFilter + 'static>(
         scene: &Census<'_>,
         noun: &str,
-        reachable: impl Fn(EntityRef<'_>) -> bool,
+        in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
         let enabled = scene.entities::<F>();
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
         Self::found_among(scene, noun, &found, &enabled, &scene.declared::<F>())
     }
 
@@ -45,7 +45,7 @@ impl Evidence {
         scene: &Census<'_>,
         noun: &str,
         any: &[ComponentKind],
-        reachable: impl Fn(EntityRef<'_>) -> bool,
+        in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
         let all = |find: fn(&ComponentKind) -> Find| {
             let lists: Vec<Arc<[Entity]>> = any.iter().map(|carried| find(carried)(scene)).collect();
@@ -54,8 +54,8 @@ impl Evidence {
             found.dedup();
             found
         };
-        let enabled = all(|carried| carried.enabled);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        let enabled = all(|component| component.enabled);
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
         Self::found_among(scene, noun, &found, &enabled, &all(|carried| carried.declared))
     }
 

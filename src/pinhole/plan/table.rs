@@ -11,8 +11,9 @@ use std::sync::Arc;
 pub trait Table: Sized + Send + Sync + 'static {
     /// The name that the plan uses.
     const NAME: &'static str;
-    /// Reads the table off the scene, in spawn order, relative to the eye; other tables that it builds on come from the
-    /// [census](Census::table), and whoever wants this one asks there too.
+    /// Extracts the table from the scene, in spawn order, relative to the eye.
+    ///
+    /// To be called by [`Census::table`] only, from which it also takes the other tables that it needs.
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError>;
     /// The memory of its arrays, in bytes.
     fn bytes(&self) -> usize;
