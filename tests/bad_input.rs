@@ -12,7 +12,7 @@ mod textures;
 use bevy_ecs::prelude::*;
 use cases::*;
 use glam::{DQuat, DVec3};
-use pinhole::plan::PlanError;
+use pinhole::plan::{Census, PlanError};
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use pinhole::{Error, look};
@@ -23,7 +23,7 @@ use std::fs;
 
 /// What preparing a scene is refused with.
 fn scene_error(scene: &World, what: &str) -> String {
-    match prepare(scene, &offer()) {
+    match prepare(&Census::of(scene), &offer()) {
         Err(error) => sentence(&error, what),
         Ok(_) => panic!("{what} is not refused"),
     }
@@ -57,7 +57,7 @@ fn bad_scenes() {
         (Eye::Orthographic, ORTHOGRAPHIC),
     ];
     for (eye, cases) in groups {
-        prepare(&good(eye), &offer()).map(|_| ()).expect("the good scene is good");
+        prepare(&Census::of(&good(eye)), &offer()).map(|_| ()).expect("the good scene is good");
         for (what, words, spoil) in cases {
             let mut scene = good(eye);
             spoil(&mut scene);
@@ -75,7 +75,7 @@ fn bad_scenes() {
 #[test]
 fn bad_textures() {
     let mut lines = Vec::new();
-    prepare(&textures::good_textures(), &offer()).map(|_| ()).expect("the good scene is good");
+    prepare(&Census::of(&textures::good_textures()), &offer()).map(|_| ()).expect("the good scene is good");
     for (what, words, spoil) in textures::TEXTURES {
         let mut scene = textures::good_textures();
         spoil(&mut scene);
@@ -178,7 +178,7 @@ fn bad_views_and_pixels() {
         scene
     };
     let scene = view("colour");
-    assert!(matches!(prepare(&scene, &offer()), Err(Error::Plan(PlanError::NoSuchView { .. }))));
+    assert!(matches!(prepare(&Census::of(&scene), &offer()), Err(Error::Plan(PlanError::NoSuchView { .. }))));
     lines.push(scene_error(&scene, "an unknown column"));
     let shapes = ["ball", "floor", "sail", "glossy", "satin", "glow"];
     let lights = ["lamp", "sun", "spot", "glow"];
@@ -193,12 +193,12 @@ fn bad_views_and_pixels() {
         lines.push(message);
     }
     for [x, y] in [[16, 0], [0, 9], [u32::MAX, u32::MAX]] {
-        let traced = look::trace(&good(Eye::Perspective), &offer(), TracePixel { x, y });
+        let traced = look::trace(&Census::of(&good(Eye::Perspective)), &offer(), TracePixel { x, y });
         let message = sentence(&traced.expect_err("outside"), "a pixel outside");
         assert!(message.contains(&format!("{x},{y}")) && message.contains("15,8"), "{message}");
         lines.push(message);
     }
-    look::trace(&good(Eye::Perspective), &offer(), TracePixel { x: 15, y: 8 }).expect("the last pixel");
+    look::trace(&Census::of(&good(Eye::Perspective)), &offer(), TracePixel { x: 15, y: 8 }).expect("the last pixel");
     kept("bad_views", &lines);
     eprintln!("bad views and pixels: {} refused", lines.len());
 }
@@ -340,7 +340,8 @@ fn shapes_that_no_stage_on_offer_meets() {
     scene.spawn((Name::new("lid"), Disk::default(), matte()));
     scene.spawn((Name::new("board"), Rectangle::default(), matte()));
     scene.spawn((Name::new("crate"), Cuboid::default(), matte()));
-    prepare(&scene, &offer()).map(|_| ()).expect("all can be met");
+    let census = &Census::of(&scene);
+    prepare(census, &offer()).map(|_| ()).expect("all can be met");
     let mut refused = 0;
     for column in ["hit", "surface", "shadow"] {
         for (table, name) in [
@@ -359,7 +360,7 @@ fn shapes_that_no_stage_on_offer_meets() {
                 !(writes && stage.tables.iter().any(|read| read.name == table))
             });
             assert_eq!(fewer.len() + 1, before, "one stage of {column} reads {table}");
-            let told = prepare(&scene, &fewer).err().expect("refused").to_string();
+            let told = prepare(census, &fewer).err().expect("refused").to_string();
             let start = format!("{name}: shape is in the table of {table}, but no stage on offer ");
             assert!(told.starts_with(&start) && told.contains("; offer "), "{column}: {told}");
             refused += 1;

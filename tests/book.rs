@@ -50,3 +50,84 @@ fn the_lists_of_chapters_agree() {
         ("the folders with chapters/*/snapshots/*.snap", check::lists::snapshot_stems(root())),
     ]));
 }
+
+/// What a reader who comes from a lecture or from PBRT searches for.
+const SEARCHED: [&str; 24] = [
+    "Monte Carlo",
+    "estimator",
+    "expected value",
+    "pdf",
+    "throughput",
+    "BRDF",
+    "BSDF",
+    "albedo",
+    "diffuse",
+    "Lambertian",
+    "specular",
+    "dielectric",
+    "microfacet",
+    "grazing incidence",
+    "next-event estimation",
+    "importance sampling",
+    "MIS",
+    "Russian roulette",
+    "rendering equation",
+    "area light",
+    "hemisphere",
+    "max_depth",
+    "photon mapping",
+    "BVH",
+];
+
+/// How often a term stands in a text as whole words, in any case, with or without a plural's s.
+fn count(text: &str, term: &str) -> usize {
+    let (text, term) = (text.to_lowercase(), term.to_lowercase());
+    let is_part = |near: Option<char>| near.is_some_and(|near| near.is_alphanumeric() || near == '_');
+    let whole = |(at, _): &(usize, &str)| {
+        let (before, after) = (&text[..*at], &text[at + term.len()..]);
+        let after = after.strip_prefix('s').unwrap_or(after);
+        !is_part(before.chars().next_back()) && !is_part(after.chars().next())
+    };
+    text.match_indices(&term).filter(whole).count()
+}
+
+#[test]
+fn terms_are_counted_as_words() {
+    assert_eq!(count("pdfs, a pdf and `pdf_of`; missed", "pdf"), 2);
+    assert_eq!(count("pdfs, a pdf and `pdf_of`; missed", "MIS"), 0);
+}
+
+/// mdBook's search reads the pages' prose and tables, so what stands there is found, and what does not is not.
+#[test]
+fn a_search_finds_the_words_of_the_field() {
+    let pages = pages();
+    let prose = |page: &Page| {
+        let scan = check::scan::Scan::new(&page.text);
+        scan.prose().map(|line| line.text).collect::<Vec<_>>().join("\n")
+    };
+    let missing: Vec<&str> = SEARCHED
+        .into_iter()
+        .filter(|term| !pages.iter().any(|page| page.name != "glossary.md" && count(&prose(page), term) > 0))
+        .collect();
+    assert!(missing.is_empty(), "no page but the glossary says {missing:?}");
+    let glossary = pages.iter().find(|page| page.name == "glossary.md").expect("a glossary");
+    let unexplained: Vec<&str> = SEARCHED.into_iter().filter(|term| count(&prose(glossary), term) == 0).collect();
+    assert!(unexplained.is_empty(), "the glossary lacks {unexplained:?}");
+}
+
+/// A row of the glossary's first tables names a term, says what it is, and links the page that derives it.
+#[test]
+fn every_term_of_the_glossary_leads_to_a_page() {
+    let pages = pages();
+    let glossary = pages.iter().find(|page| page.name == "glossary.md").expect("a glossary");
+    let (terms, _) = glossary.text.split_once("## Notation").expect("a notation table");
+    let rows: Vec<&str> = terms.lines().filter(|line| line.starts_with("| *")).collect();
+    assert!(rows.len() > 80, "{} terms", rows.len());
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        assert!(
+            cells.len() >= 5 && cells[2].len() > 15 && cells[3].contains("](") && cells[3].contains(".md)"),
+            "{row}"
+        );
+    }
+}

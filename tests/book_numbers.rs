@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3, Vec3};
 use pinhole::extract::validate;
 use pinhole::film::{Curve, byte_from_linear, linear_from_srgb};
 use pinhole::intersect::{NO_SHAPE, Surfaces};
-use pinhole::plan::plan;
+use pinhole::plan::{Census, plan};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -118,7 +118,7 @@ fn scene_error(name: &str, change: impl Fn(&mut EntityWorldMut<'_>)) -> String {
     let mut world = chapter(name).world(&Overrides::default());
     let camera = pinhole::extract::camera_entity(&world).expect("a camera");
     change(&mut world.entity_mut(camera));
-    validate(&world).expect_err("refused").to_string()
+    validate(&Census::of(&world)).expect_err("refused").to_string()
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn lamps_without_shadows_drop_what_page_10_says() {
     let chapter = chapter("10_light_and_shadow");
     let mut world = chapter.world(&Overrides::default());
     let kept = |world: &World| {
-        let plan = plan(world, &chapter.stages()).expect("a plan");
+        let plan = plan(&Census::of(world), &chapter.stages()).expect("a plan");
         plan.stages.iter().map(|stage| stage.name).collect::<Vec<_>>()
     };
     let all = kept(&world);

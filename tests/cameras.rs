@@ -6,7 +6,7 @@ use crate::scenes;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::extract::{ImageCircle, ImageFrame, half_extent};
-use pinhole::plan::{Column, Table};
+use pinhole::plan::{Census, Column, Table};
 use pinhole::rays::{
     CameraRays, RasterPoints, camera_ray_equirectangular, camera_ray_fisheye, ndc_from_raster,
     screen_from_equirectangular, screen_from_fisheye, screen_from_ndc,
@@ -134,7 +134,7 @@ fn renders_aim_as_the_functions_say() {
     let mut tried = 0;
     for scene in [fisheye(Setup::default()), all_round(Setup::default())] {
         let inspection = inspect(&scene, &offer(), 32).expect("inspects");
-        let circle = ImageCircle::extract(&scene).expect("a circle");
+        let circle = ImageCircle::extract(&Census::of(&scene)).expect("a circle");
         let round =
             inspection.plan.rows.iter().any(|row| row.kept && row.stage == "Generate camera rays: equirectangular");
         for &tile in &inspection.tiles {
@@ -169,8 +169,9 @@ fn outside_the_circle_all_is_black() {
                 world.entity_mut(camera).insert(sampling);
             }
             world.spawn((Name::new("sky"), Background { colour: Rgb::grey(1.0) }));
-            let circle = ImageCircle::extract(&world).expect("a circle");
-            let image = ImageFrame::extract(&world).expect("an image");
+            let census = &Census::of(&world);
+            let circle = ImageCircle::extract(census).expect("a circle");
+            let image = ImageFrame::extract(census).expect("an image");
             let film = render(&world, &offer(), &one_world(), &()).expect("renders").film;
             assert_eq!(film.rejected().0, 0);
             for (x, y) in (0..24).flat_map(|y| (0..40).map(move |x| (x, y))) {
@@ -235,7 +236,7 @@ fn angles_are_refused_by_name() {
         let mut world = World::new();
         let camera = FisheyeCamera { fov: Degrees(fov), ..FisheyeCamera::default() };
         world.spawn((Name::new("eye"), camera, Resolution { width, height }));
-        pinhole::extract::validate(&world).err().map(|refusal| refusal.to_string())
+        pinhole::extract::validate(&Census::of(&world)).err().map(|refusal| refusal.to_string())
     };
     for fov in [0.0, -1.0, 360.1, f64::NAN, f64::INFINITY] {
         let told = refused(fov, [16, 9]).expect("refused");
@@ -251,12 +252,12 @@ fn angles_are_refused_by_name() {
     }
     let mut world = World::new();
     world.spawn((Name::new("eye"), FisheyeCamera::default(), EquirectangularCamera));
-    let told = pinhole::extract::validate(&world).expect_err("refused").to_string();
+    let told = pinhole::extract::validate(&Census::of(&world)).expect_err("refused").to_string();
     assert!(told.contains("a FisheyeCamera and an EquirectangularCamera at once, on \"eye\""), "{told}");
     let mut world = fisheye(Setup::default());
     let camera = named(&mut world, "camera");
     world.entity_mut(camera).insert(Layers::all());
-    let told = pinhole::extract::validate(&world).expect_err("refused").to_string();
+    let told = pinhole::extract::validate(&Census::of(&world)).expect_err("refused").to_string();
     assert!(told.starts_with("camera \"camera\": layers is requested, but a fisheye camera has none"), "{told}");
 }
 

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec2, DVec3};
 use pinhole::Overrides;
 use pinhole::extract::{PerspectiveProjection, angle_of_tan_half, half_extent};
 use pinhole::look::convention::*;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::render::{Execution, render};
 use pinhole::scene::*;
@@ -215,7 +215,7 @@ fn what_an_angle_is_across_is_what_extraction_takes_it_for() {
         for [width, height] in [[480, 270], [270, 480], [7, 7], [65_536, 1], [1, 65_536]] {
             let mut world = World::new();
             world.spawn((PerspectiveCamera { fov: Degrees(70.0), axis }, Resolution { width, height }));
-            let Ok(lens) = PerspectiveProjection::extract(&world) else { continue };
+            let Ok(lens) = PerspectiveProjection::extract(&Census::of(&world)) else { continue };
             let tan = lens.tan_half_vertical * half_extent(axis, f64::from(width) / f64::from(height));
             let back = angle_of_tan_half(tan).0;
             assert!((back - 70.0).abs() < 1e-12, "{axis:?} {width}x{height}: {back}");

@@ -67,7 +67,7 @@ fn pages_say_what_was_measured() {
     let [entities, columns, tiles] = ["an entity a ray", "all tiles at once", "a tile a worker"].map(megabytes);
     let sentence = format!(
         "an entity for each ray took about {entities:.0} MB, the same numbers in tiles {columns:.0} MB, and \
-         {tiles:.0} MB where each worker holds one tile at a time, as the kit does"
+         {tiles:.0} MB where each worker holds one tile at a time, as pinhole does"
     );
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/01_image.md");
     let page = std::fs::read_to_string(page).expect("the page");

@@ -17,7 +17,7 @@ use crate::scenes;
 use bevy_ecs::prelude::*;
 use pinhole::Overrides;
 use pinhole::extract::integrator_of;
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage};
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Background, Gradient, Integrator, LightStrategy, Resolution, Sampler, Sampling};
 use pinhole_lab::measure::closed_form::closed_forms;
@@ -64,7 +64,7 @@ fn renders_by(
 
 /// Renders of a scene by paths that find light so.
 fn renders(make: &dyn Fn() -> World, lights: LightStrategy, samples: u32, seeds: std::ops::Range<u64>) -> Vec<Numbers> {
-    let integrator = match integrator_of(&make()).integrator {
+    let integrator = match integrator_of(&Census::of(&make())).integrator {
         Integrator::Path { max_depth, roulette, .. } => Integrator::Path { max_depth, lights, roulette },
         other => panic!("{other:?} finds lights in one way only"),
     };
@@ -167,7 +167,7 @@ fn integrators_of_direct_light_agree_with_short_paths() {
             skies.into_iter().for_each(|sky| _ = world.despawn(sky));
             world
         };
-        let own = integrator_of(&make()).integrator;
+        let own = integrator_of(&Census::of(&make())).integrator;
         assert!(matches!(own, Integrator::RayCasting | Integrator::Distribution { .. }), "{name}: {own:?}");
         let own = renders_by(&make, own, 12, 0..SETS);
         for (number, &lights) in NOT_BY_BSDF.iter().enumerate() {

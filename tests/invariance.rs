@@ -7,7 +7,7 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use glam::DVec3;
 use pinhole::extract::EllipsoidTable;
 use pinhole::film::FilmTile;
-use pinhole::plan::{Stage, Table, TileSystems, plan};
+use pinhole::plan::{Census, Stage, Table, TileSystems, plan};
 use pinhole::render::{Execution, Hook, RenderWorld, Worlds, inspect, prepare};
 use pinhole::scene::{
     Aperture, Filter, Integrator, Lens, Motion, Placement, PointLight, Sampling, Shutter, Statistics,
@@ -174,7 +174,7 @@ fn inspected(scene: &World, tile_side: u32) -> FilmBits {
 
 /// The names of the systems in the order in which a shuffled schedule runs them.
 fn order_of(scene: &World, offer: &[Stage], execution: &Execution) -> Vec<String> {
-    let (plan, tables) = prepare(scene, offer).expect("prepares");
+    let (plan, tables) = prepare(&Census::of(scene), offer).expect("prepares");
     let mut frame = RenderWorld::new(&plan, &tables, 1, execution, &[]);
     let built = frame.schedule.initialize(&mut frame.world);
     if let Err(error) = built {
@@ -186,7 +186,7 @@ fn order_of(scene: &World, offer: &[Stage], execution: &Execution) -> Vec<String
 
 /// How many orders the sets leave open: of n stages in a set that is free of order, n!.
 fn orders_allowed(scene: &World) -> usize {
-    let plan = plan(scene, &offer()).expect("plans");
+    let plan = plan(&Census::of(scene), &offer()).expect("plans");
     let free = TileSystems::ALL.iter().filter(|set| set.order_free());
     let stages = free.map(|set| plan.stages.iter().filter(|stage| stage.set == *set).count());
     stages.map(|count| (1..=count).product::<usize>()).product()
@@ -238,7 +238,7 @@ fn every_order_that_the_schedule_allows() {
 #[test]
 fn hooks_are_ordered() {
     let scene = with_statistics(turned(Setup::default()));
-    let (plan, tables) = prepare(&scene, &offer()).expect("prepares");
+    let (plan, tables) = prepare(&Census::of(&scene), &offer()).expect("prepares");
     let hook: Hook = Arc::new(|_, _, _| (|_: &mut World| {}).into_configs());
     let execution = shuffled(7, one_world());
     let mut frame = RenderWorld::new(&plan, &tables, 1, &execution, &[hook.clone(), hook]);
@@ -442,7 +442,7 @@ fn nearly_even_scales() {
         }
         scene
     };
-    let ellipsoids = |scene: &World| EllipsoidTable::extract(scene).expect("extracts").shape.len();
+    let ellipsoids = |scene: &World| EllipsoidTable::extract(&Census::of(scene)).expect("extracts").shape.len();
     let even = film(&scene(0.0));
     for (by, uneven) in [(1e-12, 0), (9e-10, 0), (1.1e-9, 2), (1e-8, 2)] {
         let scene = scene(by);

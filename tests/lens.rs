@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::extract::{ImageFrame, LensTable, PerspectiveProjection, tan_half};
 use pinhole::intersect::{Hits, NO_SHAPE};
-use pinhole::plan::{Column, Table, plan};
+use pinhole::plan::{Census, Column, Table, plan};
 use pinhole::rays::{CameraRays, LensPoints, RasterPoints, WorldRays, camera_ray_lens, disk_point, polygon_point};
 use pinhole::render::inspect;
 use pinhole::sample::{Purpose, uniform};
@@ -217,9 +217,10 @@ fn world_rays_meet_in_focus_to_a_pixel_s_tolerance() {
         let lens = Lens { aperture: Aperture::Radius { radius }, focus_distance: focus, ..Lens::default() };
         let perspective = PerspectiveCamera { fov: Degrees(fov), ..Default::default() };
         scene.entity_mut(camera).insert((lens, perspective, Sampling { samples: 1, ..Sampling::default() }));
-        let axes = pinhole::extract::CameraAxes::extract(&scene).expect("axes").world_from_camera;
-        let pinhole = PerspectiveProjection::extract(&scene).expect("a pinhole");
-        let image = ImageFrame::extract(&scene).expect("an image");
+        let census = &Census::of(&scene);
+        let axes = pinhole::extract::CameraAxes::extract(census).expect("axes").world_from_camera;
+        let pinhole = PerspectiveProjection::extract(census).expect("a pinhole");
+        let image = ImageFrame::extract(census).expect("an image");
         let pixel = 2.0 * pinhole.tan_half_vertical / f64::from(image.height) * focus;
         let inspection = inspect(&scene, &offer(), 32).expect("inspects");
         for &tile in &inspection.tiles {
@@ -257,7 +258,7 @@ fn radius_0_is_the_pinhole() {
                 let expected = film(&plain);
                 let closed = with_lens(plain, Lens { aperture, ..Lens::default() });
                 film(&closed).assert_is(&expected, "aperture 0");
-                let plan = plan(&closed, &offer()).expect("plans");
+                let plan = plan(&Census::of(&closed), &offer()).expect("plans");
                 let row =
                     plan.rows.iter().find(|row| row.stage == "Generate camera rays: thin lens").expect("on offer");
                 assert!(!row.kept && row.reason == "aperture 0: the lens of \"camera\" is a pinhole", "{row:?}");

@@ -1,6 +1,7 @@
 //! Renders in passes: the same bits however they are cut, stopped and continued; by time; by error; with layers.
 
 use crate::scenes;
+use pinhole::plan::Census;
 
 #[path = "long_renders/adaptive.rs"]
 mod adaptive;
@@ -62,7 +63,8 @@ fn passes_of_any_lengths_make_the_same_film() {
             for worlds in [Worlds::PerWorker, Worlds::One] {
                 let threads = Some(1 + number % 3);
                 let execution = Execution { threads, worlds, ..Execution::default() };
-                let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+                let mut in_progress =
+                    RenderInProgress::begin(&Census::of(&scene), &offer(), &execution).expect("begins");
                 for &step in cut.iter().chain([&steps_of(7)]) {
                     in_progress.advance(step, &()).expect("goes on");
                 }
@@ -72,7 +74,7 @@ fn passes_of_any_lengths_make_the_same_film() {
         }
         for tile_side in [8, 31, 64] {
             let execution = Execution { tile_side, ..Execution::default() };
-            let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+            let mut in_progress = RenderInProgress::begin(&Census::of(&scene), &offer(), &execution).expect("begins");
             for step in [1, 2, 3, 6, steps_of(7)] {
                 in_progress.advance(step, &()).expect("goes on");
             }
@@ -80,7 +82,8 @@ fn passes_of_any_lengths_make_the_same_film() {
             tried += 1;
         }
         let limits = Limits { write_every: Some(Duration::ZERO), ..Limits::default() };
-        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut in_progress =
+            RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
         let mut kept = 0;
         let mut keep = |_: &Film| {
             kept += 1;
@@ -98,7 +101,8 @@ fn passes_of_any_lengths_make_the_same_film() {
 #[test]
 fn the_first_pass_shows_every_eighth_pixel_and_the_others_show_it_too() {
     let scene = sampled(SIZE, seven(Sampler::Sobol), ());
-    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress =
+        RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
     let mut seen = Vec::new();
     for (step, lattice) in [(1, 8), (2, 4), (3, 2), (4, 1)] {
         in_progress.advance(step, &()).expect("goes on");
@@ -135,12 +139,13 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
     let path = folder.path().join("picture.checkpoint");
     let sampling = seven(Sampler::Sobol);
     let scene = sampled(SIZE, sampling, Layers::all());
-    let key = film_key(&scene, &RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins").plan);
+    let census = &Census::of(&scene);
+    let key = film_key(&scene, &RenderInProgress::begin(census, &offer(), &Execution::default()).expect("begins").plan);
     let whole = render(&scene, &offer(), &Execution::default(), &()).expect("renders").film;
     let mut stops = 0;
     for tiles in 1..20 {
         let execution = Execution { threads: Some(2), tile_side: 16, ..Execution::default() };
-        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+        let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
         let watch = StopAfter(AtomicU64::new(tiles));
         for step in [1, 4, 6, steps_of(7)] {
             match in_progress.advance(step, &watch) {
@@ -155,7 +160,7 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
         write_checkpoint(&in_progress.film, key, &path).expect("written");
         let kept = read_checkpoint(key, &in_progress.film, false, &path).expect("read");
         assert!(kept == in_progress.film, "a checkpoint holds all of a film");
-        let mut next = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut next = RenderInProgress::begin(census, &offer(), &Execution::default()).expect("begins");
         next.take(kept);
         next.advance(steps_of(7), &()).expect("goes on");
         FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped after {tiles} tiles"));
@@ -180,7 +185,9 @@ fn a_render_that_is_stopped_between_two_tiles_goes_on_from_its_checkpoint() {
 fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("picture.checkpoint");
-    let plan_of = |scene: &World| RenderInProgress::begin(scene, &offer(), &Execution::default()).expect("begins").plan;
+    let plan_of = |scene: &World| {
+        RenderInProgress::begin(&Census::of(scene), &offer(), &Execution::default()).expect("begins").plan
+    };
     let key_of = |sampling: Sampling, more: Layers| {
         let scene = sampled(SIZE, sampling, more);
         film_key(&scene, &plan_of(&scene))
@@ -225,8 +232,8 @@ fn a_checkpoint_that_is_not_this_render_s_is_refused_in_one_sentence() {
         damaged += 1;
     }
     assert!(refused(&[good.as_slice(), b"x"].concat(), key).contains("cut short or damaged"));
-    assert!(refused(b"PNG and more than twenty bytes", key).contains("no checkpoint"));
-    assert!(refused(&good, key + 1).contains("to another scene"));
+    assert!(refused(b"PNG and more than twenty bytes", key).contains("not a checkpoint"));
+    assert!(refused(&good, key + 1).contains("belongs to another scene"));
     let mut later = good.clone();
     later[20] = 9;
     assert!(refused(&later, key).contains("version 9"));
@@ -287,7 +294,8 @@ fn a_time_is_kept_to_within_a_pass() {
     let sampling = Sampling { samples: 1 << 20, ..seven(Sampler::Sobol) };
     let scene = sampled(SIZE, sampling, ());
     for time in [50, 200, 600].map(Duration::from_millis) {
-        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut in_progress =
+            RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
         let began = Instant::now();
         let limits = Limits { time: Some(time), ..Limits::default() };
         let outcome = render_in_passes(&mut in_progress, &limits, &(), &mut |_| Ok(())).expect("renders");

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::film::Film;
 use pinhole::intersect::Hits;
-use pinhole::plan::{Column, plan};
+use pinhole::plan::{Census, Column, plan};
 use pinhole::rays::{RayTimes, WorldRays};
 use pinhole::render::{inspect, prepare, render};
 use pinhole::scene::*;
@@ -204,7 +204,7 @@ fn what_stands_still_is_left_alone() {
     let setup = Setup { size: [40, 24], ..Setup::default() };
     let expected = film(&turned(setup));
     let names = |world: &World| -> Vec<&'static str> {
-        let (plan, _) = prepare(world, &offer()).expect("prepares");
+        let (plan, _) = prepare(&Census::of(world), &offer()).expect("prepares");
         plan.rows.iter().filter(|row| row.kept).map(|row| row.stage).collect()
     };
     let stages = names(&turned(setup));
@@ -226,7 +226,7 @@ fn what_stands_still_is_left_alone() {
         assert_eq!(names(&world), stages, "{shutter:?} {motion:?}");
         film(&world).assert_is(&expected, &format!("{shutter:?} {motion:?}"));
     }
-    let told = plan(&with((moment, Some(fast))), &offer()).expect("plans");
+    let told = plan(&Census::of(&with((moment, Some(fast)))), &offer()).expect("plans");
     let row = told.rows.iter().find(|row| row.stage == "Sample times").expect("on offer");
     assert!(!row.kept && row.reason.contains("the shutter is open for no time"), "{row:?}");
     // At another moment it is elsewhere, and still nothing is drawn at random.

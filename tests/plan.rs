@@ -21,7 +21,8 @@ use pinhole::Error;
 use pinhole::extract::ImageFrame;
 use pinhole::film::FilmTile;
 use pinhole::plan::{
-    ColumnKind, ComponentValues, Evidence, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan, view_names,
+    Census, ColumnKind, ComponentValues, Evidence, Plan, PlanError, Stage, StageKind, TableKind, TileSystems, plan,
+    view_names,
 };
 use pinhole::render::{Execution, RenderWorld, StageClock, inspect, prepare};
 use pinhole::scene::*;
@@ -49,7 +50,7 @@ fn pictureless(on: &[Toggle]) -> bool {
 }
 
 fn plan_of(scene: &World) -> Plan {
-    plan(scene, &offer()).expect("plans")
+    plan(&Census::of(scene), &offer()).expect("plans")
 }
 
 /// The columns that the stages on offer could write, and the tables they could read.
@@ -93,7 +94,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
         let scene = toggled(&on);
         if pictureless(&on) {
             refused += 1;
-            match prepare(&scene, &offer).err().expect("refused") {
+            match prepare(&Census::of(&scene), &offer).err().expect("refused") {
                 Error::Plan(PlanError::NoSuchView { wanted, why }) => {
                     assert_eq!(wanted, VIEWED, "{on:?}");
                     assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, "), "{on:?}: {why}");
@@ -103,7 +104,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
             continue;
         }
         planned += 1;
-        let (plan, extracted) = prepare(&scene, &offer).unwrap_or_else(|error| panic!("{on:?}: {error}"));
+        let (plan, extracted) = prepare(&Census::of(&scene), &offer).unwrap_or_else(|error| panic!("{on:?}: {error}"));
         assert_eq!(plan.rows.len(), offer.len(), "{on:?}: a row a stage on offer");
         let mut frame = RenderWorld::new(&plan, &extracted, 1, &Execution::default(), &[]);
         frame.schedule.initialize(&mut frame.world).map(|_| ()).expect("builds");
@@ -166,7 +167,8 @@ fn plans_are_deterministic_and_forget_what_was_removed() {
     let all = combinations();
     for on in &all {
         let scene = toggled(on);
-        match (plan(&scene, &offer()), plan(&scene, &offer())) {
+        let census = &Census::of(&scene);
+        match (plan(census, &offer()), plan(census, &offer())) {
             (Ok(once), Ok(twice)) => assert_eq!(once.rows, twice.rows, "{on:?}"),
             (once, twice) => assert_eq!(once.map(|_| ()), twice.map(|_| ()), "{on:?}"),
         }

@@ -1,6 +1,7 @@
 //! What the renderer must hold, stage by stage and as a whole.
 
 mod cameras;
+mod census;
 mod circles;
 mod emitters;
 mod film;

@@ -5,7 +5,7 @@ use crate::scenes;
 use bevy_ecs::prelude::*;
 use pinhole::extract::FilterCells;
 use pinhole::film::{Film, FilmTile};
-use pinhole::plan::plan;
+use pinhole::plan::{Census, plan};
 use pinhole::rays::{PixelSamples, RasterPoints, SampleSigns, Tile};
 use pinhole::render::{Execution, inspect, render};
 use pinhole::sample::{
@@ -86,7 +86,8 @@ fn a_filter_that_is_negative_in_places_gives_no_nan_and_nothing_below_0() {
 fn only_a_filter_with_negative_parts_has_signs() {
     for sampling in samplings() {
         let scene = empty([9, 7], Sampling { samples: 16, ..sampling }, Rgb::grey(0.5));
-        let signed = plan(&scene, &offer()).expect("plans").columns.iter().any(|column| column.name == "sign");
+        let signed =
+            plan(&Census::of(&scene), &offer()).expect("plans").columns.iter().any(|column| column.name == "sign");
         assert_eq!(signed, matches!(sampling.filter, Filter::Mitchell { .. }), "{sampling:?}");
         let film = rendered(&scene);
         let bare = Film::new(9, 7, 32).bytes();

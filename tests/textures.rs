@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, DVec3};
 use pinhole::extract::SamplingTable;
 use pinhole::film::{Curve, Film, write_exr, write_png};
 use pinhole::intersect::Hits;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::*;
 use pinhole::shade::{SurfaceColours, TexturePoints, direction_of};
@@ -103,7 +103,7 @@ fn two_colours() -> Checker {
 
 /// The mean radiance of each pixel.
 fn pixels(world: &World) -> Vec<[f64; 3]> {
-    let samples = SamplingTable::extract(world).expect("sampling").samples;
+    let samples = SamplingTable::extract(&Census::of(world)).expect("sampling").samples;
     let film = film(world);
     film.pixels.iter().map(|pixel| [0, 1, 2].map(|part| f64::from_bits(pixel[part]) / f64::from(samples))).collect()
 }
@@ -305,7 +305,7 @@ fn files_that_are_no_images_are_refused_in_a_sentence() {
         let file = ImageTexture { file: name.into(), ..ImageTexture::default() };
         world.entity_mut(floor).remove::<Checker>().insert(file);
         world.insert_resource(SceneFolder(folder.path().into()));
-        let scene_error = pinhole::extract::validate(&world).expect_err(name).to_string();
+        let scene_error = pinhole::extract::validate(&Census::of(&world)).expect_err(name).to_string();
         let shown = scene_error.replace(&folder.path().display().to_string(), "…");
         eprintln!("{shown}");
         assert!(shown.starts_with("image texture \"floor\": file is ") && !shown.contains('\n'), "{shown}");

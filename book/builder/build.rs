@@ -2,8 +2,8 @@
 
 use crate::check;
 use crate::figure::Pictures;
-use crate::kit::Kit;
 use crate::page::{Pages, told};
+use crate::program::Program;
 use mdbook_driver::MDBook;
 use mdbook_driver::config::Config;
 use std::cell::RefCell;
@@ -36,7 +36,7 @@ impl Book {
 }
 
 /// Builds the book, or says in one sentence each what stands in the way; then the last good build is untouched.
-pub fn build(book: &Book, kit: &Rc<RefCell<Kit>>) -> Result<(), String> {
+pub fn build(book: &Book, program: &Rc<RefCell<Program>>) -> Result<(), String> {
     let written = check::read_pages(&book.pages).map_err(|problem| problem.to_string())?;
     let problems = check::pages(&written);
     if !problems.is_empty() {
@@ -45,7 +45,7 @@ pub fn build(book: &Book, kit: &Rc<RefCell<Kit>>) -> Result<(), String> {
     let mdbook = |error: mdbook_driver::errors::Error| format!("{error:#}");
     let pictures = Rc::new(RefCell::new(Pictures::new()));
     let mut site = MDBook::load_with_config(book.root(), config(book)?).map_err(mdbook)?;
-    site.with_preprocessor(Pages { written, kit: Rc::clone(kit), pictures: Rc::clone(&pictures) });
+    site.with_preprocessor(Pages { written, program: Rc::clone(program), pictures: Rc::clone(&pictures) });
     site.build().map_err(mdbook)?;
     let pictures = pictures.borrow();
     write_pictures(&book.out.join("figures"), &pictures)
@@ -72,7 +72,7 @@ pub mod tests {
     use super::*;
     use std::io::Write;
 
-    const PAGE: &str = "# One\n\n$a^2$ and [two](02_two.md#b).\n\n{{#kit plan}}\n\n{{#figure render | A *box*}}\n\n\
+    const PAGE: &str = "# One\n\n$a^2$ and [two](02_two.md#b).\n\n{{#pinhole plan}}\n\n{{#figure render | A *box*}}\n\n\
                         {{#figure figure | A drawing}}\n\n```toml\n{{#include PATH}}\n```\n\n| a | b |\n|---|---|\n| 1 | 2 |\n";
     const SVG: &str = "<svg viewBox=\"0 0 9 9\"><path d=\"M0 0\"/></svg>";
     const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x60\0\0\0\x36";
@@ -95,12 +95,12 @@ pub mod tests {
         std::fs::write(book.pages.join(name), text).expect("a page can be written");
     }
 
-    /// A kit that prints, paints and draws.
-    pub fn little_kit() -> Rc<RefCell<Kit>> {
-        Kit::with(little_command)
+    /// A program that prints, paints and draws.
+    pub fn little_program() -> Rc<RefCell<Program>> {
+        Program::with(little_command)
     }
 
-    /// Runs one command of that kit.
+    /// Runs one command of that program.
     pub fn little_command(words: &[String], out: &mut dyn Write) -> Result<(), String> {
         let path = words.last().cloned().unwrap_or_default();
         let done = match Path::new(&path).extension().and_then(|extension| extension.to_str()) {
@@ -142,7 +142,7 @@ pub mod tests {
     #[test]
     fn a_book_is_built_whole_and_asks_nothing_of_the_network() {
         let (_folder, book) = little_book();
-        build(&book, &little_kit()).expect("the little book builds");
+        build(&book, &little_program()).expect("the little book builds");
         let page = std::fs::read_to_string(book.out.join("01_one.html")).expect("a page");
         for part in ["<math", "figures/render.png", "<svg", "class=\"typed\"", "class=\"source\"", "table-wrapper"] {
             assert!(page.contains(part), "{part} is missing");
@@ -160,9 +160,9 @@ pub mod tests {
     #[test]
     fn a_failed_build_leaves_the_last_one() {
         let (_folder, book) = little_book();
-        build(&book, &little_kit()).expect("the little book builds");
+        build(&book, &little_program()).expect("the little book builds");
         write(&book, "02_two.md", "# Two\n\n## B\n\n$\\oops$ ![x](y.png)\n");
-        let told = build(&book, &little_kit()).expect_err("a slip");
+        let told = build(&book, &little_program()).expect_err("a mistake");
         assert!(told.starts_with("book/src/02_two.md:5: `![` puts in a picture by hand"), "{told}");
         assert!(book.out.join("02_two.html").is_file());
     }
@@ -171,7 +171,7 @@ pub mod tests {
     fn the_sources_are_not_written() {
         let (_folder, book) = little_book();
         write(&book, "SUMMARY.md", "- [One](01_one.md)\n- [Two](02_two.md)\n- [Three](03.md)\n");
-        let told = build(&book, &little_kit()).expect_err("a missing page");
+        let told = build(&book, &little_program()).expect_err("a missing page");
         assert!(told.contains("SUMMARY.md:3: the link to `03.md` leads nowhere"), "{told}");
         assert!(!book.pages.join("03.md").exists());
     }

@@ -1,13 +1,13 @@
-//! Figures: a picture the kit made, its caption, and the command that makes it.
+//! Figures: a picture that pinhole made, its caption, and the command that makes it.
 
 use crate::edit::escape;
-use crate::kit::Kit;
 use crate::math;
+use crate::program::Program;
 use pulldown_cmark::{Event, Options, Parser};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What a reader types before a command of the kit.
+/// What a reader types before a command of pinhole.
 pub const TYPED: &str = "cargo run --release --";
 
 /// Pictures narrower than this are meant to show their pixels.
@@ -20,16 +20,16 @@ const GROWN: u32 = 480;
 pub type Pictures = BTreeMap<String, (String, Rc<[u8]>)>;
 
 /// The block that stands for one figure directive.
-pub fn block(kit: &mut Kit, pictures: &mut Pictures, command: &str, caption: &str) -> Result<String, String> {
+pub fn block(program: &mut Program, pictures: &mut Pictures, command: &str, caption: &str) -> Result<String, String> {
     let spoken = escape(&plain(caption));
     let drawn = ["figure", "report"].contains(&command.split_whitespace().next().unwrap_or_default())
         || command.split_whitespace().any(|word| word == "--gallery");
     let picture = if drawn {
-        let file = kit.file(command, "svg")?;
+        let file = program.file(command, "svg")?;
         inline(&String::from_utf8_lossy(&file), &spoken, &stem_of(command))
             .map_err(|what| format!("`{command}` {what}"))?
     } else {
-        let file = kit.file(command, "png")?;
+        let file = program.file(command, "png")?;
         let size = png_size(&file).ok_or_else(|| format!("`{command}` wrote a file that is no PNG."))?;
         image(&store(pictures, command, file), size, &spoken)
     };
@@ -135,8 +135,8 @@ mod tests {
     const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x60\0\0\0\x36";
     const SVG: &str = "<?xml version=\"1.0\"?>\n<svg xmlns=\"s\" width=\"300\" height=\"9\" viewBox=\"0 0 300 9\">\n\n<g id=\"a\" fill=\"url(#a)\"/>\n</svg>\n";
 
-    fn kit(svg: &'static str) -> Rc<std::cell::RefCell<Kit>> {
-        Kit::with(move |words, _| {
+    fn program(svg: &'static str) -> Rc<std::cell::RefCell<Program>> {
+        Program::with(move |words, _| {
             let path = words.last().cloned().unwrap_or_default();
             let bytes = if path.ends_with(".svg") { svg.as_bytes() } else { PNG };
             std::fs::write(path, bytes).map_err(|error| error.to_string())
@@ -146,8 +146,8 @@ mod tests {
     #[test]
     fn a_picture_has_its_size_and_its_command() {
         let mut pictures = Pictures::new();
-        let kit = kit(SVG);
-        let block = block(&mut kit.borrow_mut(), &mut pictures, "render 05_x --size 96x54", "A *box* of `a<b`");
+        let program = program(SVG);
+        let block = block(&mut program.borrow_mut(), &mut pictures, "render 05_x --size 96x54", "A *box* of `a<b`");
         let block = block.expect("a figure");
         let image = "<img src=\"figures/render-05_x-size-96x54.png\" width=\"96\" height=\"54\" \
                      alt=\"A box of a&lt;b\" class=\"pixels\" style=\"width: 480px\">";
@@ -158,8 +158,8 @@ mod tests {
 
     #[test]
     fn a_drawing_is_inlined_and_fluid() {
-        let kit = kit(SVG);
-        let block = block(&mut kit.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It");
+        let program = program(SVG);
+        let block = block(&mut program.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It");
         let expected = "<figure>\n<svg xmlns=\"s\" viewBox=\"0 0 300 9\" role=\"img\" aria-label=\"It\" \
                         style=\"width: 100%; max-width: 300px; height: auto\">\n<g id=\"figure-05_x-a\" fill=\"url(#figure-05_x-a)\"/>\n</svg>\n<figcaption>";
         assert!(block.as_ref().is_ok_and(|block| block.contains(expected)), "{block:?}");
@@ -167,8 +167,8 @@ mod tests {
 
     #[test]
     fn a_drawing_without_a_view_box_is_refused() {
-        let kit = kit("<svg width=\"3\"></svg>");
-        let told = block(&mut kit.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It").expect_err("refused");
+        let program = program("<svg width=\"3\"></svg>");
+        let told = block(&mut program.borrow_mut(), &mut Pictures::new(), "figure 05_x", "It").expect_err("refused");
         assert_eq!(told, "`figure 05_x` wrote an SVG without a viewBox, which cannot be fitted to a page.");
     }
 

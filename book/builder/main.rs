@@ -1,8 +1,8 @@
 //! Builds the book: `cargo run -p book` writes it to `out/book/`, `-- --serve` shows it while you write.
 //!
 //! The pages are `book/src/*.md`. mdBook makes the site; what stands here is what mdBook does not do: checks that
-//! fail ([`check`]), formulas without a network ([`math`]), listings, and text and pictures made by the kit at every
-//! build ([`page`], [`kit`], [`figure`]).
+//! fail ([`check`]), formulas without a network ([`math`]), listings, and text and pictures made by pinhole at every
+//! build ([`page`], [`program`], [`figure`]).
 
 mod build;
 #[expect(dead_code, reason = "tests/book.rs includes this module too and asks for more than a build does")]
@@ -10,9 +10,9 @@ mod check;
 mod edit;
 mod figure;
 mod http;
-mod kit;
 mod math;
 mod page;
+mod program;
 mod serve;
 mod site;
 mod watch;
@@ -51,15 +51,15 @@ fn say(out: &mut dyn Write, message: &str) {
 
 fn run(arguments: &Arguments) -> Result<(), String> {
     let book = build::Book::of_this_repository();
-    // A command of the kit may name a file; a reader would type it from the top of the repository.
+    // A command of pinhole may name a file; a reader would type it from the top of the repository.
     std::env::set_current_dir(&book.repository)
         .map_err(|error| format!("{} cannot be entered: {error}.", book.repository.display()))?;
     let out = &mut std::io::stdout();
     if arguments.serve {
-        return serve::serve(&book, &kit::Kit::shared(), arguments.port, out);
+        return serve::serve(&book, &program::Program::shared(), arguments.port, out);
     }
     let start = Instant::now();
-    build::build(&book, &kit::Kit::shared())?;
+    build::build(&book, &program::Program::shared())?;
     let index = book.out.join("index.html");
     say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
     Ok(())

@@ -178,11 +178,21 @@ mod tests {
 
     #[test]
     fn a_broken_formula_is_named() {
-        let told = expand("so $\\frac{a}$ is").expect_err("a slip");
+        let told = expand("so $\\frac{a}$ is").expect_err("a mistake");
         assert!(told.starts_with("the formula `\\frac{a}` cannot be read: "), "{told}");
-        let told = expand("so $\\nosuchthing$ is").expect_err("a slip");
+        let told = expand("so $\\nosuchthing$ is").expect_err("a mistake");
         assert!(told.starts_with("the formula `\\nosuchthing` cannot be read: "), "{told}");
         assert!(!told.contains('\n'), "{told}");
+    }
+
+    #[test]
+    fn every_formula_of_the_book_can_be_read() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let pages = crate::check::read_pages(&folder).expect("the pages can be read");
+        for page in &pages {
+            expand(&page.text).unwrap_or_else(|error| panic!("{}: {error}", page.label));
+        }
+        assert!(pages.iter().map(|page| edits(&page.text).0.len()).sum::<usize>() > 300);
     }
 
     #[test]

@@ -5,8 +5,8 @@ use crate::check::scan::{Fence, Scan};
 use crate::check::{Page, Problem, listing};
 use crate::edit::{Edit, apply, escape};
 use crate::figure::{self, Pictures, TYPED};
-use crate::kit::Kit;
 use crate::math;
+use crate::program::Program;
 use mdbook_preprocessor::book::Book;
 use mdbook_preprocessor::errors::{Error, Result};
 use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
@@ -18,7 +18,7 @@ pub struct Pages {
     /// The pages as read and checked before the build.
     pub written: Vec<Page>,
     /// Answers the commands.
-    pub kit: Rc<RefCell<Kit>>,
+    pub program: Rc<RefCell<Program>>,
     /// Filled by the run.
     pub pictures: Rc<RefCell<Pictures>>,
 }
@@ -29,12 +29,12 @@ impl Preprocessor for Pages {
     }
 
     fn run(&self, _context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let (kit, pictures) = (&mut self.kit.borrow_mut(), &mut self.pictures.borrow_mut());
+        let (program, pictures) = (&mut self.program.borrow_mut(), &mut self.pictures.borrow_mut());
         let mut problems = Vec::new();
         book.for_each_chapter_mut(|chapter| {
             let name = chapter.source_path.as_ref().map(|path| path.display().to_string());
             let page = self.written.iter().find(|page| Some(&page.name) == name.as_ref());
-            match page.map(|page| expand(page, kit, pictures)) {
+            match page.map(|page| expand(page, program, pictures)) {
                 Some(Ok(content)) => chapter.content = content,
                 Some(Err(found)) => problems.extend(found),
                 None => {}
@@ -50,7 +50,11 @@ pub fn told(problems: &[Problem]) -> String {
 }
 
 /// A page with its listings, formulas, outputs and figures in place.
-pub fn expand(page: &Page, kit: &mut Kit, pictures: &mut Pictures) -> std::result::Result<String, Vec<Problem>> {
+pub fn expand(
+    page: &Page,
+    program: &mut Program,
+    pictures: &mut Pictures,
+) -> std::result::Result<String, Vec<Problem>> {
     let scan = Scan::new(&page.text);
     let (mut edits, mistakes) = math::edits(&without_directives(&page.text, &scan));
     let line_of = |at: usize| page.text[..at].matches('\n').count() + 1;
@@ -58,8 +62,12 @@ pub fn expand(page: &Page, kit: &mut Kit, pictures: &mut Pictures) -> std::resul
     let mut problems: Vec<Problem> = formulas.collect();
     for line in &scan.lines {
         let made = match (parse(line.text), line.fence) {
-            (Some(Ok(Directive::Kit { command })), None) => kit.text(command).map(|text| printed(command, &text)),
-            (Some(Ok(Directive::Figure { command, caption })), None) => figure::block(kit, pictures, command, caption),
+            (Some(Ok(Directive::Pinhole { command })), None) => {
+                program.text(command).map(|text| printed(command, &text))
+            }
+            (Some(Ok(Directive::Figure { command, caption })), None) => {
+                figure::block(program, pictures, command, caption)
+            }
             (Some(Ok(Directive::Include { path, anchor })), Some(_)) => {
                 let margin = &line.text[..line.text.len() - line.text.trim_start().len()];
                 listing::read(page, path, anchor).map(|listing| indented(&listing, margin))
@@ -92,7 +100,7 @@ fn printed(command: &str, text: &str) -> String {
     let fence = "`".repeat(3.max(longest + 1));
     let command = escape(command);
     format!(
-        "\n<div class=\"kit\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
+        "\n<div class=\"printed\">\n<div class=\"typed\"><code>{TYPED} {command}</code></div>\n\n\
          {fence}text\n{text}\n{fence}\n\n</div>\n"
     )
 }
@@ -121,17 +129,17 @@ mod tests {
     use crate::check::made_up;
 
     fn expanded(text: &str) -> std::result::Result<String, Vec<String>> {
-        let kit = Kit::with(|words, out| match words[0].as_str() {
+        let program = Program::with(|words, out| match words[0].as_str() {
             "plan" => writeln!(out, "```\nkept <b> & $x$\n```").map_err(|error| error.to_string()),
             _ => Err("no such command.".to_owned()),
         });
-        let expanded = expand(&made_up("a.md", text), &mut kit.borrow_mut(), &mut Pictures::new());
+        let expanded = expand(&made_up("a.md", text), &mut program.borrow_mut(), &mut Pictures::new());
         expanded.map_err(|problems| problems.iter().map(ToString::to_string).collect())
     }
 
     #[test]
     fn output_stands_under_its_command() {
-        let text = expanded("a\n\n{{#kit plan 05 --a<b}}\n\nb $\n".trim_end_matches(" $\n")).expect("expands");
+        let text = expanded("a\n\n{{#pinhole plan 05 --a<b}}\n\nb $\n".trim_end_matches(" $\n")).expect("expands");
         let expected = "<div class=\"typed\"><code>cargo run --release -- plan 05 --a&lt;b</code></div>\n\n\
                         ````text\n```\nkept <b> & $x$\n```\n````\n\n</div>";
         assert!(text.contains(expected), "{text}");
@@ -145,9 +153,9 @@ mod tests {
     }
 
     #[test]
-    fn every_slip_of_a_page_is_named_at_once() {
-        let told = expanded("$\\oops$\n\n{{#kit plan}}\n\n{{#kit nothing}}\n\n{{#figure plan | $\\oops$}}\n");
-        let told = told.expect_err("slips");
+    fn every_mistake_of_a_page_is_named_at_once() {
+        let told = expanded("$\\oops$\n\n{{#pinhole plan}}\n\n{{#pinhole nothing}}\n\n{{#figure plan | $\\oops$}}\n");
+        let told = told.expect_err("mistakes");
         assert_eq!(told.len(), 3);
         assert!(told[0].starts_with("a.md:1: the formula `\\oops` cannot be read"), "{told:?}");
         assert_eq!(told[1], "a.md:5: `nothing` failed: no such command.");

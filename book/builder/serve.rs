@@ -2,7 +2,7 @@
 
 use crate::build::{Book, build};
 use crate::http::{PATIENCE, Shown, start};
-use crate::kit::Kit;
+use crate::program::Program;
 use crate::say;
 use crate::site::Site;
 use crate::watch::Watch;
@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 const PACE: Duration = Duration::from_millis(300);
 
 /// Serves until the program is stopped.
-pub fn serve(book: &Book, kit: &Rc<RefCell<Kit>>, port: u16, out: &mut dyn Write) -> Result<(), String> {
+pub fn serve(book: &Book, program: &Rc<RefCell<Program>>, port: u16, out: &mut dyn Write) -> Result<(), String> {
     let listener = listen(port)?;
     let address = listener.local_addr().map_err(|error| error.to_string())?;
     let shown = Shown::default();
@@ -29,12 +29,12 @@ pub fn serve(book: &Book, kit: &Rc<RefCell<Kit>>, port: u16, out: &mut dyn Write
     let watched = watched.iter().map(|place| book.repository.join(place));
     let mut watch = Watch::new(watched.chain([book.pages.clone()]).collect());
     say(out, &format!("http://{address} shows the book and follows every change; Ctrl-C ends it."));
-    rebuild(book, kit, &shown, out);
+    rebuild(book, program, &shown, out);
     while !server.is_finished() {
         std::thread::sleep(PACE);
         let changed = watch.changed();
         if !changed.is_empty() {
-            follow(book, kit, &shown, &changed, out);
+            follow(book, program, &shown, &changed, out);
         }
     }
     Err(format!("nothing answers at http://{address} any more: start again."))
@@ -50,10 +50,10 @@ fn listen(port: u16) -> Result<TcpListener, String> {
     })
 }
 
-/// Only a change outside the pages can change what the kit answers.
-fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, changed: &[PathBuf], out: &mut dyn Write) {
+/// Only a change outside the pages can change what pinhole answers.
+fn follow(book: &Book, program: &Rc<RefCell<Program>>, shown: &Shown, changed: &[PathBuf], out: &mut dyn Write) {
     if changed.iter().any(|path| !path.starts_with(&book.pages)) {
-        kit.borrow_mut().forget();
+        program.borrow_mut().forget();
     }
     let is_source = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
     if changed.iter().any(is_source) {
@@ -62,14 +62,14 @@ fn follow(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, changed: &[PathBuf
             "source changed: listings follow; figures and output stay the compiled program's until you start again.",
         );
     }
-    rebuild(book, kit, shown, out);
+    rebuild(book, program, shown, out);
 }
 
 /// The site of before is shown until the new one is complete.
-fn rebuild(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, out: &mut dyn Write) {
+fn rebuild(book: &Book, program: &Rc<RefCell<Program>>, shown: &Shown, out: &mut dyn Write) {
     let start = Instant::now();
     let before = shown.now();
-    shown.replace(match build(book, kit).and_then(|()| before.next(&book.out)) {
+    shown.replace(match build(book, program).and_then(|()| before.next(&book.out)) {
         Ok(site) => {
             say(out, &format!("built in {:.1} s", start.elapsed().as_secs_f64()));
             site
@@ -84,7 +84,7 @@ fn rebuild(book: &Book, kit: &Rc<RefCell<Kit>>, shown: &Shown, out: &mut dyn Wri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::tests::{little_book, little_command, little_kit, write};
+    use crate::build::tests::{little_book, little_command, little_program, write};
     use crate::http::tests::{asked, served};
 
     #[test]
@@ -95,20 +95,20 @@ mod tests {
         let page = || asked(port, "GET /02_two.html");
         assert!(page().starts_with("HTTP/1.1 503"), "{}", page());
         let mut out = Vec::new();
-        rebuild(&book, &little_kit(), &shown, &mut out);
+        rebuild(&book, &little_program(), &shown, &mut out);
         assert!(page().contains("Back to") && page().contains("shown = \"1\""), "{}", page());
         write(&book, "02_two.md", "# Two\n\n## B\n\nOn to [one](01_one.md).\n");
         let meanwhile = Rc::new(RefCell::new(Vec::new()));
         let asking = Rc::clone(&meanwhile);
-        let kit = Kit::with(move |words, out| {
+        let program = Program::with(move |words, out| {
             asking.borrow_mut().push(asked(port, "GET /02_two.html"));
             little_command(words, out)
         });
-        rebuild(&book, &kit, &shown, &mut out);
+        rebuild(&book, &program, &shown, &mut out);
         assert!(!meanwhile.borrow().is_empty() && meanwhile.borrow().iter().all(|page| page.contains("Back to")));
         assert!(page().contains("On to") && page().contains("shown = \"2\""), "{}", page());
         write(&book, "02_two.md", "# Two\n\n## B\n\n$\\oops$\n");
-        rebuild(&book, &little_kit(), &shown, &mut out);
+        rebuild(&book, &little_program(), &shown, &mut out);
         assert!(page().contains("On to"), "{}", page());
         let revision = asked(port, "GET /__revision");
         assert!(revision.contains("\r\n\r\n2\n") && revision.contains("oops"), "{revision}");

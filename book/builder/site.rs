@@ -130,7 +130,7 @@ impl Site {
     }
 }
 
-/// Whether a Host header names this machine. Another name that leads here would let the page of a stranger, which the
+/// Whether a Host header names this machine. Another name that leads here would let somebody else's page, which the
 /// browser takes to be of the same site, read the book.
 fn is_this_machine(host: &str) -> bool {
     let port = |(_, port): &(&str, &str)| port.parse::<u16>().is_ok();
@@ -158,12 +158,12 @@ fn media_type(file: &Path) -> &'static str {
 mod tests {
     use super::*;
     use crate::build::build;
-    use crate::build::tests::{little_book, little_kit};
+    use crate::build::tests::{little_book, little_program};
 
     #[test]
     fn pages_are_served_and_nothing_else() {
         let (_folder, book) = little_book();
-        build(&book, &little_kit()).expect("the little book builds");
+        build(&book, &little_program()).expect("the little book builds");
         #[cfg(unix)]
         std::os::unix::fs::symlink(&book.pages, book.out.join("link")).expect("a link");
         let site = Site::read(&book.out, 7).expect("a site").stopped("a mistake".to_owned());

@@ -1,5 +1,5 @@
-//! A ray hits a sphere and a plane: which t comes first?
-//! The picture paints the hits, a colour a shape, darker with distance.
+//! Ray–sphere and ray–plane intersection: which t comes first?
+//! The picture paints the hits, one colour for each shape, darker with distance.
 //! New here: intersection, exact enough for a sphere that is very far or very large.
 
 use bevy_ecs::prelude::*;
@@ -13,9 +13,10 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("03_hit", "a ray meets a sphere and a plane", scene)
+    Chapter::new("03_hit", "ray–sphere and ray–plane intersection", scene)
         .offer(stages::camera_rays())
         .offer(stages::intersection())
+        .offer(stages::surfaces())
         .show::<intersect::Hits>()
 }
 // ANCHOR_END: chapter

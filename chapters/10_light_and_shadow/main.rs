@@ -1,6 +1,6 @@
 //! Does the light reach the point that a ray has hit? Another ray, from the point to the light, asks what is in between.
 //! Two lights of different colours: where one is hidden, the other colours the shadow.
-//! New here: shadow rays, stage by stage; the box that chapter 05 left closed.
+//! New here: shadow rays, stage by stage; the box that chapter 5 left closed.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -1,5 +1,5 @@
-//! How pinhole is built, shown by building onto it: a column and a stage of this chapter's own.
-//! The picture is how directly each surface faces the eye, which no stage of pinhole computes.
+//! How pinhole is built, shown by extending it: a column and a stage of this chapter's own.
+//! The picture is the cosine between each normal and the direction to the eye, which no stage of pinhole computes.
 //! New here: nothing in the renderer; `Facing` and its stage live in this file.
 
 use bevy_ecs::prelude::*;
@@ -16,7 +16,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("12_how_it_is_built", "how the kit is built", scene)
+    Chapter::new("12_how_it_is_built", "how pinhole is built", scene)
         .offer(stages::camera_rays())
         .offer(stages::intersection())
         .offer(stages::surfaces())
@@ -28,7 +28,7 @@ pub fn chapter() -> Chapter {
 
 // ANCHOR: facing
 column! {
-    /// The cosine at which each ray hits its surface.
+    /// The facing ratio of the surface that each ray hits.
     pub struct Facing("facing", "none, a ratio", "1", Ray) {
         /// The cosine of the angle between the normal and the direction to the eye; 0 where nothing is hit.
         cosine: f32,
@@ -42,7 +42,7 @@ impl Facing {
     }
 }
 
-/// The cosine for one row; at a rim rounding may take it below 0, where the film would refuse it.
+/// The cosine for one row; at a rim rounding may make it negative, which the film would refuse.
 fn facing([dx, dy, dz]: [f32; 3], [nx, ny, nz]: [f32; 3]) -> f32 {
     let cosine = -(dx * nx + dy * ny + dz * nz);
     if cosine > 0.0 { cosine } else { 0.0 }

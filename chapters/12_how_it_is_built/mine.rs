@@ -2,7 +2,7 @@
 
 use super::question::{Input, StageWords};
 use pinhole::film::FilmTile;
-use pinhole::plan::{Column, ColumnKind, Stage};
+use pinhole::plan::{Census, Column, ColumnKind, Stage};
 use pinhole::scene::View;
 use pinhole_lab::exercise::{Ask, Setting, StandIn};
 
@@ -22,6 +22,6 @@ fn words(stage: &Stage, setting: &Setting<'_>) -> StageWords {
     if stage.reads_view {
         reads.extend(setting.camera::<View>().map(|view| view.column.clone()));
     }
-    let needed = (stage.when)(setting.scene).needed;
+    let needed = (stage.when)(&Census::of(setting.scene)).needed;
     StageWords { name: stage.name.into(), needed, reads, writes: names(&stage.writes) }
 }

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use bevy_ecs::prelude::World;
-use pinhole::plan::{ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
+use pinhole::plan::{Census, ColumnKind, Evidence, Lifetime, Stage, TileSystems, plan};
 use pinhole::stages;
 use pinhole_lab::exercise::apart::exact;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, probes};
@@ -168,10 +168,11 @@ fn by_the_plan((stages, asked): &Input) -> Option<Vec<String>> {
     for words in stages {
         let reads = words.reads.iter().map(&mut column).collect::<Option<_>>()?;
         let writes = words.writes.iter().map(&mut column).collect::<Option<_>>()?;
-        let when = if words.needed { |_: &World| Evidence::always("needed") } else { |_: &World| Evidence::default() };
+        let when: fn(&Census<'_>) -> Evidence =
+            if words.needed { |_| Evidence::always("needed") } else { |_| Evidence::default() };
         offer.push(Stage { reads, writes, when, ..Stage::new("", TileSystems::Raster, || ()) });
     }
-    let plan = plan(&World::new(), &offer).ok()?;
+    let plan = plan(&Census::of(&World::new()), &offer).ok()?;
     Some(stages.iter().zip(&plan.rows).filter(|(_, row)| row.kept).map(|(words, _)| words.name.clone()).collect())
 }
 

@@ -1,6 +1,6 @@
 //! A scene of many kinds: a ball, a floor, a table top, a board, boxes, a pyramid of triangles; which one does a ray hit?
-//! Each kind narrows the hit in its turn; where two are equally near, the lower shape number wins.
-//! New here: the disk, the rectangle and the cuboid, and how each is described.
+//! Each kind in turn keeps the closest hit; where two are equally near, the lower shape number wins.
+//! New here: the disk, the rectangle and the cuboid, and how the surface of each is computed.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;
@@ -52,10 +52,10 @@ fn scene(world: &mut World) {
     let crate_at = Placement { orientation: aside, ..Placement::at(-1.6, 0.6, 0.2) };
     world.spawn((Name::new("crate"), Cuboid { size: [1.4, 1.2, 1.0].into() }, crate_at, matte(0.75, 0.3, 0.2)));
     world.spawn((Name::new("ball"), Sphere { radius: 0.45 }, Placement::at(-1.6, 1.65, 0.2), matte(0.85, 0.7, 0.3)));
-    // The leg ends in the very plane of the table top.
+    // The foot ends in the very plane of the table top.
     world.spawn((Name::new("table top"), Disk { radius: 1.0 }, Placement::at(1.2, 0.875, 0.0), UsesMaterial(wood)));
-    let depth = Cuboid { size: [0.14, 0.875, 0.14].into() };
-    world.spawn((Name::new("leg"), depth, Placement::at(1.2, 0.4375, 0.0), UsesMaterial(wood)));
+    let foot = Cuboid { size: [0.14, 0.875, 0.14].into() };
+    world.spawn((Name::new("foot"), foot, Placement::at(1.2, 0.4375, 0.0), UsesMaterial(wood)));
     let top = [1.45, 1.5, -0.4].into();
     let foot = [[1.1, 0.875, -0.15], [1.85, 0.875, -0.15], [1.5, 0.875, -0.8]];
     for side in 0..3 {

@@ -62,8 +62,8 @@ fn gem(world: &mut World, name: &str, placement: Placement, round: bool, parent:
         let half = |axis: u32| if face >> axis & 1 == 0 { 1.0 } else { -1.0 };
         let vertices = [DVec3::X * half(0), DVec3::Y * half(1), DVec3::Z * half(2)];
         let normals = round.then_some(vertices);
-        let facet = (Triangle { vertices, normals, uvs: None }, UsesMaterial(group), ChildOf(group));
-        world.spawn((Name::new(format!("{name}, face {face}")), facet));
+        let triangle = (Triangle { vertices, normals, uvs: None }, UsesMaterial(group), ChildOf(group));
+        world.spawn((Name::new(format!("{name}, face {face}")), triangle));
     }
 }
 // ANCHOR_END: scene

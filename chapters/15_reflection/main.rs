@@ -1,5 +1,5 @@
 //! What does a surface make of the light that falls on it? Three models side by side: matte, Phong, Blinn–Phong.
-//! Three kinds of light shine on them, directional, spot and point, and one ball shines by itself.
+//! Three kinds of light shine on them, directional, spot and point, and one ball is emissive.
 //! New here: highlights, surfaces that emit, and lights other than points.
 
 use bevy_ecs::prelude::*;

@@ -1,5 +1,5 @@
-//! How does a surface get more than one colour, and what has a pixel that covers a thousand of them?
-//! A checkered floor to the horizon, stripes through a block, an image on a ball and on a panel, an evening all round.
+//! How does a surface get more than one colour, and what is the colour of a pixel that covers a thousand of them?
+//! A checkered floor to the horizon, stripes through a block, an image on a ball and on a panel, an evening sky all round.
 //! New here: what a pixel covers of a surface, the mean of a texture over it, and light from an image of all directions.
 
 use bevy_ecs::prelude::*;

@@ -3,7 +3,7 @@
 // ANCHOR: tent_offset
 /// How far to the right of the pixel's centre a tent filter puts the sample that a number stands for, in pixels.
 ///
-/// The number is from 0 to below 1, all alike. The tent is highest at the centre and falls in a straight line to 0 at
+/// The number is uniform from 0 to below 1. The tent is highest at the centre and falls in a straight line to 0 at
 /// `radius` pixels on both sides. Places must be as frequent as the tent is high there, and must grow with the number:
 /// 0 is at −radius, 0.5 at the centre.
 pub fn tent_offset(u: f64, radius: f64) -> f64 {

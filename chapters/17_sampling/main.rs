@@ -1,4 +1,4 @@
-//! Sampling a pixel: many rays through each, at well-chosen places, each weighted by a filter.
+//! Sampling a pixel: many rays through each, at well-chosen places, distributed as a filter says.
 //! The rings become finer than a pixel; what is wrong with the samples shows as rings that are not there.
 //! New here: the `Sampling` on the camera, and the stage "Place samples" in place of "Place raster points".
 

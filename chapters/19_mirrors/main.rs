@@ -1,6 +1,6 @@
 //! Where does light go on that hits a mirror, and where from metal that is not quite smooth?
 //! Three balls of the same metal, smooth, brushed and rough, show each other, the floor and the sky.
-//! New here: rays go on from what they hit, bounce after bounce; some in sampled directions.
+//! New here: paths go on from what they hit, bounce after bounce; some of them in random directions.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -1,6 +1,6 @@
-//! What does a surface of glass do with light? It mirrors a part and bends the rest.
+//! What does a surface of glass do with light? It reflects a part and refracts the rest.
 //! A clear ball with a bubble of air, and a drink in a thick glass that it wets.
-//! New here: refraction, Fresnel's equations, light that is absorbed inside, and glass within glass.
+//! New here: refraction, Fresnel's equations, absorption, and glass within glass.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -8,7 +8,7 @@ use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
 
 pub(super) type Vector = [f64; 3];
-/// A direction, a normal, and how many times as dense the far side is.
+/// A direction, a normal, and the far side's index of refraction over the near side's.
 pub(super) type Input = (Vector, Vector, f64);
 
 /// What the reader writes.

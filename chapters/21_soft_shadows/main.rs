@@ -1,4 +1,4 @@
-//! Lights with an area: a shadow's edge is as soft as the light is wide. One point of one light is sampled at a time.
+//! Area lights: a shadow's edge is as soft as the light is wide. One point of one light is sampled at a time.
 //! A wide light on one side, a bulb on the other: the post and the ball have a shadow of each.
 //! New here: `Emissive` lights other surfaces; the stage "Sample area lights"; the camera's `Integrator`.
 
@@ -13,7 +13,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("21_soft_shadows", "lights with an area", scene)
+    Chapter::new("21_soft_shadows", "area lights", scene)
         .offer(stages::camera_rays())
         .offer(stages::samples())
         .offer(stages::intersection())

@@ -1,4 +1,4 @@
-//! Chapter 21: how likely a direction is when a point of an area is chosen evenly.
+//! Chapter 21: the pdf of a direction when a point of an area is chosen uniformly.
 
 use super::mine::mine;
 use glam::DVec3;

@@ -85,7 +85,7 @@ fn asked() -> Vec<Probe<Input>> {
 /// A ray at where a moving sphere is at its time, or close beside it.
 fn ray(index: u64) -> Input {
     let mut draws = Draws::new(2401, index);
-    let mut point = |reach: f64| DVec3::from([0, 1, 2].map(|_| draws.between(-reach, reach)));
+    let mut point = |extent: f64| DVec3::from([0, 1, 2].map(|_| draws.between(-extent, extent)));
     let (origin, centre, velocity, beside) = (point(2.0), point(2.0) - DVec3::Z * 9.0, point(3.0), point(1.0));
     let (radius, time) = (draws.between(0.2, 1.5), draws.between(0.0, 2.0));
     let there = centre + velocity * time + beside * radius * 1.2;

@@ -6,7 +6,7 @@ use pinhole_lab::figure::{Figure, broken_paths, integrators};
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
     vec![
         Figure {
-            name: "25_legs",
+            name: "25_path_lengths",
             chapter,
             about: "one scene by ray casting, and by paths of two, three and many segments",
             draw: integrators::draw_segments,

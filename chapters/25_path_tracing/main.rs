@@ -1,6 +1,6 @@
 //! Where does the light come from that no light sends there directly? A room with one light below its ceiling.
 //! The walls' colours lie on the ball, the block and the ceiling.
-//! New here: surfaces send light on to each other, until Russian roulette ends a path.
+//! New here: surfaces reflect light to each other, until Russian roulette ends a path.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -6,7 +6,7 @@ use pinhole_lab::figure::{Figure, integrators, path_mistakes};
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
     vec![
         Figure {
-            name: "26_ways",
+            name: "26_strategies",
             chapter,
             about: "area lights found by BSDF sampling, by light sampling, and by both with multiple importance sampling",
             draw: integrators::draw_ways,

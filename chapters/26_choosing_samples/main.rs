@@ -1,6 +1,6 @@
-//! Which rays tell most? Four plates of metal, smooth to rough, show four lights, small to large, of equal power.
+//! Which samples are worth most? Four plates of metal, smooth to rough, show four lights, small to large, of equal power.
 //! BSDF sampling suits the smooth plate, light sampling the rough one; neither suits both.
-//! New here: `LightStrategy::Mis`, which uses both and weights them.
+//! New here: `LightStrategy::Mis`, multiple importance sampling, which uses both and weights them.
 
 use bevy_ecs::prelude::*;
 use pinhole::scene::*;

@@ -1,6 +1,6 @@
 //! Where does the bright spot behind a ball of glass come from? From a light so small that hardly a ray hits it.
-//! The ball focuses its light on the floor, and half a ring of mirror folds it into a curve.
-//! New here: rays that start on the light, and are connected to the camera.
+//! The ball focuses its light on the floor, and half a ring of mirror focuses it into a curve.
+//! New here: light tracing, paths that start on the light and are connected to the camera.
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;

@@ -13,7 +13,7 @@ fn main() -> pinhole::Result {
 // ANCHOR: chapter
 /// The scene, and the stages on offer.
 pub fn chapter() -> Chapter {
-    Chapter::new("cover", "the cover: glass, mirrors and metal, in and out of focus, under a lamp with a size", scene)
+    Chapter::new("cover", "the cover: glass, mirrors and metal, in and out of focus, under an area light", scene)
         .offer(stages::all())
 }
 // ANCHOR_END: chapter

@@ -3,7 +3,7 @@ use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
 use pinhole::extract::{ImageFrame, PerspectiveProjection, angle_across, camera_entity, half_extent, validate};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
 use serde_json::json;
 use std::io::Write;
@@ -14,7 +14,8 @@ use std::io::Write;
 pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Format, out: &mut dyn Write) -> Result {
     let asked = options.asked(false);
     let scene = subject.world(&asked);
-    validate(&scene).map_err(|scene_error| subject.placed(scene_error.into(), &asked))?;
+    let census = &Census::of(&scene);
+    validate(census).map_err(|scene_error| subject.placed(scene_error.into(), &asked))?;
     let camera = camera_entity(&scene)?;
     let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera) else {
         let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
@@ -22,7 +23,7 @@ pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Forma
             if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
         return Err(Error::usage(format!("the camera of {} {told}", subject.name())));
     };
-    let (lens, image) = (PerspectiveProjection::extract(&scene)?, ImageFrame::extract(&scene)?);
+    let (lens, image) = (PerspectiveProjection::extract(census)?, ImageFrame::extract(census)?);
     let aspect = image.aspect();
     let word = |axis: FovAxis| format!("{axis:?}").to_lowercase();
     let axes = [FovAxis::Vertical, FovAxis::Horizontal, FovAxis::Smaller, FovAxis::Larger, FovAxis::Diagonal];

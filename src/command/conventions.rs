@@ -7,6 +7,7 @@ use bevy_ecs::prelude::World;
 use pinhole::extract::{angle_of_tan_half, validate};
 use pinhole::film::{check_place, write_png};
 use pinhole::look::convention::{Mistake, PlacedCamera, Program, back, lines, round_trip};
+use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
 use pinhole::scene::printable_path;
 use pinhole::{Chapter, Overrides};
@@ -24,7 +25,7 @@ pub fn print_conventions(
     let subject = Subject::find(chapters, &asked.chapter)?;
     let size = Overrides { size: asked.size, ..Overrides::default() };
     let scene = subject.world(&size);
-    validate(&scene).map_err(|scene_error| subject.placed(scene_error.into(), &size))?;
+    validate(&Census::of(&scene)).map_err(|scene_error| subject.placed(scene_error.into(), &size))?;
     match (asked.mistake, asked.round_trips) {
         (Some(mistake), _) => render_mistake(&subject, scene, mistake, asked, format, out),
         (None, Some(cameras)) => print_round_trips(cameras, format, out),

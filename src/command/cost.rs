@@ -5,7 +5,7 @@ use super::format::{Format, print_json, shown};
 use super::interrupt::Waiting;
 use pinhole::extract::SamplingTable;
 use pinhole::film::write_whole;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::Execution;
 use pinhole::scene::{Resolution, printable_path};
 use pinhole::{Chapter, Overrides};
@@ -73,7 +73,7 @@ struct Measured {
 impl Measured {
     fn of(chapter: &Chapter) -> Result<Self> {
         let made_from = made_from(chapter.name)?;
-        let samples = SamplingTable::extract(&chapter.world(&Overrides::default()))?.samples;
+        let samples = SamplingTable::extract(&Census::of(&chapter.world(&Overrides::default())))?.samples;
         let smaller = samples.isqrt().max(1);
         let size = Resolution { width: SIZE.width / smaller, height: SIZE.height / smaller };
         let asked = Overrides { resolution: Some(size), statistics: true, ..Overrides::default() };

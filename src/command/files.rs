@@ -1,10 +1,9 @@
 use super::error::{Error, Result};
 use super::options::RenderOptions;
 use super::subject::Subject;
-use bevy_ecs::prelude::*;
-use pinhole::extract::ShapeTable;
-use pinhole::film::{Curve, Film, png_bytes, write_exr, write_layered_exr, write_png};
-use pinhole::plan::{Plan, Table};
+use pinhole::extract::shape_names;
+use pinhole::film::{Curve, Film, FilmLayers, png_bytes, write_exr, write_layered_exr, write_png};
+use pinhole::plan::{Census, Column, Plan};
 use pinhole::scene::printable_path;
 use pinhole_lab::exercise::Mine;
 use std::io::Write;
@@ -90,9 +89,10 @@ pub struct Files {
 
 impl Files {
     /// The files of a scene's pictures.
-    pub fn new(targets: Targets, scene: &World, plan: &Plan, mine: Option<Mine>) -> Self {
+    pub fn new(targets: Targets, scene: &Census<'_>, plan: &Plan, mine: Option<Mine>) -> Self {
         let curve = if plan.view.is_some() { Curve::Straight } else { Curve::Srgb };
-        let names = ShapeTable::extract(scene).map(|shapes| shapes.name).unwrap_or_default();
+        let keeps_layers = plan.columns.iter().any(|column| column.name == FilmLayers::NAME);
+        let names = if keeps_layers { shape_names(scene) } else { Vec::new() };
         Self { targets, names, curve, mine }
     }
 

@@ -2,9 +2,9 @@ use super::error::Result;
 use super::files::Files;
 use super::interrupt::{EndsByItself, Waiting};
 use super::options::RenderOptions;
-use bevy_ecs::prelude::*;
 use pinhole::extract::adaptive_of;
 use pinhole::film::{Film, check_place, read_checkpoint, write_checkpoint};
+use pinhole::plan::Census;
 use pinhole::render::{Limits, Outcome, RenderInProgress, film_key, render_in_passes};
 use std::fs;
 use std::io::ErrorKind;
@@ -20,7 +20,7 @@ const WORTH_KEEPING: Duration = Duration::from_secs(2);
 /// Errors: what a render or a file is refused for, or a stop by Ctrl-C, after which all is written.
 pub fn render_long(
     render: &mut RenderInProgress,
-    scene: &World,
+    scene: &Census<'_>,
     options: &RenderOptions,
     files: &Files,
     waiting: &Waiting,

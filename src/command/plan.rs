@@ -2,7 +2,7 @@ use super::error::Result;
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use pinhole::plan::{ColumnKind, Lifetime, Pass, PlanRow};
+use pinhole::plan::{Census, ColumnKind, Lifetime, Pass, PlanRow};
 use pinhole::render::prepare;
 use pinhole_lab::review::plan_text;
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub fn print_plan(subject: &Subject<'_>, options: &SceneOptions, format: Format,
         write!(out, "{}", plan_text(subject.name(), subject.title(), &world, &stages).map_err(placed)?)?;
         return Ok(());
     }
-    let (plan, tables) = prepare(&world, &stages).map_err(placed)?;
+    let (plan, tables) = prepare(&Census::of(&world), &stages).map_err(placed)?;
     let columns: Vec<PlannedColumn> = plan.columns.iter().map(PlannedColumn::of).collect();
     let planned = Planned {
         scene: subject.name(),

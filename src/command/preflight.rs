@@ -5,7 +5,7 @@ use super::subject::{Subject, every_stage};
 use bevy_ecs::prelude::*;
 use pinhole::Chapter;
 use pinhole::look::{MISTAKES, Preflight, preflight};
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage};
 use pinhole::render::{check_film_fits, prepare};
 use serde_json::json;
 use std::io::Write;
@@ -50,9 +50,10 @@ pub fn print_preflight(chapters: &[Chapter], asked: &TryPreflight, format: Forma
 }
 
 fn said(scene: &World, stages: &[Stage], began: Instant) -> pinhole::Result<Vec<String>> {
-    let (plan, tables) = prepare(scene, stages)?;
-    check_film_fits(scene, &plan)?;
-    preflight(scene, (&plan, &tables), Preflight::default().since(began))
+    let census = &Census::of(scene);
+    let (plan, tables) = prepare(census, stages)?;
+    check_film_fits(census, &plan)?;
+    preflight(census, (&plan, &tables), Preflight::default().since(began))
 }
 
 fn print_lines(told: &[String], indent: &str, out: &mut dyn Write) -> Result {

@@ -12,11 +12,11 @@ use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
 use super::warnings::warnings;
-use bevy_ecs::prelude::*;
 use pinhole::Chapter;
 use pinhole::extract::{LayerTable, adaptive_of, camera_entity, validate};
 use pinhole::film::check_place;
 use pinhole::look::{Preflight, RenderStats, preflight};
+use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::Sampling;
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE};
@@ -100,19 +100,20 @@ fn render_with(
     let asked = options.asked(!options.quiet);
     let scene = subject.world(&asked);
     let placed = |error| subject.placed(error, &asked);
-    validate(&scene).map_err(|scene_error| placed(scene_error.into()))?;
-    check_requests(&scene, options, &targets, streams)?;
-    let mut render = RenderInProgress::begin(&scene, &subject.stages(), &execution).map_err(placed)?;
+    let census = &Census::of(&scene);
+    validate(census).map_err(|scene_error| placed(scene_error.into()))?;
+    check_requests(census, options, &targets, streams)?;
+    let mut render = RenderInProgress::begin(census, &subject.stages(), &execution).map_err(placed)?;
     let watched = (!json && !options.quiet).then(|| subject.shown());
     if let (Some(what), true) = (&watched, streams.waits) {
         Progress::announce(what, render.film.width, render.film.height);
     }
-    let said = before_rendering(&scene, options, (&render, began), json, streams)?;
+    let said = before_rendering(census, options, (&render, began), json, streams)?;
 
-    let files = Files::new(targets, &scene, &render.plan, mine);
+    let files = Files::new(targets, census, &render.plan, mine);
     let waiting = waiting(watched.as_deref(), options, &render, streams);
     let outcome = if render.is_sampled() {
-        Some(render_long(&mut render, &scene, options, &files, &waiting, &mut |note| {
+        Some(render_long(&mut render, census, options, &files, &waiting, &mut |note| {
             if json { Ok(()) } else { streams.note(note) }
         })?)
     } else {
@@ -139,7 +140,7 @@ fn render_with(
         stats: &stats,
         outcome: outcome.as_ref(),
         samples,
-        target: adaptive_of(&scene)?.map(|adaptive| adaptive.error),
+        target: adaptive_of(census)?.map(|adaptive| adaptive.error),
         files: told,
         plan: hints::plan(subject, options),
         next: hints::next(subject, options, rendered.film.width, rendered.film.height),
@@ -157,7 +158,7 @@ fn render_with(
 
 /// Says what a reader should know before they wait; a program is told with the rest.
 fn before_rendering(
-    scene: &World,
+    scene: &Census<'_>,
     options: &RenderOptions,
     (render, began): (&RenderInProgress, Instant),
     json: bool,
@@ -185,7 +186,7 @@ fn waiting(what: Option<&str>, options: &RenderOptions, render: &RenderInProgres
 }
 
 /// Refuses what the picture's kind or the camera's rays cannot give.
-fn check_requests(scene: &World, options: &RenderOptions, targets: &Targets, streams: &Streams<'_>) -> Result {
+fn check_requests(scene: &Census<'_>, options: &RenderOptions, targets: &Targets, streams: &Streams<'_>) -> Result {
     let refused = |what: &str| Err(Error::CommandLine(what.into()));
     if !LayerTable::kinds_of(scene).is_empty() && !targets.hold_layers() {
         let what = "layers are channels of an EXR, so the name must end in .exr, or be left out for both kinds";

@@ -7,7 +7,7 @@ use super::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
 use pinhole::extract::{ImageFrame, camera_entity, integrator_of, validate};
 use pinhole::film::{check_place, write_whole};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::Watch;
 use pinhole::scene::{Filter, Integrator, LightStrategy, Resolution, Sampler, Sampling, scene_text};
 use pinhole::{Chapter, Overrides};
@@ -123,7 +123,10 @@ fn measure_one(chapters: &[Chapter], asked: &ReportErrors, format: Format, out: 
     let scenes = variants.iter().map(|variant| {
         let world = (variant.scene)();
         let text = scene_text(&world)?;
-        Ok((pinhole_lab::measure::cost::fingerprint(text.as_bytes()), pinhole::extract::shape_entities(&world).len()))
+        Ok((
+            pinhole_lab::measure::cost::fingerprint(text.as_bytes()),
+            pinhole::extract::shape_entities(&Census::of(&world)).len(),
+        ))
     });
     let empty = Report {
         name: subject.stem(),
@@ -213,7 +216,7 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
     let of =
         |subject: &'c Subject<'c>, name: String, change: &dyn Fn(&mut Sampling), reference| -> Result<Variant<'c>> {
             let world = subject.world(&asked());
-            validate(&world).map_err(|scene_error| subject.placed(scene_error.into(), &asked()))?;
+            validate(&Census::of(&world)).map_err(|scene_error| subject.placed(scene_error.into(), &asked()))?;
             let camera = camera_entity(&world)?;
             let mut sampling = world.get::<Sampling>(camera).copied().unwrap_or_default();
             change(&mut sampling);
@@ -252,7 +255,7 @@ fn variants<'c>(subject: &'c Subject<'c>, rivals: &'c [Rival<'c>], size: Resolut
 
 /// The subject's paths with another way to find lights.
 fn paths_with(subject: &Subject<'_>, word: &str, lights: LightStrategy) -> Result<Integrator> {
-    match integrator_of(&subject.world(&Overrides::default())).integrator {
+    match integrator_of(&Census::of(&subject.world(&Overrides::default()))).integrator {
         Integrator::Path { max_depth, roulette, .. } => Ok(Integrator::Path { max_depth, lights, roulette }),
         _ => Err(Error::usage(format!("--against lights={word}: {} has no paths to find lights by", subject.stem()))),
     }
@@ -267,7 +270,7 @@ fn first_name(subject: &Subject<'_>, rivals: &[Rival<'_>], sampling: &Sampling) 
         rivals.iter().any(|rival| matches!(rival, Rival::Filter(..))),
     ];
     if !samplers && !filters && rivals.iter().any(|rival| matches!(rival, Rival::Lights(..))) {
-        let own = integrator_of(&subject.world(&Overrides::default())).integrator;
+        let own = integrator_of(&Census::of(&subject.world(&Overrides::default()))).integrator;
         let named = |(_, it): &&(&str, LightStrategy)| matches!(own, Integrator::Path { lights, .. } if lights == *it);
         return LightStrategy::ALL.iter().find(named).map_or_else(|| subject.stem(), |(word, _)| (*word).into());
     }
@@ -285,8 +288,9 @@ fn size(subject: &Subject<'_>, asked: Option<Resolution>) -> Result<Resolution> 
         return Ok(size);
     }
     let world = subject.world(&Overrides::default());
-    validate(&world).map_err(|scene_error| subject.placed(scene_error.into(), &Overrides::default()))?;
-    let ImageFrame { width, height, .. } = ImageFrame::extract(&world)?;
+    let census = &Census::of(&world);
+    validate(census).map_err(|scene_error| subject.placed(scene_error.into(), &Overrides::default()))?;
+    let ImageFrame { width, height, .. } = ImageFrame::extract(census)?;
     let aspect = f64::from(width) / f64::from(height);
     let across = (PIXELS * aspect).sqrt().round().clamp(1.0, PIXELS);
     let down = (across / aspect).round().max(1.0);

@@ -3,7 +3,7 @@ use super::find;
 use super::interrupt::interrupted;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, validate};
-use pinhole::plan::{PlanError, Stage};
+use pinhole::plan::{Census, PlanError, Stage};
 use pinhole::scene::{FileProblem, SceneFile, View};
 use pinhole::{Chapter, Overrides, stages};
 use std::ffi::OsStr;
@@ -119,7 +119,7 @@ impl<'c> Subject<'c> {
             }
             pinhole::Error::SceneError(_) => file.place_of(|world| {
                 asked.put_on_camera(world);
-                validate(world).err()
+                validate(&Census::of(world)).err()
             }),
             pinhole::Error::Plan(PlanError::NoSuchView { .. }) if asked.view.is_none() => file.place_of_word("view"),
             _ => return error.into(),

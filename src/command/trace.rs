@@ -3,7 +3,7 @@ use super::format::{Format, number_or_word, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
 use pinhole::look::{self, Trace};
-use pinhole::plan::ComponentNumber;
+use pinhole::plan::{Census, ComponentNumber};
 use pinhole::scene::TracePixel;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ pub fn print_trace(
     out: &mut dyn Write,
 ) -> Result {
     let asked = options.asked(false);
-    let traced = look::trace_sample(&subject.world(&asked), &subject.stages(), pixel, sample);
+    let traced = look::trace_sample(&Census::of(&subject.world(&asked)), &subject.stages(), pixel, sample);
     let mut trace = traced.map_err(|error| subject.placed(error, &asked))?;
     if format.is_json() {
         return print_json(&Traced::of(subject.name(), &trace), out);

@@ -5,7 +5,7 @@ use super::options::RenderOptions;
 use super::subject::Subject;
 use pinhole::extract::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, camera_entity};
 use pinhole::film::{Film, column_of_layer};
-use pinhole::plan::{Plan, Table};
+use pinhole::plan::{Census, Plan, Table};
 use pinhole::scene::PerspectiveCamera;
 
 /// All of it, each in one sentence.
@@ -74,7 +74,8 @@ fn narrow_pixels(subject: &Subject<'_>, options: &RenderOptions) -> Result<Optio
     if !perspective {
         return Ok(None);
     }
-    let narrowest = PerspectiveProjection::extract(&scene)?.narrowest_pixel(ImageFrame::extract(&scene)?);
+    let census = &Census::of(&scene);
+    let narrowest = PerspectiveProjection::extract(census)?.narrowest_pixel(ImageFrame::extract(census)?);
     Ok((narrowest < SMALLEST_PIXEL).then(|| {
         format!(
             "so wide an angle leaves pixels in the corners {narrowest:.1e} rad wide, and world rays in f32 can be off by \

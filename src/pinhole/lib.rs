@@ -49,7 +49,7 @@ pub use chapter::{Chapter, Overrides, SamplingOverrides, Size};
 pub use error::{Error, Result};
 pub use example::run;
 
-// The unit tests share files of the laboratory, which name this crate from outside.
+// The unit tests include files of the laboratory, which name this crate from outside.
 #[cfg(test)]
 extern crate self as pinhole;
 #[cfg(test)]

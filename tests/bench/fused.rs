@@ -14,7 +14,7 @@ use pinhole::extract::{
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface, l1_norm, nearness, offset_bound, offset_origin, plane_t, sphere_t};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
     Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
@@ -48,32 +48,33 @@ impl Scene {
     /// # Panics
     /// When the scene holds a shape that this loop does not know.
     pub fn extract(world: &World) -> Result<Self, SceneError> {
-        let kinds = ShapeTable::extract(world)?.kind;
+        let census = &Census::of(world);
+        let kinds = ShapeTable::extract(census)?.kind;
         let known = kinds.iter().all(|kind| matches!(kind, ShapeKind::Sphere | ShapeKind::Plane));
         assert!(known, "the scenes that are measured hold spheres and planes only");
-        let materials: MaterialTable = Table::extract(world)?;
+        let materials: MaterialTable = Table::extract(census)?;
         assert!(materials.kind.iter().all(|&kind| kind == MaterialKind::Matte), "they hold matte things");
-        let (directional, spot) = (DirectionalLightTable::extract(world)?, SpotLightTable::extract(world)?);
+        let (directional, spot) = (DirectionalLightTable::extract(census)?, SpotLightTable::extract(census)?);
         assert!(directional.to_light.is_empty() && spot.position.is_empty(), "and point lights");
         Ok(Self {
-            image: Table::extract(world)?,
-            lens: Table::extract(world)?,
-            axes: Table::extract(world)?,
-            spheres: Table::extract(world)?,
-            planes: Table::extract(world)?,
-            shapes: Table::extract(world)?,
+            image: Table::extract(census)?,
+            lens: Table::extract(census)?,
+            axes: Table::extract(census)?,
+            spheres: Table::extract(census)?,
+            planes: Table::extract(census)?,
+            shapes: Table::extract(census)?,
             materials,
-            lights: Table::extract(world)?,
-            background: Table::extract(world)?,
-            sampling: sampling_evidence(world).needed.then(|| Table::extract(world)).transpose()?,
-            filter: Table::extract(world)?,
+            lights: Table::extract(census)?,
+            background: Table::extract(census)?,
+            sampling: sampling_evidence(census).needed.then(|| Table::extract(census)).transpose()?,
+            filter: Table::extract(census)?,
         })
     }
 }
 
 /// A whole frame on this many threads.
 pub fn render(world: &World, threads: usize) -> Film {
-    let scene = Scene::extract(world).expect("the scene is a chapter's");
+    let scene = Scene::extract(&Census::of(world)).expect("the scene is a chapter's");
     let mut film = Film::new(scene.image.width, scene.image.height, 32);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("workers start");
     let tiles = Mutex::new(film.tiles.iter_mut());

@@ -8,7 +8,7 @@
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
-use pinhole::plan::{Stage, plan};
+use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
 use pinhole::{follow, intersect, rays, shade};
@@ -180,10 +180,11 @@ fn render_only(words: &[String]) {
     let camera = pinhole::extract::camera_entity(&world).expect("a camera");
     world.entity_mut(camera).insert(Resolution { width, height });
     let offer = (case.stages)();
-    let kept = plan(&world, &offer).expect("a plan");
+    let census = &Census::of(&world);
+    let kept = plan(census, &offer).expect("a plan");
     assert!(kept.rows.iter().all(|row| row.kept), "a stage is offered that the scene does not need:\n{kept}");
     let execution = Execution { threads: Some(1), ..Execution::default() };
-    let mut in_progress = RenderInProgress::begin(&world, &offer, &execution).expect("a plan");
+    let mut in_progress = RenderInProgress::begin(census, &offer, &execution).expect("a plan");
     if in_progress.is_sampled() {
         render_in_passes(&mut in_progress, &Limits::default(), &(), &mut |_| Ok(())).expect("renders");
         let key = film_key(&world, &in_progress.plan);

@@ -13,6 +13,7 @@ mod interval;
 mod scenes;
 
 use interval::interval;
+use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Filter, LightStrategy, LightTracing, Sampler, Sampling};
 use pinhole_lab::measure::image_error::{Numbers, image_error};
@@ -79,7 +80,7 @@ fn ours(scene: &str, options: &Options, samples: u32, seed: u64, sampler: Sample
         world.entity_mut(camera).insert(LightTracing { paths });
     }
     let started = Instant::now();
-    let mut render = RenderInProgress::begin(&world, &offer(), &Execution::default()).expect("begins");
+    let mut render = RenderInProgress::begin(&Census::of(&world), &offer(), &Execution::default()).expect("begins");
     render.advance(render.steps(), &()).expect("renders");
     let seconds = started.elapsed().as_secs_f64();
     (seconds, numbers(&render.finish().film))

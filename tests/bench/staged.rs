@@ -14,7 +14,7 @@ mod sunflower;
 use bevy_ecs::prelude::World;
 use interval::{cpu, interval, median};
 use pinhole::extract::ImageFrame;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Resolution, Sampler};
 use pinhole::{Chapter, Overrides, SamplingOverrides};
@@ -84,7 +84,7 @@ fn sampled(sampler: Sampler, options: &Options) {
 fn compare(chapter: &Chapter, world: &World, threads: usize, work: &str, options: &Options) -> f64 {
     let offer = chapter.stages();
     let execution = Execution { threads: Some(threads), ..Execution::default() };
-    let size = ImageFrame::extract(world).map(|image| [image.width, image.height]).expect("a size");
+    let size = ImageFrame::extract(&Census::of(world)).map(|image| [image.width, image.height]).expect("a size");
     let staged = || render(world, &offer, &execution, &()).expect("renders").film;
     let fused = || fused::render(world, threads);
     assert!(staged().tiles == fused().tiles, "the two images differ");

@@ -5,12 +5,12 @@ use pinhole::extract::SMOOTHEST_METAL;
 use pinhole::follow::{fresnel, fresnel_parts};
 
 #[test]
-fn metal_sends_on_what_page_19_says() {
+fn metal_reflects_what_page_19_says() {
     let sent = 1.0 - std::f64::consts::LN_2;
     assert!((sent - 0.3).abs() < 0.01);
-    page_says("19_mirrors.md", "sends on $1 - \\ln 2$, three tenths");
+    page_says("19_mirrors.md", "reflects $1 - \\ln 2$, three tenths");
     page_says("19_mirrors.md", &format!("the smooth ball the colour {sent:.2}"));
-    // D falls to half where (tan θ / α)² = √2 − 1, and the mirrored way turns by twice θ.
+    // D falls to half where (tan θ / α)² = √2 − 1, and the mirrored direction turns by twice θ.
     let half = 2.0 * libm::atan(SMOOTHEST_METAL * libm::sqrt(std::f64::consts::SQRT_2 - 1.0)).to_degrees();
     page_says(
         "19_mirrors.md",
@@ -21,12 +21,12 @@ fn metal_sends_on_what_page_19_says() {
 }
 
 #[test]
-fn glass_mirrors_what_page_20_says() {
+fn glass_reflects_what_page_20_says() {
     page_says("20_glass.md", &format!("{:.0} % for glass", 100.0 * fresnel(1.0, 1.5)));
     let critical = libm::asin(1.0 / 1.5).to_degrees();
     page_says("20_glass.md", &format!("everything from {critical:.0}° on"));
     assert!(fresnel(0.5, 1.5) < 0.1);
-    page_says("20_glass.md", "less than a tenth is mirrored up to 60°");
+    page_says("20_glass.md", "less than a tenth is reflected up to 60°");
     let [across, within] = fresnel_parts(1.0 / libm::sqrt(1.0 + 1.5 * 1.5), 1.5);
     assert!(within < 1e-20 && across > 0.1, "at Brewster's angle");
     assert_eq!(fresnel(0.3, 1.0), 0.0, "exactly 0 between equals");

@@ -5,14 +5,14 @@ use pinhole::extract::{blinn_phong_peak, phong_peak};
 use pinhole_lab::naive::light::short_blinn_phong_peak;
 
 #[test]
-fn highlights_send_on_what_page_15_says() {
-    // Without its factor Phong's lobe sends on 2π / (n + 2), one over the factor.
+fn highlights_reflect_what_page_15_says() {
+    // Without its factor Phong's lobe reflects 2π / (n + 2), one over the factor.
     let without = |exponent: f64| 1.0 / phong_peak(exponent);
     assert!(without(1.0) > 2.0 && without(1.0) < 2.2);
     let left = format!("{:.0} %", 100.0 * without(100.0));
     page_says(
         "15_reflection.md",
-        &format!("$n = 1$ sends on more than twice what arrives, and $n = 100$ loses all but {left}"),
+        &format!("$n = 1$ reflects more than twice what arrives, and $n = 100$ loses all but {left}"),
     );
     let over = |step: u32| {
         let exponent = f64::from(step) / 100.0;

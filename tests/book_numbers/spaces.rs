@@ -4,7 +4,7 @@ use super::{chapter, page_says, scene_error};
 use bevy_ecs::prelude::*;
 use pinhole::extract::{SMALLEST_PIXEL, tan_half, validate};
 use pinhole::intersect::{Hits, NO_SHAPE};
-use pinhole::plan::{Column, Stage, TileSystems};
+use pinhole::plan::{Census, Column, Stage, TileSystems};
 use pinhole::rays::{NdcPoints, RasterPoints};
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -80,7 +80,7 @@ fn angles_are_taken_and_refused_as_page_08_says() {
         let mut world = chapter("08_field_of_view").world(&Overrides::default());
         let camera = extract::camera_entity(&world).expect("a camera");
         world.entity_mut(camera).insert((angle(0.01), Resolution { width: 64, height }));
-        assert_eq!(validate(&world).is_ok(), taken, "{height} lines");
+        assert_eq!(validate(&Census::of(&world)).is_ok(), taken, "{height} lines");
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::message::{mismatch, what_to_do};
 use pinhole::follow::{mis_emission_stage, mis_environment_stage};
+use pinhole::plan::Census;
 use pinhole::{Chapter, Overrides, stages};
 use pinhole_lab::review::mutation::{MUTATIONS, Mutation};
 use pinhole_lab::review::{DEVELOP, Snapshots};
@@ -46,7 +47,8 @@ fn every_stage_of_the_kit_that_a_chapter_runs_has_a_planted_bug() {
     kit.retain(|stage| !on_paths.contains(stage));
     let mut stages: BTreeSet<String> = BTreeSet::from([DEVELOP.into()]);
     for chapter in chapters::all() {
-        let plan = pinhole::plan::plan(&chapter.world(&Overrides::default()), &chapter.stages()).expect("a plan");
+        let plan =
+            pinhole::plan::plan(&Census::of(&chapter.world(&Overrides::default())), &chapter.stages()).expect("a plan");
         stages.extend(plan.stages.iter().filter(|stage| kit.contains(stage)).map(|stage| stage.name.to_string()));
     }
     let mutation: BTreeSet<String> = MUTATIONS.iter().map(|mutation| mutation.stage().to_string()).collect();

@@ -4,7 +4,7 @@ use super::*;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::extract::{EnvironmentLightTable, EnvironmentTable, Texels};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{Degrees, Environment, PerspectiveCamera};
 use pinhole::shade::{direction_of, environment_direction, environment_pdf, environment_radiance};
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ pub fn evening(turn: f64) -> EnvironmentTable {
     world.spawn(PerspectiveCamera::default());
     let file = String::from("chapters/16_textures/evening.hdr");
     world.spawn(Environment { file, turn: Degrees(turn), scale: 1.0 });
-    EnvironmentTable::extract(&world).expect("the image of chapter 16")
+    EnvironmentTable::extract(&Census::of(&world)).expect("the image of chapter 16")
 }
 
 /// One texel that shines in a black image.

@@ -3,7 +3,7 @@
 use super::environment::{evening, summed};
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::plan::{Stage, plan};
+use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::shade::environment_radiance;
@@ -157,7 +157,7 @@ fn the_plan_tells_what_is_aimed_at() {
     world.spawn((Name::new("egg"), Sphere::default(), egg, Emissive::default()));
     world.spawn((Name::new("coal"), Sphere::default(), Emissive { radiance: Rgb::BLACK, ..Emissive::default() }));
     let row = |world: &World| {
-        let plan = plan(world, &offer()).expect("plans");
+        let plan = plan(&Census::of(world), &offer()).expect("plans");
         let row = plan.rows.iter().find(|row| row.stage == "Sample area lights").expect("on offer").clone();
         (row.kept, row.reason)
     };

@@ -11,7 +11,7 @@ use pinhole::intersect::{
     MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_cuboids, intersect_disks, intersect_planes,
     intersect_rectangles, intersect_spheres, intersect_triangles, offset_bound,
 };
-use pinhole::plan::{Column, Shared, Table};
+use pinhole::plan::{Census, Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
 use pinhole::shade::emitter::point_on;
@@ -22,7 +22,7 @@ use pinhole_lab::measure::ray_aim::Draws;
 const ROWS: u32 = 1024;
 
 fn share<T: Table>(world: &mut World, scene: &World) {
-    world.insert_resource(Shared::new(T::extract(scene).expect("a table")));
+    world.insert_resource(Shared::new(T::extract(&Census::of(scene)).expect("a table")));
 }
 
 /// A world with the stages' tables and one tile.
@@ -133,7 +133,7 @@ fn no_light_stands_in_its_own_way() {
             let at = Placement { position: far_off, orientation: turned(&mut draws), ..Placement::default() };
             let scene = lit_scene(lamp, at, size);
             let (mut world, tile) = tile_world(&scene);
-            let lights = AreaLightTable::extract(&scene).expect("lights");
+            let lights = AreaLightTable::extract(&Census::of(&scene)).expect("lights");
             let surfaces: Vec<Surface> = (0..ROWS)
                 .map(|row| {
                     let mut draws = Draws::new(900 + case, u64::from(row));
@@ -204,7 +204,7 @@ fn both_ways_to_a_light_know_one_pdf() {
         let at =
             Placement { position: DVec3::new(0.0, 4.0, 0.0), orientation: turned(&mut draws), ..Placement::default() };
         let scene = lit_scene(lamp, at, 1.0);
-        let lights = AreaLightTable::extract(&scene).expect("lights");
+        let lights = AreaLightTable::extract(&Census::of(&scene)).expect("lights");
         let chances: f64 = lights.probability.iter().sum();
         assert_eq!(chances, 1.0);
         let (mut world, tile) = tile_world(&scene);

@@ -92,7 +92,8 @@ fn mistakes_are_kept_by_the_plan() {
     ] {
         let scene = chapters::all().into_iter().find(|own| own.name == chapter).expect("a chapter");
         let name = stage.name;
-        let plan = pinhole::plan::plan(&scene.world(&Overrides::default()), &instead(stage)).expect("plans");
+        let plan =
+            pinhole::plan::plan(&Census::of(&scene.world(&Overrides::default())), &instead(stage)).expect("plans");
         assert!(kept(&plan, name), "{chapter}: {name}");
     }
 }

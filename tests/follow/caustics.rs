@@ -5,6 +5,7 @@ use glam::DVec3;
 use pinhole::film::{read_checkpoint, write_checkpoint};
 use pinhole::follow::fresnel;
 use pinhole::look::{Preflight, preflight};
+use pinhole::plan::Census;
 use pinhole::render::{RenderInProgress, Worlds, prepare, steps_of};
 use pinhole::scene::*;
 use pinhole_lab::naive::caustics::{join_without_area, join_without_cosine, refract_as_radiance};
@@ -257,7 +258,8 @@ fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
                 [(1, 32, Worlds::PerWorker), (3, 8, Worlds::PerWorker), (2, 31, Worlds::One)]
             {
                 let execution = Execution { threads: Some(threads), tile_side, worlds, ..Execution::default() };
-                let mut in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+                let census = &Census::of(&scene);
+                let mut in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
                 for &step in cut.iter().chain([&steps_of(5)]) {
                     in_progress.advance(step, &()).expect("goes on");
                     if number > 0 && step < steps_of(5) {
@@ -265,7 +267,7 @@ fn light_from_lamps_has_the_same_bits_however_it_is_traced() {
                         write_checkpoint(&in_progress.film, 27, &path).expect("written");
                         let kept = read_checkpoint(27, &in_progress.film, false, &path).expect("read");
                         assert!(kept == in_progress.film, "a checkpoint holds all of a film");
-                        in_progress = RenderInProgress::begin(&scene, &offer(), &execution).expect("begins");
+                        in_progress = RenderInProgress::begin(census, &offer(), &execution).expect("begins");
                         in_progress.take(kept);
                     }
                 }
@@ -292,7 +294,7 @@ fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
     ];
     let columns = ["light power", "splats", "caustic path"];
     let tables = ["light paths", "join to the camera"];
-    let plan_of = |scene: &World| pinhole::plan::plan(scene, &offer()).expect("a plan");
+    let plan_of = |scene: &World| pinhole::plan::plan(&Census::of(scene), &offer()).expect("a plan");
     let kept = |plan: &pinhole::plan::Plan| {
         let stage = |name: &&&str| plan.rows.iter().any(|row| row.stage == **name && row.kept);
         let [c, t] =
@@ -378,9 +380,10 @@ fn what_light_tracing_cannot_do_is_said_in_a_sentence() {
 #[test]
 fn what_only_light_tracing_finds_is_said_before() {
     let told = |scene: &World| {
-        let (plan, tables) = prepare(scene, &offer()).expect("prepared");
+        let census = &Census::of(scene);
+        let (plan, tables) = prepare(census, &offer()).expect("prepared");
         let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
-        preflight(scene, (&plan, &tables), asked).expect("looks").join("\n")
+        preflight(census, (&plan, &tables), asked).expect("looks").join("\n")
     };
     let (mut plain, mut asking) = (caustics(false), traced(|| caustics(false))());
     assert!(told(&plain).contains("LightTracing on the camera, beside paths, finds it"), "{}", told(&plain));

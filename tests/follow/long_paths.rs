@@ -2,6 +2,7 @@
 
 use super::*;
 use pinhole::look::{Preflight, preflight, trace};
+use pinhole::plan::Census;
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use std::time::{Duration, Instant};
@@ -23,10 +24,11 @@ fn silver() -> Mirror {
 }
 
 fn said(scene: &World, patience: Duration) -> (Vec<String>, Duration) {
-    let (plan, tables) = prepare(scene, &offer()).expect("prepared");
+    let census = &Census::of(scene);
+    let (plan, tables) = prepare(census, &offer()).expect("prepared");
     let asked = Preflight { threads: Some(1), ends_in_time: false, patience: Some(patience) };
     let began = Instant::now();
-    (preflight(scene, (&plan, &tables), asked).expect("said"), began.elapsed())
+    (preflight(census, (&plan, &tables), asked).expect("said"), began.elapsed())
 }
 
 #[test]
@@ -64,7 +66,7 @@ fn a_trace_grows_with_its_bounces_and_no_faster() {
     let traced = |max_depth| {
         let scene = closed_ball(max_depth, silver());
         let began = Instant::now();
-        let mut trace = trace(&scene, &offer(), TracePixel { x: 3, y: 3 }).expect("traced");
+        let mut trace = trace(&Census::of(&scene), &offer(), TracePixel { x: 3, y: 3 }).expect("traced");
         trace.prints_all = true;
         let text = trace.to_string();
         (began.elapsed(), trace, text)

@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::DVec3;
+use pinhole::plan::Census;
 use pinhole::scene::*;
 
 /// Balls of glass about one centre, or eggs, or cuboids, in an even sky of radiance 1.
@@ -55,7 +56,7 @@ fn an_even_sky_is_seen_evenly_through_any_number_of_shells() {
 #[test]
 fn only_glass_that_nests_deeply_has_the_deeper_column() {
     let has = |world: &World| {
-        let plan = pinhole::plan::plan(world, &offer()).expect("a plan");
+        let plan = pinhole::plan::plan(&Census::of(world), &offer()).expect("a plan");
         ["media", "deeper media"].map(|name| plan.columns.iter().any(|column| column.name == name))
     };
     let ball = |world: &mut World, size: f64| world.spawn(Sphere { radius: size }).id();

@@ -4,6 +4,7 @@ use super::*;
 use glam::DVec3;
 use pinhole::follow::power_heuristic;
 use pinhole::look::{Preflight, preflight};
+use pinhole::plan::Census;
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use scenes::followed::INTEGRATORS;
@@ -49,9 +50,10 @@ fn a_point_behind_glass_lights_nothing_and_that_is_said() {
             continue;
         }
         let world = seen(&scene, integrator);
-        let (plan, tables) = prepare(&world, &offer()).expect("prepared");
+        let census = &Census::of(&world);
+        let (plan, tables) = prepare(census, &offer()).expect("prepared");
         let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
-        let said = preflight(&world, (&plan, &tables), asked).expect("said");
+        let said = preflight(census, (&plan, &tables), asked).expect("said");
         let told = |sentence: &String| sentence.contains("\"shell\"") && sentence.contains("\"bulb\"");
         assert!(said.iter().any(told), "{integrator:?}: {said:#?}");
         tried += 1;

@@ -4,14 +4,16 @@ use super::*;
 use glam::DVec3;
 use pinhole::Error;
 use pinhole::look::{MISTAKES, Preflight, preflight};
+use pinhole::plan::Census;
 use pinhole::render::prepare;
 use pinhole::scene::*;
 use pinhole::{Chapter, stages};
 
 /// What is said of a scene for which every stage is on offer, or the refusal.
 fn said(scene: &World) -> Result<Vec<String>, Error> {
-    let (plan, tables) = prepare(scene, &offer())?;
-    preflight(scene, (&plan, &tables), Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() })
+    let census = &Census::of(scene);
+    let (plan, tables) = prepare(census, &offer())?;
+    preflight(census, (&plan, &tables), Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() })
 }
 
 #[test]
@@ -146,9 +148,10 @@ fn nothing_is_said_of_the_chapters_scenes() {
     for chapter in &chapters {
         let asked = Overrides { resolution: Some(Resolution { width: 96, height: 54 }), ..Overrides::default() };
         let scene = chapter.world(&asked);
-        let (plan, tables) = prepare(&scene, &chapter.stages()).expect("prepared");
+        let census = &Census::of(&scene);
+        let (plan, tables) = prepare(census, &chapter.stages()).expect("prepared");
         let asked = Preflight { threads: Some(1), ends_in_time: true, ..Preflight::default() };
-        let mut told = preflight(&scene, (&plan, &tables), asked).expect("said");
+        let mut told = preflight(census, (&plan, &tables), asked).expect("said");
         // That is so there: the first two of light that is followed show it.
         if ["19_mirrors", "20_glass"].contains(&chapter.name) {
             told.retain(|sentence| !sentence.contains("mirrors or glass"));
@@ -185,8 +188,9 @@ fn matter_that_no_stage_follows_is_refused() {
     };
     for (word, spawn) in material {
         let mut world = scene(spawn);
-        assert!(prepare(&world, &chapter(true).stages()).is_ok(), "{word}");
-        let refused = prepare(&world, &chapter(false).stages()).err().map(|error| error.to_string());
+        let census = &Census::of(&world);
+        assert!(prepare(census, &chapter(true).stages()).is_ok(), "{word}");
+        let refused = prepare(census, &chapter(false).stages()).err().map(|error| error.to_string());
         let sentence = format!(
             "sphere \"ball\": {word} is given, but no stage on offer samples its BSDF; offer stages::all(), \
              which do"
@@ -195,6 +199,6 @@ fn matter_that_no_stage_follows_is_refused() {
         // Who asks for ray casting gets it.
         let camera = named(&mut world, "camera");
         world.entity_mut(camera).insert(Integrator::RayCasting);
-        assert!(prepare(&world, &chapter(false).stages()).is_ok(), "{word}, by ray casting");
+        assert!(prepare(&Census::of(&world), &chapter(false).stages()).is_ok(), "{word}, by ray casting");
     }
 }

@@ -1,6 +1,7 @@
 //! Adaptive sampling: right on average, where the naive way is not, and as exact as it says.
 
 use super::*;
+use pinhole::plan::Census;
 use pinhole::render::Outcome;
 use pinhole::sample::{Purpose, uniform};
 use pinhole_lab::naive::adaptive::mean_until;
@@ -39,7 +40,8 @@ fn covered(x: u32, y: u32) -> f64 {
 
 fn run(seed: u64, samples: u32, adaptive: Adaptive) -> (Film, Outcome) {
     let scene = disc(seed, samples, adaptive);
-    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress =
+        RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
     let limits = Limits { adaptive: Some(adaptive), ..Limits::default() };
     let outcome = render_in_passes(&mut in_progress, &limits, &(), &mut |_| Ok(())).expect("renders");
     (in_progress.film, outcome)
@@ -151,7 +153,8 @@ fn a_pilot_and_its_plan_are_continued_to_the_same_bits() {
     let mut tried = 0;
     for stop in 1..12 {
         let scene = disc(9, 200, adaptive);
-        let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let census = &Census::of(&scene);
+        let mut in_progress = RenderInProgress::begin(census, &offer(), &Execution::default()).expect("begins");
         let limits = Limits { adaptive: Some(adaptive), write_every: Some(Duration::ZERO), ..Limits::default() };
         let mut kept = 0;
         // The writing fails as a full disk would make it, after the checkpoint was written.
@@ -161,7 +164,7 @@ fn a_pilot_and_its_plan_are_continued_to_the_same_bits() {
             if kept == stop { Err(Error::Interrupted) } else { Ok(()) }
         };
         let stopped = render_in_passes(&mut in_progress, &limits, &(), &mut keep).is_err();
-        let mut next = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut next = RenderInProgress::begin(census, &offer(), &Execution::default()).expect("begins");
         next.take(read_checkpoint(1, &next.film, true, &path).expect("read"));
         render_in_passes(&mut next, &limits, &(), &mut |_| Ok(())).expect("renders");
         FilmBits::of(&next.film).assert_is(&FilmBits::of(&whole), &format!("stopped at writing {stop}"));

@@ -3,9 +3,9 @@
 use super::*;
 use exr::prelude::{AnyChannels, AttributeValue, FlatSamples, Layer, Text, read_first_flat_layer_from_file};
 use glam::DVec3;
-use pinhole::extract::{CameraAxes, ShapeTable, eye};
+use pinhole::extract::{CameraAxes, eye, shape_names};
 use pinhole::film::{ENTITY_NAMES, write_layered_exr};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -21,7 +21,7 @@ fn channels(layer: &Layer<AnyChannels<FlatSamples>>) -> BTreeMap<String, Vec<f64
 
 fn written(scene: &World, path: &Path) -> (Film, Layer<AnyChannels<FlatSamples>>) {
     let film = render(scene, &offer(), &Execution::default(), &()).expect("renders").film;
-    let names = ShapeTable::extract(scene).expect("shapes").name;
+    let names = shape_names(&Census::of(scene));
     write_layered_exr(&film, &names, path).expect("written");
     let layer = read_first_flat_layer_from_file(path).expect("an EXR").layer_data;
     (film, layer)
@@ -61,7 +61,8 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             let mut parts = letters.chars().map(|letter| at(&format!("{word}.{letter}"), pixel));
             DVec3::from_array(std::array::from_fn(|_| parts.next().expect("three letters")))
         };
-        let (eye, axes) = (eye(&scene).expect("an eye"), CameraAxes::extract(&scene).expect("axes").world_from_camera);
+        let census = &Census::of(&scene);
+        let (eye, axes) = (eye(census).expect("an eye"), CameraAxes::extract(census).expect("axes").world_from_camera);
         for pixel in 0..(SIZE[0] * SIZE[1]) as usize {
             let (position, normal) = (three("position", "XYZ", pixel), three("normal", "XYZ", pixel));
             assert_eq!(at("samples.N", pixel), 1.0);
@@ -106,7 +107,8 @@ fn layers_agree_with_each_other_and_with_the_scene() {
 fn layers_are_means_over_the_samples_that_met_something() {
     let layers = Layers { kinds: vec![LayerKind::Coverage, LayerKind::Position, LayerKind::Variance] };
     let scene = sampled(SIZE, seven(Sampler::Independent), layers);
-    let mut in_progress = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut in_progress =
+        RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
     // Each sample by itself: what the sums were after it, less what they were before.
     let pixels = || (0..SIZE[0] * SIZE[1]).map(|pixel| [pixel % SIZE[0], pixel / SIZE[0]]);
     let sum_of = |film: &Film, [x, y]: [u32; 2]| {

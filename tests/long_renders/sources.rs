@@ -6,7 +6,7 @@ mod build;
 
 use super::{offer, sampled};
 use build::hash_of;
-use pinhole::plan::plan;
+use pinhole::plan::{Census, plan};
 use pinhole::render::film_key;
 use pinhole::scene::{FNV_BASIS, Sampling, fingerprint, fnv};
 use std::fs;
@@ -31,7 +31,7 @@ fn the_key_of_a_film_knows_the_sources_that_the_program_was_built_from() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let sources = hash_of(&root.join("src/pinhole"), &root.join("Cargo.lock")).expect("the sources are here");
     let scene = sampled([16, 9], Sampling::default(), ());
-    let plan = plan(&scene, &offer()).expect("a plan");
+    let plan = plan(&Census::of(&scene), &offer()).expect("a plan");
     let key_of = |sources: &str| {
         let stages = plan.rows.iter().filter(|row| row.kept).map(|row| format!("{}\n", row.stage));
         let text = format!("{sources}{}{}", fingerprint(&scene), stages.collect::<String>());

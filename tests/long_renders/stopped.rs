@@ -3,6 +3,7 @@
 use super::*;
 use glam::DVec3;
 use pinhole::film::FilmSplats;
+use pinhole::plan::Census;
 use pinhole::render::Worlds;
 use scenes::offer;
 use std::fmt::Write as _;
@@ -65,7 +66,7 @@ fn an_endless_path_is_given_up_and_adds_nothing() {
     for (what, scene) in
         [("one ray a pixel", mirrors(true, ())), ("samples with layers", mirrors(true, (sampling, Layers::all())))]
     {
-        let mut render = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+        let mut render = RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
         let before = render.film.clone();
         let steps = render.steps();
         let took = time_to_stop(&mut render, steps);
@@ -80,7 +81,7 @@ fn an_endless_path_is_given_up_and_adds_nothing() {
 fn endless_paths_from_lights_are_given_up_and_add_nothing() {
     let sampling = Sampling { samples: 1, ..Sampling::default() };
     let scene = mirrors(false, (sampling, LightTracing::default()));
-    let mut render = RenderInProgress::begin(&scene, &offer(), &Execution::default()).expect("begins");
+    let mut render = RenderInProgress::begin(&Census::of(&scene), &offer(), &Execution::default()).expect("begins");
     assert!(render.film.splats.is_some(), "light is traced from the lamp");
     let steps = render.steps();
     let took = time_to_stop(&mut render, steps);
@@ -122,7 +123,8 @@ fn stopped_at_any_moment_it_goes_on_to_the_same_bits() {
     let took = began.elapsed();
     let (mut stops, mut midway) = (0, 0);
     for part in 1..8 {
-        let mut render = RenderInProgress::begin(&scene(), &offer(), &Execution::default()).expect("begins");
+        let mut render =
+            RenderInProgress::begin(&Census::of(&scene()), &offer(), &Execution::default()).expect("begins");
         let (flag, steps) = (Flag::default(), render.steps());
         let set = Arc::clone(&flag.0);
         let timer = thread::spawn(move || {
@@ -252,8 +254,9 @@ fn many_lights_take_smaller_tiles_and_not_more_memory() {
         }
         world
     };
-    let begun =
-        |scene: &World, execution: &Execution| RenderInProgress::begin(scene, &offer(), execution).expect("begins");
+    let begun = |scene: &World, execution: &Execution| {
+        RenderInProgress::begin(&Census::of(scene), &offer(), execution).expect("begins")
+    };
     let mut sides = Vec::new();
     for lights in [1, 10, 200, 300, 10_000, 30_000] {
         let render = begun(&scene(lights, [64, 64]), &Execution::default());
@@ -287,7 +290,7 @@ fn no_more_workers_start_than_there_is_work() {
         let mut scene = full(Setup { size, ..Setup::default() });
         more(&mut scene);
         let execution = Execution { threads: Some(threads), ..Execution::default() };
-        RenderInProgress::begin(&scene, &offer(), &execution).expect("begins").threads()
+        RenderInProgress::begin(&Census::of(&scene), &offer(), &execution).expect("begins").threads()
     };
     let nothing = |_: &mut World| ();
     assert_eq!(started([8, 8], 1000, &nothing), 1);

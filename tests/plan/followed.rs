@@ -1,6 +1,7 @@
 //! Light that is followed: each stage, column and table exists where something asks for it, and nowhere else.
 
 use super::*;
+use pinhole::plan::Census;
 use scenes::followed::{FollowToggle, INTEGRATORS, followed_by};
 
 /// Nothing, all, each alone, and all pairs of what a followed scene may have.
@@ -23,7 +24,8 @@ fn an_integrator_brings_what_it_needs_and_nothing_else() {
         for on in all() {
             let has = |toggle| on.contains(&toggle);
             let scene = followed_by(&on, integrator, setup);
-            let (plan, tables) = prepare(&scene, &offer()).unwrap_or_else(|error| panic!("{on:?}: {error}"));
+            let (plan, tables) =
+                prepare(&Census::of(&scene), &offer()).unwrap_or_else(|error| panic!("{on:?}: {error}"));
             let sky = matches!(integrator, Integrator::AmbientOcclusion { .. });
             let followed = !sky && integrator != Integrator::RayCasting;
             let lights = match integrator {
@@ -106,7 +108,7 @@ fn the_integrator_is_the_least_that_shows_what_the_scene_holds() {
         let mut scene = followed_by(on, Integrator::RayCasting, Setup::default());
         let camera = named(&mut scene, "camera");
         scene.entity_mut(camera).remove::<Integrator>();
-        pinhole::extract::integrator_of(&scene)
+        pinhole::extract::integrator_of(&Census::of(&scene))
     };
     assert_eq!(chosen(&[]).integrator, Integrator::RayCasting);
     assert_eq!(chosen(&[Environment]).integrator, Integrator::RayCasting);

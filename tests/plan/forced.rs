@@ -2,14 +2,15 @@
 
 use super::*;
 use pinhole::film::{FilmLayers, FilmMoments};
+use pinhole::plan::Census;
 use pinhole::render::render;
 use pinhole::shade::join_point_stage;
 use scenes::followed::{INTEGRATORS, followed};
 
 /// The offer with one stage's say replaced.
 fn forced(offer: &[Stage], names: &[&str], needed: bool) -> Vec<Stage> {
-    let always: fn(&World) -> Evidence = |_| Evidence::always("forced on");
-    let never: fn(&World) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
+    let always: fn(&Census<'_>) -> Evidence = |_| Evidence::always("forced on");
+    let never: fn(&Census<'_>) -> Evidence = |_| Evidence { reason: "forced off".into(), ..Evidence::default() };
     let mut offer = offer.to_vec();
     for stage in offer.iter_mut().filter(|stage| names.contains(&stage.name)) {
         stage.when = if needed { always } else { never };
@@ -47,7 +48,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         // All pairs are forced together below, which finds all that one by one would.
         for &stage in dropped.iter().filter(|_| *alone) {
             let offer = forced(&offer, &[stage], true);
-            match pinhole::plan::plan(scene, &offer) {
+            match pinhole::plan::plan(&Census::of(scene), &offer) {
                 Ok(found) if !row(&found, stage).kept => {
                     assert_eq!(found.columns, plan.columns, "{name}: \"{stage}\" forced on, and read by nothing");
                     unread += 1;
@@ -69,7 +70,7 @@ fn forcing_an_exact_stage_on_changes_nothing() {
         match film_by(scene, &offer, &one_world()) {
             Ok(film) => {
                 film.assert_is(&expected, &format!("{name}: all of {dropped:?} forced on"));
-                let plan = pinhole::plan::plan(scene, &offer).expect("plans");
+                let plan = pinhole::plan::plan(&Census::of(scene), &offer).expect("plans");
                 let kept: Vec<&str> = dropped.iter().copied().filter(|stage| row(&plan, stage).kept).collect();
                 together += kept.len();
                 tried.extend(kept);
@@ -113,7 +114,7 @@ fn what_is_written_in_the_same_set_is_not_read_there() {
     let mut offer = offer();
     offer.retain(|stage| !stage.is(join_point_stage));
     offer.push(Stage { set: TileSystems::SampleLights, ..join_point_stage() });
-    let error = pinhole::plan::plan(&scene, &offer).expect_err("refused").to_string();
+    let error = pinhole::plan::plan(&Census::of(&scene), &offer).expect_err("refused").to_string();
     eprintln!("{error}");
     let words =
         ["\"Connect to the camera\"", "`join`", "\"Sample the lens for connections\"", "afterwards", "earlier set"];

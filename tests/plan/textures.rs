@@ -1,6 +1,7 @@
 //! Textures and backgrounds: each column and stage exists where something asks for it, and nowhere else.
 
 use super::*;
+use pinhole::plan::Census;
 use scenes::{TextureToggle, textured_by};
 
 /// All combinations of what a texture may be and what may be behind everything.
@@ -19,11 +20,11 @@ fn a_texture_brings_what_it_needs_and_nothing_else() {
         let has = |toggle| on.contains(&toggle);
         let scene = textured_by(&on);
         if has(Gradient) && has(Environment) {
-            let told = prepare(&scene, &offer()).err().map(|error| error.to_string()).unwrap_or_default();
+            let told = prepare(&Census::of(&scene), &offer()).err().map(|error| error.to_string()).unwrap_or_default();
             assert!(told.starts_with("the scene: background is given as a Gradient by \"sky\""), "{told}");
             continue;
         }
-        let (plan, tables) = prepare(&scene, &offer()).unwrap_or_else(|error| panic!("{on:?}: {error}"));
+        let (plan, tables) = prepare(&Census::of(&scene), &offer()).unwrap_or_else(|error| panic!("{on:?}: {error}"));
         let textured = has(Checker) || has(Stripes) || has(Image);
         let filtered = textured && has(Filter);
         let stages = [

@@ -12,7 +12,7 @@ fn a_view_of_an_unknown_word_names_what_is_on_offer() {
         let mut scene = toggled(&[Toggle::Sphere]);
         let camera = named(&mut scene, "camera");
         scene.entity_mut(camera).insert(View { column: word.into() });
-        let error = plan(&scene, &offer()).expect_err("no such column");
+        let error = plan(&Census::of(&scene), &offer()).expect_err("no such column");
         let PlanError::NoSuchView { wanted, why } = &error else { panic!("{error}") };
         assert_eq!(wanted, word);
         for name in view_names(&offer()).into_iter().filter(|name| !name.ends_with(" rows")) {

@@ -2,6 +2,7 @@
 
 use crate::scenes;
 use cpu_time::ThreadTime;
+use pinhole::plan::Census;
 use pinhole::scene::{Resolution, SceneFile, scene_text, words};
 use pinhole::{Overrides, plan};
 use scenes::Setup;
@@ -302,10 +303,11 @@ fn try_all(bytes: &[u8]) -> End {
         }
     };
     let mut world = file.world();
-    if let Err(scene_error) = pinhole::extract::validate(&world) {
+    let census = &Census::of(&world);
+    if let Err(scene_error) = pinhole::extract::validate(census) {
         let told = scene_error.to_string();
         assert!(!told.contains('\n'), "{told}");
-        let place = file.place_of(|world| pinhole::extract::validate(world).err());
+        let place = file.place_of(|world| pinhole::extract::validate(&Census::of(world)).err());
         assert!(place.is_some() || told.starts_with("the scene: camera is missing"), "no place for: {told}");
         return End::Refused;
     }
@@ -314,7 +316,7 @@ fn try_all(bytes: &[u8]) -> End {
         let again = SceneFile::parse(Path::new("scene.ron"), text.clone()).expect("what was written can be read");
         assert_eq!(scene_text(&again.world()).as_ref(), Ok(text), "written again");
     }
-    if plan::plan(&world, &scenes::offer()).is_err() {
+    if plan::plan(census, &scenes::offer()).is_err() {
         return End::NoPlan;
     }
     Overrides { resolution: Some(Resolution { width: 4, height: 4 }), ..Overrides::default() }

@@ -3,7 +3,7 @@
 use super::{parsed, typed};
 use bevy_ecs::prelude::*;
 use pinhole::extract::ImageTable;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{ImageTexture, Matte, Name, PerspectiveCamera, Resolution, Sphere};
 use std::fs;
 use std::path::Path;
@@ -133,12 +133,13 @@ fn an_image_that_many_name_is_decoded_once() {
             ImageTexture { file: file.clone(), ..ImageTexture::default() },
         ));
     }
-    let before = ImageTable::extract(&world).expect("extracted");
+    let census = &Census::of(&world);
+    let before = ImageTable::extract(census).expect("extracted");
     let scene = folder.path().join("scene.ron");
     fs::write(&scene, pinhole::scene::scene_text(&world).expect("text")).expect("written");
     let [scene, picture] = [scene, folder.path().join("a.png")].map(|path| path.display().to_string());
     typed(&["render", &scene, "-o", &picture]).expect("rendered");
-    let after = ImageTable::extract(&world).expect("extracted");
+    let after = ImageTable::extract(census).expect("extracted");
     assert_eq!((before.pyramid.len(), after.pyramid.len()), (24, 24));
     for image in before.pyramid.iter().chain(&after.pyramid) {
         assert!(Arc::ptr_eq(image, &before.pyramid[0]));

@@ -13,12 +13,12 @@ pub enum Directive<'a> {
         /// The part of it, or the whole file.
         anchor: Option<&'a str>,
     },
-    /// `{{#kit command}}`: what a command of the kit prints.
-    Kit {
+    /// `{{#pinhole command}}`: what a command of pinhole prints.
+    Pinhole {
         /// The command's words.
         command: &'a str,
     },
-    /// `{{#figure command | caption}}`: a picture that a command of the kit draws.
+    /// `{{#figure command | caption}}`: a picture that a command of pinhole draws.
     Figure {
         /// The command's words.
         command: &'a str,
@@ -27,7 +27,8 @@ pub enum Directive<'a> {
     },
 }
 
-const ACCEPTED: &str = "a page may use {{#include file:anchor}}, {{#kit command}} and {{#figure command | caption}}";
+const ACCEPTED: &str =
+    "a page may use {{#include file:anchor}}, {{#pinhole command}} and {{#figure command | caption}}";
 
 /// Reads a line: no directive at all, a good one, or one sentence about a bad one.
 pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
@@ -41,8 +42,8 @@ pub fn parse(line: &str) -> Option<Result<Directive<'_>, String>> {
     let (name, rest) = inside.split_once(char::is_whitespace).unwrap_or((inside, ""));
     Some(match (name, rest.trim()) {
         ("include", rest) => include(rest),
-        ("kit", "") => Err("{{#kit}} names no command: write {{#kit plan 05_pinhole}}.".to_owned()),
-        ("kit", command) => words(command).map(|command| Directive::Kit { command }),
+        ("pinhole", "") => Err("{{#pinhole}} names no command: write {{#pinhole plan 05_pinhole}}.".to_owned()),
+        ("pinhole", command) => words(command).map(|command| Directive::Pinhole { command }),
         ("figure", rest) => figure(rest),
         _ => Err(format!("there is no directive {{{{#{name}}}}}: {ACCEPTED}.")),
     })
@@ -117,21 +118,21 @@ mod tests {
     fn good_directives_are_read() {
         let include = Directive::Include { path: "../a.rs", anchor: Some("b") };
         assert_eq!(parse("  {{#include ../a.rs:b}}"), Some(Ok(include)));
-        assert_eq!(parse("{{#kit plan 05_pinhole}}"), Some(Ok(Directive::Kit { command: "plan 05_pinhole" })));
+        assert_eq!(parse("{{#pinhole plan 05_pinhole}}"), Some(Ok(Directive::Pinhole { command: "plan 05_pinhole" })));
         let figure = Directive::Figure { command: "render 05 --size 4x3", caption: "A *box* of |x|" };
         assert_eq!(parse("{{#figure render 05 --size 4x3 | A *box* of |x|}}"), Some(Ok(figure)));
-        assert_eq!(parse("prose with `{{#kit x}}` in code, or \\{{#kit x}}"), None);
+        assert_eq!(parse("prose with `{{#pinhole x}}` in code, or \\{{#pinhole x}}"), None);
     }
 
     #[test]
     fn bad_directives_say_what_is_accepted() {
         assert_eq!(sentence("{{#figure render 05}}"), "the figure `render 05` has no caption: write it after a `|`.");
         assert!(sentence("{{#figrue render 05}}").starts_with("there is no directive {{#figrue}}: a page may use"));
-        assert!(sentence("See {{#kit plan}} here.").starts_with("a directive stands alone on its line"));
+        assert!(sentence("See {{#pinhole plan}} here.").starts_with("a directive stands alone on its line"));
         assert!(sentence("{{#include ../a.rs:3:9}}").starts_with("`3:9` is no anchor: name one"));
         assert!(sentence("{{#include }}").starts_with("{{#include}} names no file"));
-        assert!(sentence("{{#kit }}").starts_with("{{#kit}} names no command"));
-        assert!(sentence("{{#kit trace \"a b\"}}").ends_with("holds a quote: its words are split at spaces only."));
+        assert!(sentence("{{#pinhole }}").starts_with("{{#pinhole}} names no command"));
+        assert!(sentence("{{#pinhole trace \"a b\"}}").ends_with("holds a quote: its words are split at spaces only."));
     }
 
     #[test]

@@ -21,7 +21,7 @@ fn mark(line: &str) -> Option<Mark<'_>> {
     close.or_else(|| comment.strip_prefix("ANCHOR:").map(|name| Mark::Open(name.trim())))
 }
 
-/// The listing an include asks for, without anchor lines and without the indentation all its lines share.
+/// The listing an include asks for, without anchor lines and without the indentation common to its lines.
 pub fn listing(source: &str, file: &str, anchor: Option<&str>) -> Result<String, String> {
     let mut kept: Vec<&str> = Vec::new();
     let (mut open, mut closed) = (anchor.is_none(), anchor.is_none());

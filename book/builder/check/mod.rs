@@ -1,4 +1,4 @@
-//! What a page may hold, and how each slip is told to its author.
+//! What a page may hold, and how each mistake is reported to its author.
 //!
 //! mdBook shows a missing anchor as an empty listing and only logs a missing file, so the rules stand here. The
 //! builder applies those of a page at every build; `tests/book.rs` includes this very module and applies all of
@@ -13,7 +13,7 @@ pub mod scan;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// One slip of an author: where, and one sentence about it.
+/// One mistake of an author: where, and one sentence about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// The file, named as an author would: `book/src/02_ndc.md`.

@@ -154,6 +154,6 @@ mod tests {
 
     #[test]
     fn words_are_prose_only() {
-        assert_eq!(words("One two – three.\n\n| a | b |\n\n{{#kit plan}}\n\n```text\nno\n```\n`no` $no$\n"), 3);
+        assert_eq!(words("One two – three.\n\n| a | b |\n\n{{#pinhole plan}}\n\n```text\nno\n```\n`no` $no$\n"), 3);
     }
 }

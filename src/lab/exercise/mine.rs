@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 use pinhole::extract::camera_entity;
-use pinhole::plan::{Stage, plan};
+use pinhole::plan::{Census, Stage, plan};
 use pinhole::scene::Resolution;
 use pinhole::{Chapter, Error, Result};
 use std::sync::Arc;
@@ -116,7 +116,7 @@ impl Mine {
         complaint.get().map_or(Ok(()), |sentence| Err(Error::Usage(sentence.clone())))?;
         let (chapter, stage) = stand_in.put_in(chapter);
         if let Some(stage) = stage
-            && !plan(scene, &chapter.stages())?.stages.contains(&stage)
+            && !plan(&Census::of(scene), &chapter.stages())?.stages.contains(&stage)
         {
             let (function, name) = (exercise.function, stage.name);
             return Err(Error::Usage(format!("{function} stands in \"{name}\", which this render does not run")));

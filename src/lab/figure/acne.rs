@@ -13,7 +13,7 @@ use pinhole::Result;
 use pinhole::extract::MaterialTable;
 use pinhole::film::FilmTile;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::{LookAt, Placement, PointLight, Resolution, Rgb, Sphere};
 use pinhole::shade::{LightRays, ShadowHits, matte_radiance};
@@ -97,7 +97,7 @@ impl Shadows {
         let met = |row: usize| surfaces.get(row).normal != Vec3::ZERO;
         let unlit = |row: usize| if met(row) { [0.0; 3] } else { film.mean(row) };
         let unlit = (0..film.count.len()).map(unlit).collect();
-        let (occluders, materials) = (Occluders::of(&scene)?, MaterialTable::extract(&scene)?);
+        let (occluders, materials) = (Occluders::of(&scene)?, MaterialTable::extract(&Census::of(&scene))?);
         Ok(Self { occluders, materials, surfaces, rays, hits, unlit })
     }
 

@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use pinhole::Result;
 use pinhole::extract::texture_evidence;
-use pinhole::plan::entities;
+use pinhole::plan::{Census, entities};
 use pinhole::render::{Execution, render};
 use pinhole::scene::{Checker, ImageTexture, Resolution, Stripes};
 use pinhole::{Chapter, Overrides, SamplingOverrides};
@@ -49,7 +49,7 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<[Vec<[f32; 3]>; 3]> {
         let resolution = Some(Resolution { width: SIZE[0], height: SIZE[1] });
         let sampling = SamplingOverrides { samples, ..SamplingOverrides::default() };
         let mut scene = chapter.world(&Overrides { resolution, sampling, ..Overrides::default() });
-        if !texture_evidence(&scene).needed {
+        if !texture_evidence(&Census::of(&scene)).needed {
             return Err(figure.unsuited("a textured surface"));
         }
         set_filters(&mut scene, filter);

@@ -32,11 +32,11 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     arc(&mut svg, eye, scale * 0.36, 0.0, angle, Pen::new(RAY, 1.8));
     let along =
         |share: f64, at: f64| eye + scale * at * DVec2::new(libm::cos(share * angle), -libm::sin(share * angle));
-    svg.label(Label::near(along(-0.5, 0.62), "*α*", DVec2::new(1.0, 0.25), 6.0));
-    svg.label(Label::near(along(0.5, 0.36), "*α*/2", DVec2::new(1.0, -0.25), 5.0).coloured(RAY));
+    svg.label(Label::near(along(-0.5, 0.62), "*φ*", DVec2::new(1.0, 0.25), 6.0));
+    svg.label(Label::near(along(0.5, 0.36), "*φ*/2", DVec2::new(1.0, -0.25), 5.0).coloured(RAY));
     svg.label(Label::near(at(0.0, 0.0), "eye", DVec2::new(-1.0, 0.0), 9.0));
-    svg.label(Label::near(at(1.0, tangent / 2.0), "tan(*α*/2)", DVec2::X, 9.0).coloured(RAY));
-    svg.label(Label::near(at(2.0, tangent), "2 tan(*α*/2)", DVec2::X, 9.0));
+    svg.label(Label::near(at(1.0, tangent / 2.0), "tan(*φ*/2)", DVec2::X, 9.0).coloured(RAY));
+    svg.label(Label::near(at(2.0, tangent), "2 tan(*φ*/2)", DVec2::X, 9.0));
     svg.label(Label::near(at(1.0, tangent), "screen *y* = 1", DVec2::new(-0.6, -1.0), 9.0));
     svg.label(Label::near(at(1.0, -tangent), "screen *y* = −1", DVec2::new(-0.6, 1.0), 9.0));
     svg.label(Label::near(at(1.0, -0.55 * tangent), "image plane", DVec2::X, 9.0).coloured(IMAGE));
@@ -47,7 +47,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         measure(&mut svg, from, to);
         svg.label(Label::near((from + to) / 2.0, words, DVec2::Y, 5.0).title(1.0));
     }
-    let note = format!("seen from the side, tan(α/2) = {tangent:.3}");
+    let note = format!("seen from the side, tan(φ/2) = {tangent:.3}");
     Ok(svg.finish(figure.about, &figure.foot(&subject, &note)))
 }
 

@@ -9,7 +9,7 @@ use glam::DVec2;
 use pinhole::Result;
 use pinhole::extract::GlassTable;
 use pinhole::follow::{fresnel, fresnel_parts};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 290.0;
@@ -20,7 +20,7 @@ const STEPS: u32 = 180;
 
 /// The mirrored share over the angle for a chapter's first kind of glass: both parts, their mean, and Schlick's guess.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let glass = GlassTable::extract(&chapter.world(&Overrides::default()))?;
+    let glass = GlassTable::extract(&Census::of(&chapter.world(&Overrides::default())))?;
     let Some(&index) = glass.ior.first() else { return Err(figure.unsuited("glass")) };
     let mut svg = Svg::new(figure.name, HEIGHT);
     for (panel, (eta, told)) in [(index, "into the glass"), (1.0 / index, "out of it")].into_iter().enumerate() {

@@ -15,7 +15,7 @@ use pinhole::Result;
 use pinhole::extract::{
     PerspectiveProjection, angle_across, camera_entity, eye, half_extent, tan_half, world_from_entity,
 };
-use pinhole::plan::{Stage, TileSystems};
+use pinhole::plan::{Census, Stage, TileSystems};
 use pinhole::rays::{CameraRays, ScreenPoints, camera_ray_perspective};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement};
 
@@ -95,7 +95,7 @@ pub fn draw_angles(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         let picture = Picture::of(chapter, size, None, |camera| {
             camera.insert(PerspectiveCamera { fov, axis: FovAxis::Vertical });
         })?;
-        Ok(Exhibit { picture, lines: vec![degrees(fov), format!("tan(*α*/2) = {tangent:.3}")] })
+        Ok(Exhibit { picture, lines: vec![degrees(fov), format!("tan(*φ*/2) = {tangent:.3}")] })
     };
     let exhibits = [0.5, 1.0, 3.0].map(exhibit).into_iter().collect::<Result<Vec<_>>>()?;
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, size)))
@@ -131,8 +131,9 @@ pub fn draw_zoom(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let nearest = middle.min_by(|a, b| subject.off_centre(a.0.pixel).total_cmp(&subject.off_centre(b.0.pixel)));
     let (_, Ball { centre, radius, .. }) = nearest.ok_or_else(|| figure.unsuited("a sphere that a ray meets"))?;
     let scene = chapter.world(&Default::default());
-    let target = eye(&scene)? + *centre;
-    let up = world_from_entity(&scene, "the figure", camera_entity(&scene)?)?.matrix3.y_axis;
+    let census = &Census::of(&scene);
+    let target = eye(census)? + *centre;
+    let up = world_from_entity(census, "the figure", camera_entity(&scene)?)?.matrix3.y_axis;
     // Seen from d the outline is at the angle whose tangent is r / √(d² − r²).
     let outline = |distance: f64| radius / (distance * distance - radius * radius).sqrt();
     let size = pixels(226.0, 1.25);
@@ -156,9 +157,9 @@ pub fn draw_naive(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let size = pixels(345.0, 2.0);
     let in_f32 = own.0 as f32;
     let mistakes = [
-        ("tan(*α*/2)", tan_half(own)),
-        ("tan *α*: the half forgotten", f64::from(tan_of_full_angle(in_f32))),
-        ("2 tan(*α*/2): the whole height for half of it", f64::from(whole_height(in_f32))),
+        ("tan(*φ*/2)", tan_half(own)),
+        ("tan *φ*: the half forgotten", f64::from(tan_of_full_angle(in_f32))),
+        ("2 tan(*φ*/2): the whole height for half of it", f64::from(whole_height(in_f32))),
         ("degrees taken for radians", f64::from(tan_half_of_degrees_as_radians(in_f32))),
     ];
     let exhibit = |(name, tangent): (&str, f64)| {

@@ -7,7 +7,7 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{BlinnPhongTable, MaterialKind, MaterialTable, PhongTable};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::shade::{half_vector_cosine, highlight, mirror_cosine};
 use pinhole::{Chapter, Overrides};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
@@ -27,8 +27,9 @@ const STEPS: u32 = 120;
 /// plane across it through the mirrored way to the light.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let scene = chapter.world(&Overrides::default());
-    let (materials, phong) = (MaterialTable::extract(&scene)?, PhongTable::extract(&scene)?);
-    let blinn = BlinnPhongTable::extract(&scene)?;
+    let census = &Census::of(&scene);
+    let (materials, phong) = (MaterialTable::extract(census)?, PhongTable::extract(census)?);
+    let blinn = BlinnPhongTable::extract(census)?;
     let first = |kind: MaterialKind| materials.kind.iter().position(|&own| own == kind);
     let (Some(of_phong), Some(of_blinn)) = (first(MaterialKind::Phong), first(MaterialKind::BlinnPhong)) else {
         return Err(figure.unsuited("a Phong and a Blinn–Phong material"));

@@ -9,7 +9,7 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
 use pinhole::extract::{CameraAxes, camera_entity};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{LookAt, Resolution};
 use pinhole::{Chapter, Overrides};
 
@@ -23,7 +23,7 @@ pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let resolution = Resolution { width: image[0], height: image[1] };
     let scene = chapter.world(&Overrides { resolution: Some(resolution), ..Overrides::default() });
     let look = scene.get::<LookAt>(camera_entity(&scene)?).ok_or_else(|| figure.unsuited("a camera with a LookAt"))?;
-    let axes = CameraAxes::extract(&scene)?.world_from_camera;
+    let axes = CameraAxes::extract(&Census::of(&scene))?.world_from_camera;
     let view = look.target - look.eye;
     let length = AXIS * view.length();
     // From the camera's right and a little before it, so that no axis is seen end on.

@@ -12,7 +12,7 @@ use pinhole::Result;
 use pinhole::extract::{EllipsoidTable, MaterialTable, PointLightTable, normal_world_from_object};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, Surface, Surfaces, offset_origin};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
@@ -70,8 +70,9 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
     });
     let lacks = || figure.unsuited("a lit sphere that is scaled unevenly");
     let ((rays, hits), surfaces, film) = columns.ok_or_else(lacks)?;
-    let (lights, materials) = (PointLightTable::extract(&scene)?, MaterialTable::extract(&scene)?);
-    let (ellipsoids, occluders) = (EllipsoidTable::extract(&scene)?, Occluders::of(&scene)?);
+    let census = &Census::of(&scene);
+    let (lights, materials) = (PointLightTable::extract(census)?, MaterialTable::extract(census)?);
+    let (ellipsoids, occluders) = (EllipsoidTable::extract(census)?, Occluders::of(&scene)?);
     let right: Vec<[f32; 3]> = (0..film.count.len()).map(|row| film.mean(row)).collect();
     let (mut naive, mut worst) = (right.clone(), None::<Worst>);
     for (row, naive) in naive.iter_mut().enumerate() {

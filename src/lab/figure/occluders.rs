@@ -5,7 +5,7 @@ use pinhole::extract::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
 };
 use pinhole::intersect::{cuboid_t, disk_t, ellipsoid_t, plane_t, rectangle_t, sphere_t, triangle_t};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 
 /// A scene's shapes, for figures that send rays of their own; the intersection is the kit's.
 pub struct Occluders {
@@ -21,14 +21,15 @@ pub struct Occluders {
 impl Occluders {
     /// The shapes of a scene, in render space.
     pub fn of(scene: &World) -> Result<Self> {
+        let census = &Census::of(scene);
         Ok(Self {
-            spheres: SphereTable::extract(scene)?,
-            ellipsoids: EllipsoidTable::extract(scene)?,
-            planes: PlaneTable::extract(scene)?,
-            triangles: TriangleTable::extract(scene)?,
-            disks: DiskTable::extract(scene)?,
-            rectangles: RectangleTable::extract(scene)?,
-            cuboids: CuboidTable::extract(scene)?,
+            spheres: SphereTable::extract(census)?,
+            ellipsoids: EllipsoidTable::extract(census)?,
+            planes: PlaneTable::extract(census)?,
+            triangles: TriangleTable::extract(census)?,
+            disks: DiskTable::extract(census)?,
+            rectangles: RectangleTable::extract(census)?,
+            cuboids: CuboidTable::extract(census)?,
         })
     }
 
@@ -39,7 +40,7 @@ impl Occluders {
         let ellipsoids = self.ellipsoids.ellipsoid.iter().map(|ellipsoid| ellipsoid_t(origin, direction, ellipsoid));
         let planes = self.planes.normal.iter().zip(&self.planes.offset);
         let planes = planes.map(|(&normal, &offset)| plane_t(origin, direction, normal, offset));
-        let triangles = self.triangles.triangle.iter().map(|facet| triangle_t(origin, direction, facet));
+        let triangles = self.triangles.triangle.iter().map(|triangle| triangle_t(origin, direction, triangle));
         let disks = self.disks.planar.iter().map(|planar| disk_t(origin, direction, planar));
         let rectangles = self.rectangles.planar.iter().map(|planar| rectangle_t(origin, direction, planar));
         let cuboids = self.cuboids.slabs.iter().map(|slabs| cuboid_t(origin, direction, slabs));

@@ -8,7 +8,7 @@ use glam::DVec2;
 use pinhole::Chapter;
 use pinhole::Result;
 use pinhole::extract::{SamplingTable, camera_entity};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::sample::{
     Draw, INTEGRANDS, Independent, MeanError, PixelKey, Purpose, Sobol, Stratified, mean_error, slope, unit,
 };
@@ -23,7 +23,7 @@ const TRIALS: u32 = 400;
 pub fn draw_points(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let scene = chapter.world(&Default::default());
     camera_entity(&scene)?;
-    let pixel = PixelKey::new(SamplingTable::extract(&scene)?.seed, [240, 135]);
+    let pixel = PixelKey::new(SamplingTable::extract(&Census::of(&scene))?.seed, [240, 135]);
     let side = 206.0;
     let mut svg = Svg::new(figure.name, side + 96.0);
     for (number, (word, sampler)) in (0_u32..).zip(Sampler::ALL.into_iter().rev()) {

@@ -9,7 +9,7 @@ use super::svg::{Drawing, Svg};
 use glam::DVec2;
 use pinhole::Result;
 use pinhole::extract::{CuboidTable, Slabs};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 300.0;
@@ -20,7 +20,7 @@ const LEFT: f64 = 110.0;
 /// Where a pixel's ray is inside each slab of a cuboid, and inside all of them.
 pub fn draw(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
     let subject = Subject::of(chapter, 96, 54)?;
-    let table = CuboidTable::extract(&chapter.world(&Overrides::default()))?;
+    let table = CuboidTable::extract(&Census::of(&chapter.world(&Overrides::default())))?;
     let told = telling(&subject, &table).ok_or_else(|| figure.unsuited("a cuboid that a pixel's ray meets"))?;
     let (ray, spans) = told;
     let mut svg = Svg::new(figure.name, HEIGHT);

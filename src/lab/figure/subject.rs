@@ -6,7 +6,7 @@ use pinhole::extract::{
     ShapeKind, ShapeTable, SphereTable, camera_entity,
 };
 use pinhole::intersect::Hits;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::{Inspection, inspect};
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
@@ -78,11 +78,12 @@ impl Subject {
         picture.view = None;
         let scene = picture.world(&asked);
         let inspection = inspected(&picture, &scene, width.max(height))?;
-        let lights = PointLightTable::extract(&scene)?.position;
+        let census = &Census::of(&scene);
+        let lights = PointLightTable::extract(census)?.position;
         Ok(Self {
             chapter: chapter.name,
             image: inspection.image,
-            axes: CameraAxes::extract(&scene)?.world_from_camera,
+            axes: CameraAxes::extract(census)?.world_from_camera,
             lens: lens(&scene)?,
             balls: balls(&scene)?,
             planar_shapes: planar_shapes(&scene)?,
@@ -146,9 +147,9 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
 fn lens(scene: &World) -> Result<Lens> {
     let camera = camera_entity(scene)?;
     Ok(match scene.get::<PerspectiveCamera>(camera) {
-        Some(_) => Lens::Perspective(PerspectiveProjection::extract(scene)?.tan_half_vertical),
+        Some(_) => Lens::Perspective(PerspectiveProjection::extract(&Census::of(scene))?.tan_half_vertical),
         None if scene.get::<OrthographicCamera>(camera).is_some() => {
-            Lens::Orthographic(OrthographicWindow::extract(scene)?.half_height)
+            Lens::Orthographic(OrthographicWindow::extract(&Census::of(scene))?.half_height)
         }
         None => return Err(Error::Usage("figures are drawn of perspective and orthographic cameras only".into())),
     })
@@ -156,7 +157,8 @@ fn lens(scene: &World) -> Result<Lens> {
 
 /// The colours of shapes of one kind, in the order of that kind's table.
 fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
-    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
+    let census = &Census::of(scene);
+    let (shapes, materials) = (ShapeTable::extract(census)?, MaterialTable::extract(census)?);
     let of_kind = (0..shapes.kind.len()).filter(|&shape| shapes.kind[shape] == kind);
     // A shape that only emits light is drawn black.
     let colour = |shape: usize| materials.colour.get(shapes.material[shape] as usize).copied().unwrap_or_default();
@@ -164,7 +166,7 @@ fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
 }
 
 fn balls(scene: &World) -> Result<Vec<Ball>> {
-    let table = SphereTable::extract(scene)?;
+    let table = SphereTable::extract(&Census::of(scene))?;
     let colours = colours(scene, ShapeKind::Sphere)?.into_iter().enumerate();
     let ball =
         |(row, colour)| Ball { centre: table.centre(row), radius: table.radius[row], colour, shape: table.shape[row] };
@@ -172,7 +174,7 @@ fn balls(scene: &World) -> Result<Vec<Ball>> {
 }
 
 fn planar_shapes(scene: &World) -> Result<Vec<Planar>> {
-    let table = PlaneTable::extract(scene)?;
+    let table = PlaneTable::extract(&Census::of(scene))?;
     let colours = colours(scene, ShapeKind::Plane)?.into_iter().enumerate();
     Ok(colours.map(|(row, colour)| Planar { normal: table.normal[row], offset: table.offset[row], colour }).collect())
 }

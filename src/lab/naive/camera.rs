@@ -56,7 +56,7 @@ pub fn ndc_over_last(pixel: u32, width: u32) -> f32 {
     pixel as f32 / (width as f32 - 1.0)
 }
 
-/// tan(α / 2) in f32.
+/// tan(φ / 2) in f32.
 ///
 /// π rounded to f32 is larger than π, so that at 180° the tangent is negative and the image upside down; just below, it
 /// is off by thousands of rounding steps.

@@ -13,7 +13,7 @@ use pinhole::extract::{
 };
 use pinhole::film::Film;
 use pinhole::intersect::{self, NO_SHAPE, l1_norm, nearness, offset_bound, plane_t, sphere_t};
-use pinhole::plan::{Sample, Shared, Table};
+use pinhole::plan::{Census, Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
 
@@ -66,25 +66,26 @@ impl EntityPerRay {
     ///
     /// Errors: what the kit refuses the scene for.
     pub fn spawn(scene: &World) -> Result<Self, SceneError> {
-        pinhole::extract::validate(scene)?;
-        let kinds = ShapeTable::extract(scene)?.kind;
-        if kinds.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
+        let census = &Census::of(scene);
+        pinhole::extract::validate(census)?;
+        let shapes = census.table::<ShapeTable>()?;
+        if shapes.kind.iter().any(|kind| !matches!(kind, ShapeKind::Sphere | ShapeKind::Plane)) {
             let accepted = "one entity a ray knows evenly scaled spheres and planes only";
             return Err(SceneError::new("the scene", "shapes", "another kind of shape", accepted));
         }
-        if ShapeTable::extract(scene)?.material.contains(&NO_ROW) {
+        if shapes.material.contains(&NO_ROW) {
             let accepted = "one entity a ray knows shapes that reflect light only";
             return Err(SceneError::new("the scene", "shapes", "a shape without a material", accepted));
         }
         let mut world = World::new();
-        share::<PerspectiveProjection>(&mut world, scene)?;
-        share::<CameraAxes>(&mut world, scene)?;
-        share::<SphereTable>(&mut world, scene)?;
-        share::<PlaneTable>(&mut world, scene)?;
-        share::<ShapeTable>(&mut world, scene)?;
-        share::<MaterialTable>(&mut world, scene)?;
-        share::<BackgroundTable>(&mut world, scene)?;
-        let image = share::<ImageFrame>(&mut world, scene)?;
+        share::<PerspectiveProjection>(&mut world, census)?;
+        share::<CameraAxes>(&mut world, census)?;
+        share::<SphereTable>(&mut world, census)?;
+        share::<PlaneTable>(&mut world, census)?;
+        share::<ShapeTable>(&mut world, census)?;
+        share::<MaterialTable>(&mut world, census)?;
+        share::<BackgroundTable>(&mut world, census)?;
+        let image = share::<ImageFrame>(&mut world, census)?;
         let pixels = (0..image.height).flat_map(|y| (0..image.width).map(move |x| Pixel([x, y])));
         let nothing = Hit { t: f64::INFINITY, shape: NO_SHAPE };
         let (points, rays) = ((RasterPoint::default(), NdcPoint::default(), ScreenPoint::default()), nothing);
@@ -119,8 +120,8 @@ impl EntityPerRay {
 }
 
 /// Puts a table of the scene where systems find it.
-fn share<T: Table + Clone>(world: &mut World, scene: &World) -> Result<T, SceneError> {
-    let table = T::extract(scene)?;
+fn share<T: Table + Clone>(world: &mut World, scene: &Census<'_>) -> Result<T, SceneError> {
+    let table = T::clone(&*scene.table::<T>()?);
     world.insert_resource(Shared::new(table.clone()));
     Ok(table)
 }

@@ -7,7 +7,7 @@ use crate::measure::image_error::Numbers;
 use bevy_ecs::prelude::*;
 use cpu_time::ProcessTime;
 use pinhole::extract::{ImageFrame, camera_entity};
-use pinhole::plan::{Stage, Table};
+use pinhole::plan::{Census, Stage, Table};
 use pinhole::render::{Execution, Lap, Rendered, Watch, render};
 use pinhole::scene::{Sampler, Sampling, Statistics, check_memory};
 use pinhole::{Error, Result};
@@ -142,7 +142,7 @@ pub fn run_all(
 /// All images of a report are in memory together at its end.
 fn check_images_fit(variants: &[Variant<'_>], ladder: &Ladder) -> Result {
     let Some(variant) = variants.first() else { return Ok(()) };
-    let ImageFrame { width, height } = ImageFrame::extract(&variant.world(variant.sampling)?)?;
+    let ImageFrame { width, height } = ImageFrame::extract(&Census::of(&variant.world(variant.sampling)?))?;
     let references = variants.iter().enumerate().filter(|(own, variant)| variant.reference == *own).count();
     let runs = variants.len() as u64 * ladder.samples.len() as u64 * u64::from(ladder.seeds);
     let images = references as u64 * u64::from(ladder.pieces) + runs;

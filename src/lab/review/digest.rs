@@ -3,7 +3,7 @@ use bevy_ecs::world::EntityRef;
 use pinhole::Result;
 use pinhole::extract::ImageFrame;
 use pinhole::look::paths;
-use pinhole::plan::{ColumnKind, Plan, Stage, Table};
+use pinhole::plan::{Census, ColumnKind, Plan, Stage, Table};
 use pinhole::rays::{Depth, Tile};
 use pinhole::render::{Execution, Hook, inspect_stages};
 use std::fmt::Write;
@@ -44,7 +44,7 @@ pub fn digests(scene: &World, offer: &[Stage]) -> Result<String> {
 }
 
 pub(super) fn digests_in_tiles(scene: &World, offer: &[Stage], tile_side: u32) -> Result<String> {
-    let image = ImageFrame::extract(scene)?;
+    let image = ImageFrame::extract(&Census::of(scene))?;
     let mut frame = inspect_stages(scene, offer, tile_side, &[digest_hook(image)])?;
     let Digests(tables) = frame.world.remove_resource().unwrap_or_default();
     let mut text =

@@ -2,7 +2,7 @@ use bevy_ecs::prelude::*;
 use pinhole::Result;
 use pinhole::extract::ImageFrame;
 use pinhole::look::trace;
-use pinhole::plan::{Stage, Table};
+use pinhole::plan::{Census, Stage, Table};
 use pinhole::scene::TracePixel;
 use std::fmt::Write;
 
@@ -46,10 +46,11 @@ pub fn probe_pixels(width: u32, height: u32) -> Vec<Probe> {
 ///
 /// Errors: what a render would be refused for.
 pub fn probes(scene: &World, offer: &[Stage]) -> Result<String> {
-    let ImageFrame { width, height } = ImageFrame::extract(scene)?;
+    let census = &Census::of(scene);
+    let ImageFrame { width, height } = ImageFrame::extract(census)?;
     let mut text = format!("{width} × {height} pixels\n");
     for Probe { place, pixel } in probe_pixels(width, height) {
-        let _ = write!(text, "\n{place}: {}", trace(scene, offer, pixel)?);
+        let _ = write!(text, "\n{place}: {}", trace(census, offer, pixel)?);
     }
     Ok(text)
 }

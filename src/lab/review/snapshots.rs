@@ -2,7 +2,7 @@ use super::{BLOCK_SIDE, Difference, Place, digests, first_difference, probes};
 use bevy_ecs::prelude::*;
 use image::{ImageFormat, RgbImage};
 use pinhole::film::{Curve, byte_from_linear, png_bytes_by};
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage};
 use pinhole::render::{Execution, prepare, render};
 use pinhole::scene::{self, FileKind, Resolution};
 use pinhole::{Chapter, Overrides};
@@ -94,7 +94,7 @@ fn contents(file: &str) -> String {
 ///
 /// Errors: what a render would be refused for.
 pub fn plan_text(name: &str, title: &str, scene: &World, stages: &[Stage]) -> Result<String> {
-    let (plan, tables) = prepare(scene, stages)?;
+    let (plan, tables) = prepare(&Census::of(scene), stages)?;
     let bytes: usize = tables.iter().map(|table| table.bytes).sum();
     Ok(format!("plan of {name}, {title}\n{plan}tables take {bytes} bytes\n"))
 }

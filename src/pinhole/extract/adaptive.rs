@@ -1,5 +1,6 @@
 use super::check::{at_most_one, kind_and_name, number};
-use crate::scene::{Adaptive, Layers, Sampling, SceneError};
+use crate::plan::Census;
+use crate::scene::{Adaptive, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The fewest pilot samples from which a variance can be estimated usefully.
@@ -10,7 +11,11 @@ const MOST_PILOT: u32 = 65_536;
 /// The adaptive sampling that the scene requests, if any.
 ///
 /// Errors: two requests, an error or a number of samples out of range, a camera that takes no samples.
-pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, SceneError> {
+pub fn adaptive_of(scene: &Census<'_>) -> Result<Option<Adaptive>, SceneError> {
+    scene.once(adaptive_now)
+}
+
+fn adaptive_now(scene: &Census<'_>) -> Result<Option<Adaptive>, SceneError> {
     let Some(camera) = at_most_one::<Adaptive>(scene, "adaptive", "Adaptive")? else { return Ok(None) };
     let adaptive = scene.get::<Adaptive>(camera).copied().unwrap_or_default();
     let who = kind_and_name(scene, "camera", camera);
@@ -26,14 +31,4 @@ pub fn adaptive_of(scene: &World) -> Result<Option<Adaptive>, SceneError> {
         return Err(SceneError::new(who, "adaptive", "alone", accepted));
     }
     Ok(Some(adaptive))
-}
-
-/// Checks the layers that the scene requests for every pixel.
-pub fn check_layers(scene: &World) -> Result<(), SceneError> {
-    let Some(camera) = at_most_one::<Layers>(scene, "layers", "Layers")? else { return Ok(()) };
-    if scene.get::<Layers>(camera).is_some_and(|layers| layers.kinds.is_empty()) {
-        let who = kind_and_name(scene, "camera", camera);
-        return Err(SceneError::new(who, "kinds", "empty", "it must name at least one layer, such as Position"));
-    }
-    Ok(())
 }

@@ -1,10 +1,11 @@
+use super::emissive::emissive_of;
 use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
-use super::shape::{emissive_of, is_shape};
+use super::shape_kind::is_shape;
 use super::{
     CuboidTable, DiskTable, EmissiveTable, NO_ROW, Planar, RectangleTable, ShapeKind, ShapeTable, SphereTable,
     TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
 };
-use crate::plan::{Evidence, Table, counted};
+use crate::plan::{Census, Evidence, Table, counted};
 use crate::scene::{Emissive, Placement, Plane, Rgb, SceneError, Sphere, called};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
@@ -80,11 +81,11 @@ pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
 impl Table for AreaLightTable {
     const NAME: &'static str = "lights with area";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (shapes, emissive) = (ShapeTable::extract(scene)?, EmissiveTable::extract(scene)?);
-        let (spheres, disks) = (SphereTable::extract(scene)?, DiskTable::extract(scene)?);
-        let (rectangles, triangles) = (RectangleTable::extract(scene)?, TriangleTable::extract(scene)?);
-        let cuboids = CuboidTable::extract(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (shapes, emissive) = (scene.table::<ShapeTable>()?, scene.table::<EmissiveTable>()?);
+        let (spheres, disks) = (scene.table::<SphereTable>()?, scene.table::<DiskTable>()?);
+        let (rectangles, triangles) = (scene.table::<RectangleTable>()?, scene.table::<TriangleTable>()?);
+        let cuboids = scene.table::<CuboidTable>()?;
         let mut table = Self { light_of_shape: vec![NO_ROW; shapes.kind.len()], ..Self::default() };
         let mut powers = Vec::new();
         for (shape, &emits) in shapes.emissive.iter().enumerate().filter(|(_, emits)| **emits != NO_ROW) {
@@ -134,30 +135,33 @@ fn about_ellipse(planar: &Planar) -> Parallelogram {
 }
 
 /// Evidence that a shape emits light and can be sampled; emitting shapes that cannot are mentioned too.
-pub fn area_light_evidence(scene: &World) -> Evidence {
-    let moves = moves_while_open(scene);
-    let endless = |shape: Entity| {
-        moves(shape)
-            || scene.get::<Plane>(shape).is_some()
-            || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
-    };
-    let shines = |shape: Entity| {
-        let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
-        emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)
-    };
-    let found = Evidence::of_kind::<With<Placement>>(scene, "light with area", |shape| {
-        is_shape(scene, shape) && shines(shape) && !endless(shape)
-    });
-    let by_bsdf: Vec<String> = shape_entities(scene)
-        .into_iter()
-        .filter(|&shape| shines(shape) && endless(shape))
-        .map(|shape| called(scene, shape))
-        .collect();
-    if by_bsdf.is_empty() {
-        return found;
-    }
-    let names = by_bsdf.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
-    let shapes = counted(by_bsdf.len(), "shape that cannot be sampled");
-    let reason = format!("{}; {shapes}, found by BSDF sampling only: {names}", found.reason);
-    Evidence { reason, ..found }
+pub fn area_light_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let moves = moves_while_open(scene);
+        let endless = |shape: Entity| {
+            moves(shape)
+                || scene.get::<Plane>(shape).is_some()
+                || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
+        };
+        let shines = |shape: Entity| {
+            let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
+            emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)
+        };
+        let found = Evidence::of_kind::<With<Placement>>(scene, "light with area", |shape| {
+            shines(shape) && is_shape(scene, shape) && !endless(shape)
+        });
+        let by_bsdf: Vec<String> = shape_entities(scene)
+            .iter()
+            .copied()
+            .filter(|&shape| shines(shape) && endless(shape))
+            .map(|shape| called(scene, shape))
+            .collect();
+        if by_bsdf.is_empty() {
+            return found;
+        }
+        let names = by_bsdf.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
+        let shapes = counted(by_bsdf.len(), "shape that cannot be sampled");
+        let reason = format!("{}; {shapes}, found by BSDF sampling only: {names}", found.reason);
+        Evidence { reason, ..found }
+    })
 }

@@ -1,5 +1,5 @@
 use super::check::{at_most_one, kind_and_name, light_colour};
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{Background, Environment, Gradient, Rgb, SceneError, called};
 use bevy_ecs::prelude::*;
 
@@ -13,7 +13,8 @@ pub struct BackgroundTable {
 impl Table for BackgroundTable {
     const NAME: &'static str = "background";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        check_one_kind(scene)?;
         let colour = match at_most_one::<Background>(scene, "background", "Background")? {
             None => Rgb::BLACK,
             Some(entity) => {
@@ -30,11 +31,11 @@ impl Table for BackgroundTable {
 }
 
 /// Checks that a scene has at most one kind of background.
-pub(super) fn check_one_kind(scene: &World) -> Result<(), SceneError> {
+fn check_one_kind(scene: &Census<'_>) -> Result<(), SceneError> {
     let kinds = [
-        ("a Background", entities::<With<Background>>(scene)),
-        ("a Gradient", entities::<With<Gradient>>(scene)),
-        ("an Environment", entities::<With<Environment>>(scene)),
+        ("a Background", scene.entities::<With<Background>>()),
+        ("a Gradient", scene.entities::<With<Gradient>>()),
+        ("an Environment", scene.entities::<With<Environment>>()),
     ];
     let given: Vec<String> = kinds
         .iter()

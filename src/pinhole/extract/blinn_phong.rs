@@ -1,6 +1,6 @@
 use super::check::kind_and_name;
 use super::phong::{diffuse_and_specular, exponent_within};
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{BlinnPhong, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -30,9 +30,9 @@ pub fn blinn_phong_peak(exponent: f64) -> f64 {
 impl Table for BlinnPhongTable {
     const NAME: &'static str = "blinn–phong highlights";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in entities::<With<BlinnPhong>>(scene) {
+        for &entity in scene.entities::<With<BlinnPhong>>().iter() {
             let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "blinn_phong", entity);
             table.specular.push(diffuse_and_specular(&who, blinn.colour, blinn.specular)?[1]);
@@ -48,7 +48,7 @@ impl Table for BlinnPhongTable {
 }
 
 /// The diffuse colour of a Blinn–Phong material, after checking all of its values.
-pub(super) fn blinn_phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
+pub(super) fn blinn_phong_colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let blinn = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
     exponent_within(who, blinn.exponent)?;
     Ok(diffuse_and_specular(who, blinn.colour, blinn.specular)?[0])

@@ -1,11 +1,8 @@
-use super::ImageCircle;
-use super::check::{kind_and_name, number, positive_length, triple};
+use super::camera_entity::named_camera;
+use super::check::{number, positive_length, triple};
 use super::pose::world_from_entity;
-use crate::plan::{Table, counted, entities};
-use crate::scene::{
-    Degrees, EquirectangularCamera, FisheyeCamera, FovAxis, OrthographicCamera, PerspectiveCamera, Resolution,
-    SceneError, called, some_of,
-};
+use crate::plan::{Census, Table};
+use crate::scene::{Degrees, FovAxis, OrthographicCamera, PerspectiveCamera, Resolution, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -18,59 +15,12 @@ const LONGEST_SIDE: u32 = 65_536;
 /// The greatest number of pixels of a film, whose sums take 28 bytes each.
 const MOST_PIXELS: u64 = 1 << 30;
 
-/// The components that are cameras, each with its article and its entities; a new kind is added with a line.
-const CAMERAS: [(&str, fn(&World) -> Vec<Entity>); 4] = [
-    ("a PerspectiveCamera", entities::<With<PerspectiveCamera>>),
-    ("an OrthographicCamera", entities::<With<OrthographicCamera>>),
-    ("a FisheyeCamera", entities::<With<FisheyeCamera>>),
-    ("an EquirectangularCamera", entities::<With<EquirectangularCamera>>),
-];
-
-/// The one camera of the scene.
-pub fn camera_entity(scene: &World) -> Result<Entity, SceneError> {
-    let kinds = CAMERAS.iter().flat_map(|&(kind, carrying)| carrying(scene).into_iter().map(move |own| (kind, own)));
-    let kinds: Vec<(&str, Entity)> = kinds.collect();
-    let cameras: Vec<Entity> = kinds.iter().map(|&(_, camera)| camera).collect();
-    let accepted = "exactly one entity must carry a PerspectiveCamera, an OrthographicCamera, a FisheyeCamera or an \
-                    EquirectangularCamera";
-    match cameras[..] {
-        [camera] => Ok(camera),
-        [] => Err(SceneError::new("the scene", "camera", "missing", accepted)),
-        [one, ..] if cameras.iter().all(|&other| other == one) => {
-            let kinds: Vec<&str> = kinds.iter().map(|&(kind, _)| kind).collect();
-            let value = format!("{} at once, on {}", kinds.join(" and "), called(scene, one));
-            Err(SceneError::new("the scene", "camera", value, accepted))
-        }
-        _ => {
-            let value = format!("given {}: {}", counted(cameras.len(), "time"), some_of(scene, &cameras, ", "));
-            Err(SceneError::new("the scene", "camera", value, accepted))
-        }
-    }
-}
-
 /// The camera's position in world space: the origin of render space.
-pub fn eye(scene: &World) -> Result<DVec3, SceneError> {
-    let (who, camera) = named_camera(scene)?;
-    Ok(world_from_entity(scene, &who, camera)?.translation)
-}
-
-fn named_camera(scene: &World) -> Result<(String, Entity), SceneError> {
-    let camera = camera_entity(scene)?;
-    Ok((kind_and_name(scene, "camera", camera), camera))
-}
-
-/// The checks specific to the camera's kind.
-pub fn check_camera(scene: &World) -> Result<(), SceneError> {
-    let camera = scene.entity(camera_entity(scene)?);
-    if camera.contains::<PerspectiveCamera>() {
-        PerspectiveProjection::extract(scene)?;
-    } else if camera.contains::<FisheyeCamera>() {
-        ImageCircle::extract(scene)?;
-    } else if camera.contains::<OrthographicCamera>() {
-        OrthographicWindow::extract(scene)?;
-    }
-    // An equirectangular camera has no parameter of its own, and its pixels are wide enough at any resolution.
-    Ok(())
+pub fn eye(scene: &Census<'_>) -> Result<DVec3, SceneError> {
+    scene.once(|scene| {
+        let (who, camera) = named_camera(scene)?;
+        Ok(world_from_entity(scene, &who, camera)?.translation)
+    })
 }
 
 /// The image's resolution and aspect ratio.
@@ -97,7 +47,7 @@ impl ImageFrame {
 impl Table for ImageFrame {
     const NAME: &'static str = "image shape";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let Resolution { width, height } = scene.get::<Resolution>(camera).copied().unwrap_or_default();
         let sides = 1..=LONGEST_SIDE;
@@ -134,9 +84,9 @@ impl PerspectiveProjection {
 impl Table for PerspectiveProjection {
     const NAME: &'static str = "pinhole";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
-        let image = ImageFrame::extract(scene)?;
+        let image = scene.table::<ImageFrame>()?;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         if !(fov.0 > 0.0 && fov.0 < 180.0) {
             return Err(SceneError::new(
@@ -166,7 +116,7 @@ impl Table for PerspectiveProjection {
 }
 
 // ANCHOR: tan_half
-/// tan(α / 2) of a full angle α, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
+/// tan(φ / 2) of a full angle φ, accurate to the last bits even near 180°: there it is the reciprocal of the tangent of
 /// half the difference to 180°, which is subtracted exactly.
 pub fn tan_half(angle: Degrees) -> f64 {
     if angle.0 > 90.0 {
@@ -224,7 +174,7 @@ pub struct OrthographicWindow {
 impl Table for OrthographicWindow {
     const NAME: &'static str = "view rectangle";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let view = scene.get::<OrthographicCamera>(camera).copied().unwrap_or_default();
         Ok(Self { half_height: positive_length(&who, "view_height", view.view_height)? / 2.0 })
@@ -245,7 +195,7 @@ pub struct CameraAxes {
 impl Table for CameraAxes {
     const NAME: &'static str = "camera axes";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (who, camera) = named_camera(scene)?;
         let world_from_camera = world_from_entity(scene, &who, camera)?.matrix3;
         let off = world_from_camera.transpose() * world_from_camera - DMat3::IDENTITY;

@@ -1,8 +1,8 @@
+use super::camera_entity::camera_of;
 use super::{
-    CameraAxes, FilterTable, ImageFrame, LensTable, OrthographicWindow, PerspectiveProjection, camera_entity,
-    lens_evidence, radius_of,
+    CameraAxes, FilterTable, ImageFrame, LensTable, OrthographicWindow, PerspectiveProjection, lens_evidence, radius_of,
 };
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{OrthographicCamera, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec2};
@@ -37,22 +37,22 @@ impl CameraJoinTable {
 impl Table for CameraJoinTable {
     const NAME: &'static str = "join to the camera";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let image = ImageFrame::extract(scene)?;
-        let is_perspective = scene.get::<OrthographicCamera>(camera_entity(scene)?).is_none();
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let image = scene.table::<ImageFrame>()?;
+        let is_perspective = scene.get::<OrthographicCamera>(camera_of(scene)?).is_none();
         let half_height = if is_perspective {
-            PerspectiveProjection::extract(scene)?.tan_half_vertical
+            scene.table::<PerspectiveProjection>()?.tan_half_vertical
         } else {
-            OrthographicWindow::extract(scene)?.half_height
+            scene.table::<OrthographicWindow>()?.half_height
         };
-        let lens = lens_evidence(scene).needed.then(|| LensTable::extract(scene)).transpose()?;
+        let lens = lens_evidence(scene).needed.then(|| scene.table::<LensTable>()).transpose()?;
         Ok(Self {
-            camera_from_world: CameraAxes::extract(scene)?.world_from_camera.transpose(),
+            camera_from_world: scene.table::<CameraAxes>()?.world_from_camera.transpose(),
             is_perspective,
             half_height,
             focus_distance: lens.map_or(f64::INFINITY, |lens| lens.focus_distance),
             size: image.size(),
-            margin: radius_of(FilterTable::extract(scene)?.filter),
+            margin: radius_of(scene.table::<FilterTable>()?.filter),
         })
     }
 

@@ -1,6 +1,6 @@
 //! Checks that several components have in common; each gives the one sentence of an error message.
 
-use crate::plan::entities;
+use crate::plan::Census;
 use crate::scene::{Rgb, SceneError, called, some_of};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -77,8 +77,12 @@ pub fn number(value: f64) -> String {
 }
 
 /// The one entity that carries a component that a scene may have once, or none.
-pub fn at_most_one<C: Component>(scene: &World, field: &'static str, kind: &str) -> Result<Option<Entity>, SceneError> {
-    let found = entities::<With<C>>(scene);
+pub fn at_most_one<C: Component>(
+    scene: &Census<'_>,
+    field: &'static str,
+    kind: &str,
+) -> Result<Option<Entity>, SceneError> {
+    let found = scene.entities::<With<C>>();
     if found.len() > 1 {
         let accepted = format!("at most one entity may carry a {kind}");
         return Err(SceneError::new(

@@ -1,8 +1,10 @@
+use super::camera::eye;
 use super::check::{finite_point, kind_and_name, positive_length, triple};
 use super::planar::unit_in_f32;
 use super::pose::normal_world_from_object;
-use super::{Pose, eye, pose, shape_entities};
-use crate::plan::Table;
+use super::pose::{Pose, pose};
+use super::shape_kind::numbered;
+use crate::plan::{Census, Table};
 use crate::scene::{Cuboid, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
@@ -64,9 +66,9 @@ pub struct CuboidTable {
 impl Table for CuboidTable {
     const NAME: &'static str = "cuboids";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+        for (shape, entity) in numbered::<Cuboid>(scene) {
             let Some(cuboid) = scene.get::<Cuboid>(entity) else { continue };
             table.slabs.push(slabs(scene, entity, cuboid.size)?);
             table.shape.push(shape as u32);
@@ -79,7 +81,7 @@ impl Table for CuboidTable {
     }
 }
 
-fn slabs(scene: &World, entity: Entity, size: DVec3) -> Result<Slabs, SceneError> {
+fn slabs(scene: &Census<'_>, entity: Entity, size: DVec3) -> Result<Slabs, SceneError> {
     let who = kind_and_name(scene, "cuboid", entity);
     for part in size.to_array() {
         positive_length(&who, "size", part).map_err(|scene_error| SceneError {

@@ -1,6 +1,6 @@
 use super::check::{kind_and_name, light_colour};
 use super::pose::ahead;
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{DirectionalLight, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -19,9 +19,9 @@ pub struct DirectionalLightTable {
 impl Table for DirectionalLightTable {
     const NAME: &'static str = "directional lights";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in entities::<With<DirectionalLight>>(scene) {
+        for &entity in scene.entities::<With<DirectionalLight>>().iter() {
             let light = scene.get::<DirectionalLight>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "directional light", entity);
             table.to_light.push(-ahead(scene, &who, entity)?);
@@ -45,7 +45,7 @@ mod tests {
     fn to_light(spawn: impl FnOnce(&mut World)) -> DVec3 {
         let mut world = World::new();
         spawn(&mut world);
-        DirectionalLightTable::extract(&world).expect("extracts").to_light[0]
+        DirectionalLightTable::extract(&Census::of(&world)).expect("extracts").to_light[0]
     }
 
     /// Rays travel along −z, so the light is towards +z; rotated, looked at, scaled, mirrored, under a parent, moved.

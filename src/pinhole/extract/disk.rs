@@ -1,7 +1,8 @@
 use super::check::{kind_and_name, positive_length};
 use super::planar::{Planar, planar};
-use super::{moves_while_open, shape_entities};
-use crate::plan::Table;
+use super::shape_kind::numbered;
+use super::velocity::moves_while_open;
+use crate::plan::{Census, Table};
 use crate::scene::{Disk, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -18,9 +19,9 @@ pub struct DiskTable {
 impl Table for DiskTable {
     const NAME: &'static str = "disks";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (mut table, moves) = (Self::default(), moves_while_open(scene));
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| !moves(entity)) {
+        for (shape, entity) in numbered::<Disk>(scene).into_iter().filter(|&(_, entity)| !moves(entity)) {
             let Some(disk) = scene.get::<Disk>(entity) else { continue };
             let who = kind_and_name(scene, "disk", entity);
             let radius = positive_length(&who, "radius", disk.radius)?;

@@ -1,13 +1,12 @@
+use super::camera::eye;
 use super::check::{finite_point, kind_and_name, positive_length, triple};
-use super::{eye, pose, shape_entities};
-use crate::plan::Table;
+use super::pose::{pose, unevenly_scaled};
+use super::shape_kind::numbered;
+use crate::plan::{Census, Table};
 use crate::scene::{ChildOf, Placement, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
-/// How far the three scales of a sphere may differ, relative to the first, and still be considered equal up to
-/// rounding.
-const EVEN_TOLERANCE: f64 = 1e-9;
 /// The greatest ratio of an ellipsoid's longest to its shortest axis, up to which `extremes` has tested it.
 const LARGEST_RATIO: f64 = 1e7;
 /// The factor by which its bounding sphere is enlarged, so that no rounding of the map leads outside it.
@@ -46,10 +45,10 @@ pub struct EllipsoidTable {
 impl Table for EllipsoidTable {
     const NAME: &'static str = "ellipsoids";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+        for (shape, entity) in numbered::<Sphere>(scene) {
             let Some(sphere) = scene.get::<Sphere>(entity).filter(|_| unevenly_scaled(scene, entity)) else { continue };
             table.ellipsoid.push(ellipsoid(scene, entity, sphere.radius, eye)?);
             table.shape.push(shape as u32);
@@ -62,7 +61,7 @@ impl Table for EllipsoidTable {
     }
 }
 
-fn ellipsoid(scene: &World, entity: Entity, radius: f64, eye: DVec3) -> Result<Ellipsoid, SceneError> {
+fn ellipsoid(scene: &Census<'_>, entity: Entity, radius: f64, eye: DVec3) -> Result<Ellipsoid, SceneError> {
     let who = kind_and_name(scene, "sphere", entity);
     let pose = pose(scene, &who, entity)?;
     positive_length(&who, "radius", radius)?;
@@ -100,25 +99,6 @@ fn bound_of_eigenvalues(matrix: DMat3, rounds: u32) -> f64 {
     bound * bound_of_eigenvalues(reduced * reduced, rounds - 1).sqrt()
 }
 
-/// Whether the entity's placement and its parents' together have a non-uniform scale, so that a sphere becomes an
-/// ellipsoid.
-///
-/// An invalid placement counts as uniform: extraction will report what is wrong with it.
-pub fn unevenly_scaled(scene: &World, entity: Entity) -> bool {
-    let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
-    let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
-    !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
-}
-
-/// Whether a map lengthens every direction by the same factor, mirrored or not.
-fn is_even(world_from_entity: DMat3) -> bool {
-    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
-    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
-    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
-    let uneven = (lengths - lengths.x).abs().max_element();
-    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,13 +123,15 @@ mod tests {
         let uneven = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
         let even = [DVec3::ONE, DVec3::new(1.0, 1.0, 1.0 + 1e-12), DVec3::new(-2.0, 2.0, 2.0), DVec3::splat(-1e-9)];
         let (world, spheres) = scene(&[&uneven[..], &even].concat());
-        let (shapes, ellipsoids) = (ShapeTable::extract(&world), EllipsoidTable::extract(&world));
+        let (shapes, ellipsoids) =
+            (ShapeTable::extract(&Census::of(&world)), EllipsoidTable::extract(&Census::of(&world)));
         let (shapes, ellipsoids) = (shapes.expect("shapes"), ellipsoids.expect("ellipsoids"));
-        let spheres_left = SphereTable::extract(&world).expect("spheres");
+        let spheres_left = SphereTable::extract(&Census::of(&world)).expect("spheres");
         assert_eq!(ellipsoids.shape, [0, 1, 2]);
         assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
         for (number, &sphere) in spheres.iter().enumerate() {
-            let kind = if unevenly_scaled(&world, sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            let kind =
+                if unevenly_scaled(&Census::of(&world), sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
             assert_eq!(shapes.kind[number], kind, "sphere {number}");
         }
     }
@@ -158,8 +140,8 @@ mod tests {
     fn the_map_takes_poles_to_the_unit_sphere() {
         let scale = DVec3::new(-1e-3, 3.0, 1e3);
         let (world, spheres) = scene(&[scale]);
-        let table = EllipsoidTable::extract(&world).expect("ellipsoids");
-        let pose = pose(&world, "", spheres[0]).expect("a pose");
+        let table = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids");
+        let pose = pose(&Census::of(&world), "", spheres[0]).expect("a pose");
         let Ellipsoid { centre, unit_from_world, bounding_radius, .. } = table.ellipsoid[0];
         assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -175,8 +157,9 @@ mod tests {
         let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
         let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
         world.entity_mut(spheres[0]).insert(ChildOf(parent));
-        let map = pose(&world, "", spheres[0]).expect("a pose").world_from_entity.matrix3;
-        let bounding_radius = EllipsoidTable::extract(&world).expect("ellipsoids").ellipsoid[0].bounding_radius;
+        let map = pose(&Census::of(&world), "", spheres[0]).expect("a pose").world_from_entity.matrix3;
+        let bounding_radius =
+            EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids").ellipsoid[0].bounding_radius;
         let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
         let point = |angle: f64| {
             let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
@@ -191,7 +174,7 @@ mod tests {
 
     #[test]
     fn an_ellipsoid_longer_than_ten_million_times_its_thickness_is_refused() {
-        let table = |ratio: f64| EllipsoidTable::extract(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0);
+        let table = |ratio: f64| EllipsoidTable::extract(&Census::of(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0));
         assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
         for ratio in [2e7, 1e-8] {
             let scene_error = table(ratio).expect_err("refused").to_string();

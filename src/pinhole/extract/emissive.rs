@@ -1,8 +1,9 @@
 use super::check::{kind_and_name, light_colour};
-use super::material::material_kind_evidence;
-use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Emissive, SceneError, Sides};
+use super::material_kind::material_kind_evidence;
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{Disabled, Emissive, SceneError, Sides, UsesMaterial};
 use bevy_ecs::prelude::*;
+use std::sync::Arc;
 
 /// The emission of surfaces, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,16 +15,23 @@ pub struct EmissiveTable {
 }
 
 /// The enabled entities that carry an [`Emissive`], in spawn order, one for each row of the table.
-pub(super) fn emissive_entities(scene: &World) -> Vec<Entity> {
-    entities::<With<Emissive>>(scene)
+pub(super) fn emissive_entities(scene: &Census<'_>) -> Arc<[Entity]> {
+    scene.entities::<With<Emissive>>()
+}
+
+/// The entity that holds a shape's emission: itself, or else the one whose material it uses.
+pub(super) fn emissive_of(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
+    let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
+    let emits = |entity: &Entity| scene.get::<Emissive>(*entity).is_some() && scene.get::<Disabled>(*entity).is_none();
+    [Some(shape), used].into_iter().flatten().find(emits)
 }
 
 impl Table for EmissiveTable {
     const NAME: &'static str = "emissive surfaces";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in emissive_entities(scene) {
+        for &entity in emissive_entities(scene).iter() {
             let emissive = scene.get::<Emissive>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "emissive", entity);
             let radiance = light_colour(&who, "radiance", emissive.radiance)?.to_array();
@@ -39,7 +47,7 @@ impl Table for EmissiveTable {
 }
 
 /// Evidence that a shape emits light on one of its sides only.
-pub fn one_sided_evidence(scene: &World) -> Evidence {
+pub fn one_sided_evidence(scene: &Census<'_>) -> Evidence {
     let one_sided = |entity: &Entity| scene.get::<Emissive>(*entity).is_some_and(|own| own.sides == Sides::Front);
     let found = emissive_evidence(scene);
     if found.needed && emissive_entities(scene).iter().any(one_sided) {
@@ -49,6 +57,6 @@ pub fn one_sided_evidence(scene: &World) -> Evidence {
 }
 
 /// Evidence that a shape emits light.
-pub fn emissive_evidence(scene: &World) -> Evidence {
-    material_kind_evidence::<Emissive>(scene, "emissive surface")
+pub fn emissive_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| material_kind_evidence::<Emissive>(scene, "emissive surface"))
 }

@@ -1,7 +1,7 @@
 use super::Texels;
 use super::check::{at_most_one, kind_and_name, number};
 use super::image_file::background_image;
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub struct EnvironmentTable {
 impl Table for EnvironmentTable {
     const NAME: &'static str = "environment";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<Environment>(scene, "environment", "Environment")? else {
             return Ok(Self { image: Texels::single([0.0; 3]).into(), turn: [0.0, 1.0] });
         };

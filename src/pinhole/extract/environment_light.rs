@@ -1,6 +1,6 @@
 use super::area_light::luminance;
 use super::{EnvironmentTable, Texels};
-use crate::plan::{Evidence, Table};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Environment, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
@@ -108,8 +108,8 @@ fn line_of(image: &Texels, line: usize) -> Vec<f64> {
 impl Table for EnvironmentLightTable {
     const NAME: &'static str = "light of the environment";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        Ok(Self::new(&EnvironmentTable::extract(scene)?.image))
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        Ok(Self::new(&scene.table::<EnvironmentTable>()?.image))
     }
 
     fn bytes(&self) -> usize {
@@ -118,7 +118,7 @@ impl Table for EnvironmentLightTable {
 }
 
 /// Evidence that there is an environment image; a constant background or a gradient needs no light sampling.
-pub fn environment_light_evidence(scene: &World) -> Evidence {
+pub fn environment_light_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::among::<With<Environment>>(scene, "environment", |entity| {
         entity.get::<Environment>().is_some_and(|environment| environment.scale != 0.0)
     })

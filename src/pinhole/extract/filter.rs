@@ -1,6 +1,6 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::check::{kind_and_name, number};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Filter, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -50,8 +50,8 @@ pub struct Span {
 impl Table for FilterTable {
     const NAME: &'static str = "filter";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let camera = camera_of(scene)?;
         let Some(&Sampling { filter, .. }) = scene.get::<Sampling>(camera) else { return Ok(Self::default()) };
         check(&kind_and_name(scene, "camera", camera), filter)?;
         Ok(Self { filter, cells: FilterCells::of(filter) })

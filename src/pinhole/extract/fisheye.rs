@@ -1,7 +1,8 @@
 use super::SMALLEST_PIXEL;
-use super::camera::{ImageFrame, camera_entity, half_extent};
+use super::camera::{ImageFrame, half_extent};
+use super::camera_entity::camera_of;
 use super::check::{kind_and_name, number};
-use crate::plan::{Evidence, Table, entities};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{FisheyeCamera, Layers, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -17,10 +18,13 @@ pub struct ImageCircle {
 impl Table for ImageCircle {
     const NAME: &'static str = "image circle";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let camera = camera_of(scene)?;
+        if scene.get::<FisheyeCamera>(camera).is_none() {
+            return Ok(Self::default());
+        }
         let who = kind_and_name(scene, "camera", camera);
-        let image = ImageFrame::extract(scene)?;
+        let image = *scene.table::<ImageFrame>()?;
         let FisheyeCamera { fov, axis } = scene.get::<FisheyeCamera>(camera).copied().unwrap_or_default();
         if !(fov.0 > 0.0 && fov.0 <= 360.0) {
             let value = format!("{}°", number(fov.0));
@@ -37,7 +41,7 @@ impl Table for ImageCircle {
             );
             return Err(SceneError::new(who, "fov", value, accepted));
         }
-        if !entities::<With<Layers>>(scene).is_empty() {
+        if !scene.entities::<With<Layers>>().is_empty() {
             let accepted =
                 "a fisheye camera has none, for outside its circle there is nothing to record: use another kind";
             return Err(SceneError::new(who, "layers", "requested", accepted));
@@ -58,6 +62,6 @@ impl ImageCircle {
 }
 
 /// Evidence that the camera is a fisheye.
-pub fn fisheye_evidence(scene: &World) -> Evidence {
+pub fn fisheye_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<FisheyeCamera>(scene, "fisheye camera")
 }

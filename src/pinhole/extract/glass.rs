@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, light_colour, number};
-use super::material::{material_kind_evidence, used_material};
-use super::shape_entities;
-use crate::plan::{Evidence, Table, entities};
+use super::material_kind::{material_kind_evidence, used_material};
+use super::shape_kind::numbered;
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
 use bevy_ecs::prelude::*;
 
@@ -22,9 +22,9 @@ pub struct GlassTable {
 impl Table for GlassTable {
     const NAME: &'static str = "glass";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in entities::<With<Glass>>(scene) {
+        for &entity in scene.entities::<With<Glass>>().iter() {
             let (ior, absorption, priority) = glass_numbers(scene, entity)?;
             table.ior.push(ior);
             table.absorption.push(absorption);
@@ -40,7 +40,7 @@ impl Table for GlassTable {
 }
 
 /// Index, absorption and priority of a kind of glass, checked.
-fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), SceneError> {
+pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, [f64; 3], u32), SceneError> {
     let glass = scene.get::<Glass>(entity).copied().unwrap_or_default();
     let who = kind_and_name(scene, "glass", entity);
     if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&glass.ior) {
@@ -51,19 +51,13 @@ fn glass_numbers(scene: &World, entity: Entity) -> Result<(f64, [f64; 3], u32), 
     Ok((glass.ior, absorption, glass.priority))
 }
 
-/// Checks a glass's values; its diffuse colour is black.
-pub(super) fn glass_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
-    glass_numbers(scene, entity).map(|_| [0.0; 3])
-}
-
 /// Checks that no shape without an interior is made of glass.
-fn check_closed(scene: &World) -> Result<(), SceneError> {
-    for shape in shape_entities(scene) {
-        let kind = match (scene.get::<Disk>(shape), scene.get::<Rectangle>(shape)) {
-            (Some(_), _) => "disk",
-            (_, Some(_)) => "rectangle",
-            _ => continue,
-        };
+fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
+    let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
+    let mut open: Vec<(Entity, &str)> = of("disk", numbered::<Disk>(scene)).collect();
+    open.extend(of("rectangle", numbered::<Rectangle>(scene)));
+    open.sort_by_key(|(shape, _)| shape.index());
+    for (shape, kind) in open {
         let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
             continue;
         };
@@ -75,6 +69,6 @@ fn check_closed(scene: &World) -> Result<(), SceneError> {
 }
 
 /// Evidence that a shape is made of glass.
-pub fn glass_evidence(scene: &World) -> Evidence {
-    material_kind_evidence::<Glass>(scene, "glass surface")
+pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| material_kind_evidence::<Glass>(scene, "glass surface"))
 }

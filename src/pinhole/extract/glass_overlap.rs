@@ -1,9 +1,9 @@
-use super::material::in_use_of;
+use super::material_kind::in_use_of;
 use super::{
     Bounds, CuboidTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable,
     TriangleTable, shape_entities,
 };
-use crate::plan::{Evidence, Table};
+use crate::plan::{Census, Evidence};
 use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -22,32 +22,35 @@ struct BoundedGlass {
 }
 
 /// Evidence of a shape made of glass that passes a test.
-pub fn glass_that(scene: &World, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
+pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
     in_use_of::<Glass>(scene, noun, such)
 }
 
 /// Evidence that two glass shapes may overlap, according to their bounding boxes.
 ///
 /// Triangles of the same glass are taken for parts of one surface.
-pub fn glass_overlaps(scene: &World) -> Evidence {
-    let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
-    // A scene that cannot be extracted is reported before anything is rendered.
-    let Ok(shapes) = bounded_glass(scene) else { return none() };
-    match first_overlap(shapes) {
-        None => none(),
-        Some(pair) => {
-            let entities = shape_entities(scene);
-            let [one, other] = pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
-            let reason = format!("shapes of glass may overlap: {one}, {other}");
-            Evidence { needed: true, reason, count: 2 }
+pub fn glass_overlaps(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let none = || Evidence { needed: false, reason: "no two shapes of glass overlap".into(), count: 0 };
+        // A scene that cannot be extracted is reported before anything is rendered.
+        let Ok(shapes) = bounded_glass(scene) else { return none() };
+        match first_overlap(shapes) {
+            None => none(),
+            Some(pair) => {
+                let entities = shape_entities(scene);
+                let [one, other] =
+                    pair.map(|shape| entities.get(shape).map_or_else(String::new, |&e| called(scene, e)));
+                let reason = format!("shapes of glass may overlap: {one}, {other}");
+                Evidence { needed: true, reason, count: 2 }
+            }
         }
-    }
+    })
 }
 
 /// Evidence that more than this many glass shapes may contain a common point, according to their bounding boxes.
 ///
 /// It may be wrong for shapes that do not, but never misses shapes that do.
-pub fn deep_glass(scene: &World, places: usize) -> Evidence {
+pub fn deep_glass(scene: &Census<'_>, places: usize) -> Evidence {
     let none = || Evidence { needed: false, reason: format!("no {} shapes of glass overlap", places + 1), count: 0 };
     // A scene that cannot be extracted is reported before anything is rendered.
     let Ok(shapes) = bounded_glass(scene) else { return none() };
@@ -128,16 +131,16 @@ fn first_overlap(mut shapes: Vec<BoundedGlass>) -> Option<[usize; 2]> {
 }
 
 /// Every glass shape.
-fn bounded_glass(scene: &World) -> Result<Vec<BoundedGlass>, SceneError> {
-    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
+fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
+    let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];
         material != NO_ROW && materials.kind[material as usize] == MaterialKind::Glass
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
-    let spheres = SphereTable::extract(scene)?;
-    let (ellipsoids, cuboids) = (EllipsoidTable::extract(scene)?, CuboidTable::extract(scene)?);
-    let triangles = TriangleTable::extract(scene)?;
+    let spheres = scene.table::<SphereTable>()?;
+    let (ellipsoids, cuboids) = (scene.table::<EllipsoidTable>()?, scene.table::<CuboidTable>()?);
+    let triangles = scene.table::<TriangleTable>()?;
     let bounded = glass.into_iter().map(|shape| {
         let row = shapes.row[shape] as usize;
         let bounds = match shapes.kind[shape] {
@@ -181,26 +184,27 @@ mod tests {
     #[test]
     fn overlaps_are_found_and_named() {
         let apart = [(0.0, 1.0), (2.5, 1.0), (-3.0, 0.5), (10.0, 1.0)];
-        assert!(!glass_overlaps(&world(&apart)).needed);
+        assert!(!glass_overlaps(&Census::of(&world(&apart))).needed);
         let mut touching = world(&apart);
         touching.spawn((Name::new("bubble"), Sphere { radius: 0.2 }, Glass::default(), Placement::at(2.5, 0.0, 0.0)));
-        let found = glass_overlaps(&touching);
+        let found = glass_overlaps(&Census::of(&touching));
         assert!(
             found.needed && found.reason.contains("\"ball at 2.5\"") && found.reason.contains("\"bubble\""),
             "{found:?}"
         );
         let mut pond = world(&apart[..1]);
-        assert!(!glass_overlaps(&pond).needed);
+        assert!(!glass_overlaps(&Census::of(&pond)).needed);
         pond.spawn((Plane::default(), Glass::default()));
-        assert!(glass_overlaps(&pond).needed, "a plane is infinite");
+        assert!(glass_overlaps(&Census::of(&pond)).needed, "a plane is infinite");
         let mut stone = world(&apart[..1]);
         stone.spawn((Sphere { radius: 0.5 }, Matte::default()));
-        assert!(!glass_overlaps(&stone).needed, "a material other than glass");
+        assert!(!glass_overlaps(&Census::of(&stone)).needed, "a material other than glass");
     }
 
     #[test]
     fn depth_counts_boxes_with_a_common_point() {
-        let depth = |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&world(balls), places).needed);
+        let depth =
+            |balls: &[(f64, f64)]| (0..12).find(|&places| !deep_glass(&Census::of(&world(balls)), places).needed);
         assert_eq!(depth(&[]), Some(0));
         assert_eq!(depth(&[(0.0, 1.0), (5.0, 1.0)]), Some(1));
         assert_eq!(depth(&[(0.0, 1.0), (0.0, 0.9), (0.0, 0.8), (0.0, 0.7), (0.0, 0.6)]), Some(5));
@@ -216,8 +220,8 @@ mod tests {
         for at in 0..4 {
             mesh.spawn((Triangle::default(), UsesMaterial(glass), Placement::at(0.1 * f64::from(at), 0.0, 0.0)));
         }
-        assert!(!glass_overlaps(&mesh).needed);
+        assert!(!glass_overlaps(&Census::of(&mesh)).needed);
         mesh.spawn((Sphere { radius: 0.1 }, UsesMaterial(glass)));
-        assert!(glass_overlaps(&mesh).needed);
+        assert!(glass_overlaps(&Census::of(&mesh)).needed);
     }
 }

@@ -1,5 +1,5 @@
 use super::check::{at_most_one, kind_and_name, light_colour};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Gradient, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -15,7 +15,7 @@ pub struct GradientTable {
 impl Table for GradientTable {
     const NAME: &'static str = "gradient";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<Gradient>(scene, "gradient", "Gradient")? else { return Ok(Self::default()) };
         let gradient = scene.get::<Gradient>(entity).copied().unwrap_or_default();
         let who = kind_and_name(scene, "gradient", entity);

@@ -3,7 +3,7 @@ use super::check::kind_and_name;
 use super::image_file::{check_memory_of_textures, shown_name, texture_image};
 use super::phong::beside_highlight;
 use super::texture::{Texture, rows_of_kind};
-use crate::plan::{Table, counted, entities};
+use crate::plan::{Census, Table, counted};
 use crate::scene::{ImageTexture, Rgb, SceneError, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
@@ -24,18 +24,17 @@ pub struct ImageTable {
     pub filter: Vec<bool>,
 }
 
-/// Checks the files of all image textures.
-pub(super) fn check_images(scene: &World) -> Result<(), SceneError> {
-    let owners = entities::<With<ImageTexture>>(scene);
+/// Checks that all image textures fit into memory together, before any is decoded.
+fn check_memory(scene: &Census<'_>) -> Result<(), SceneError> {
+    let owners = scene.entities::<With<ImageTexture>>();
     let files = owners.iter().filter_map(|&owner| scene.get::<ImageTexture>(owner)).map(|texture| &*texture.file);
     check_memory_of_textures(scene, files).map_err(|(count, too_little)| {
         let files = counted(count, "file");
         SceneError::new("the scene", "set of image textures", files, format!("decoding them {too_little}"))
-    })?;
-    owners.into_iter().try_for_each(|owner| image_of(scene, owner).map(|_| ()))
+    })
 }
 
-fn image_of(scene: &World, owner: Entity) -> Result<Arc<Pyramid>, SceneError> {
+fn image_of(scene: &Census<'_>, owner: Entity) -> Result<Arc<Pyramid>, SceneError> {
     let file = scene.get::<ImageTexture>(owner).map_or("", |texture| &texture.file);
     let who = kind_and_name(scene, ImageTexture::WORD, owner);
     let image = texture_image(scene, &who, file)?;
@@ -47,7 +46,8 @@ fn image_of(scene: &World, owner: Entity) -> Result<Arc<Pyramid>, SceneError> {
 impl Table for ImageTable {
     const NAME: &'static str = "images";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        check_memory(scene)?;
         let (of_material, rows) = rows_of_kind::<ImageTexture>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {

@@ -1,8 +1,8 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::emissive::emissive_evidence;
 use super::material::material_evidence;
 use super::{glass_evidence, metal_evidence, mirror_evidence};
-use crate::plan::{Evidence, entities};
+use crate::plan::{Census, Evidence};
 use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
@@ -21,56 +21,60 @@ pub struct ChosenIntegrator {
 /// Rough metal, and other materials in the light of emitting surfaces, need sampled points and directions, hence path
 /// tracing; mirrors and glass lit by lights without an area need none, hence Whitted's method; everything else is seen
 /// by ray casting.
-pub fn integrator_of(scene: &World) -> ChosenIntegrator {
-    let chosen = |integrator, reason: String| ChosenIntegrator { integrator, reason };
-    let camera = camera_entity(scene).ok();
-    if let Some((camera, &named)) = camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own))) {
-        return chosen(named, format!("named on the camera {}", called(scene, camera)));
-    }
-    let metal = metal_evidence(scene);
-    let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
-    let specular = mirror_evidence(scene).or(glass_evidence(scene));
-    let by_bsdf = metal.or(emitters);
-    if by_bsdf.needed {
-        return chosen(Integrator::PATH, by_bsdf.reason);
-    }
-    if specular.needed && has_points(scene) {
-        return chosen(Integrator::WHITTED, specular.reason);
-    }
-    if specular.needed {
-        return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", specular.reason));
-    }
-    chosen(Integrator::RayCasting, specular.reason)
+pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
+    scene.once(|scene| {
+        let chosen = |integrator, reason: String| ChosenIntegrator { integrator, reason };
+        let camera = camera_of(scene).ok();
+        if let Some((camera, &named)) =
+            camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own)))
+        {
+            return chosen(named, format!("named on the camera {}", called(scene, camera)));
+        }
+        let metal = metal_evidence(scene);
+        let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
+        let specular = mirror_evidence(scene).or(glass_evidence(scene));
+        let by_bsdf = metal.or(emitters);
+        if by_bsdf.needed {
+            return chosen(Integrator::PATH, by_bsdf.reason);
+        }
+        if specular.needed && has_points(scene) {
+            return chosen(Integrator::WHITTED, specular.reason);
+        }
+        if specular.needed {
+            return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", specular.reason));
+        }
+        chosen(Integrator::RayCasting, specular.reason)
+    })
 }
 // ANCHOR_END: integrator_of
 
 /// Whether there is a light without an area.
-fn has_points(scene: &World) -> bool {
-    !entities::<With<PointLight>>(scene).is_empty()
-        || !entities::<With<DirectionalLight>>(scene).is_empty()
-        || !entities::<With<SpotLight>>(scene).is_empty()
+fn has_points(scene: &Census<'_>) -> bool {
+    !scene.entities::<With<PointLight>>().is_empty()
+        || !scene.entities::<With<DirectionalLight>>().is_empty()
+        || !scene.entities::<With<SpotLight>>().is_empty()
 }
 
 /// Evidence that rays are traced beyond the first surface.
-pub fn followed_evidence(scene: &World) -> Evidence {
+pub fn followed_evidence(scene: &Census<'_>) -> Evidence {
     let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
     needed_if(scene, goes_on)
 }
 
 /// Evidence that the picture shows ambient occlusion.
-pub fn occlusion_evidence(scene: &World) -> Evidence {
+pub fn occlusion_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
 }
 
 /// The evidence of something that lighting needs, except with ambient occlusion, which has no lights.
-pub fn unless_occlusion(scene: &World, evidence: Evidence) -> Evidence {
+pub fn unless_occlusion(scene: &Census<'_>, evidence: Evidence) -> Evidence {
     let occlusion = occlusion_evidence(scene);
     let instead = || Evidence { needed: false, reason: format!("{} shows no other light", occlusion.reason), count: 0 };
     if occlusion.needed && evidence.needed { instead() } else { evidence }
 }
 
 /// Evidence that area lights are sampled (next-event estimation).
-pub fn light_sampling_evidence(scene: &World) -> Evidence {
+pub fn light_sampling_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| match integrator {
         Integrator::Distribution { .. } => true,
         Integrator::Path { lights, .. } => lights != LightStrategy::Bsdf,
@@ -79,12 +83,12 @@ pub fn light_sampling_evidence(scene: &World) -> Evidence {
 }
 
 /// Evidence that light sampling and BSDF sampling are combined by multiple importance sampling.
-pub fn mis_evidence(scene: &World) -> Evidence {
+pub fn mis_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightStrategy::Mis, .. }))
 }
 
 /// Evidence that the scene's integrator is of a kind.
-pub fn needed_if(scene: &World, is_of_kind: impl Fn(Integrator) -> bool) -> Evidence {
+pub fn needed_if(scene: &Census<'_>, is_of_kind: impl Fn(Integrator) -> bool) -> Evidence {
     let ChosenIntegrator { integrator, reason } = integrator_of(scene);
     let word = match integrator {
         Integrator::RayCasting => "ray casting",

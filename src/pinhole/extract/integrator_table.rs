@@ -1,8 +1,8 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::check::{at_most_one, kind_and_name, positive_length};
 use super::glass::{GlassTable, glass_evidence};
 use super::integrator::integrator_of;
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Integrator, LightStrategy, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -26,8 +26,8 @@ pub struct IntegratorTable {
 impl Table for IntegratorTable {
     const NAME: &'static str = "integrator";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let camera = camera_of(scene)?;
         let who = || kind_and_name(scene, "camera", camera);
         if let Some(other) = at_most_one::<Integrator>(scene, "integrator", "Integrator")?
             && other != camera
@@ -63,10 +63,10 @@ impl Table for IntegratorTable {
 }
 
 /// The largest squared index of refraction among the kinds of glass in use; 1 without any.
-fn eta_scale_in_glass(scene: &World) -> Result<f64, SceneError> {
+fn eta_scale_in_glass(scene: &Census<'_>) -> Result<f64, SceneError> {
     if !glass_evidence(scene).needed {
         return Ok(1.0);
     }
-    let densest = GlassTable::extract(scene)?.ior.into_iter().fold(1.0, f64::max);
+    let densest = scene.table::<GlassTable>()?.ior.iter().copied().fold(1.0, f64::max);
     Ok(densest * densest)
 }

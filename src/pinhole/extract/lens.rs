@@ -1,7 +1,7 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::check::{kind_and_name, number, positive_length};
 use super::{ImageFrame, PerspectiveProjection, SMALLEST_PIXEL};
-use crate::plan::{Evidence, Table, entities};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Aperture, Lens, PerspectiveCamera, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -87,13 +87,14 @@ fn radius_of(aperture: Aperture, who: &str) -> Result<f64, SceneError> {
 impl Table for LensTable {
     const NAME: &'static str = "lens";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        check_owners(scene)?;
+        let camera = camera_of(scene)?;
         let who = kind_and_name(scene, "camera", camera);
         let Some(lens) = scene.get::<Lens>(camera) else { return Ok(Self::default()) };
         let table = Self::of(lens, &who)?;
-        let image = ImageFrame::extract(scene)?;
-        let pixel = 2.0 * PerspectiveProjection::extract(scene)?.tan_half_vertical / f64::from(image.height);
+        let image = scene.table::<ImageFrame>()?;
+        let pixel = 2.0 * scene.table::<PerspectiveProjection>()?.tan_half_vertical / f64::from(image.height);
         let seen = seen_from_edge(pixel, &table);
         if seen < SMALLEST_PIXEL {
             let value = format!(
@@ -124,12 +125,10 @@ fn seen_from_edge(pixel: f64, lens: &LensTable) -> f64 {
     pixel * lens.focus_distance / (lens.focus_distance + 2.0 * lens.radius)
 }
 
-/// Checks the scene's lens, if it has one.
-///
-/// Errors: a lens on something other than a perspective camera, or a parameter out of range.
-pub fn check_lens(scene: &World) -> Result<(), SceneError> {
-    let camera = camera_entity(scene)?;
-    for entity in entities::<With<Lens>>(scene) {
+/// Only a perspective camera may carry a lens.
+fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
+    let camera = camera_of(scene)?;
+    for &entity in scene.entities::<With<Lens>>().iter() {
         if entity != camera || scene.get::<PerspectiveCamera>(entity).is_none() {
             let who = if entity == camera { kind_and_name(scene, "camera", entity) } else { called(scene, entity) };
             let kind = if entity == camera { "no PerspectiveCamera" } else { "no camera" };
@@ -137,16 +136,16 @@ pub fn check_lens(scene: &World) -> Result<(), SceneError> {
             return Err(SceneError::new(who, "lens", format!("given to {kind}"), accepted));
         }
     }
-    LensTable::extract(scene).map(|_| ())
+    Ok(())
 }
 
 /// Evidence that the camera has an aperture larger than a point.
-pub fn lens_evidence(scene: &World) -> Evidence {
+pub fn lens_evidence(scene: &Census<'_>) -> Evidence {
     let open = |camera: EntityRef<'_>| {
         camera.get::<Lens>().and_then(|lens| radius_of(lens.aperture, "").ok()).is_none_or(|radius| radius > 0.0)
     };
     let evidence = Evidence::among::<(With<PerspectiveCamera>, With<Lens>)>(scene, "camera with a lens", open);
-    let closed = entities::<(With<PerspectiveCamera>, With<Lens>)>(scene);
+    let closed = scene.entities::<(With<PerspectiveCamera>, With<Lens>)>();
     match closed.first() {
         Some(&camera) if !evidence.needed => {
             Evidence { reason: format!("aperture 0: the lens of {} is a pinhole", called(scene, camera)), ..evidence }

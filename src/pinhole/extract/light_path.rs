@@ -3,7 +3,7 @@ use super::{
     AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialKind, MaterialTable, NO_ROW,
     PointLightTable, RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
 };
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -70,8 +70,8 @@ impl LightPathTable {
 impl Table for LightPathTable {
     const NAME: &'static str = "light paths";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let areas = AreaLightTable::extract(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let areas = scene.table::<AreaLightTable>()?;
         let (mut light, mut powers) = (Vec::new(), Vec::new());
         for (number, emitter) in areas.emitter.iter().enumerate() {
             let (radiance, one_sided) = (areas.radiance[number], areas.one_sided[number]);
@@ -80,13 +80,13 @@ impl Table for LightPathTable {
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
         // The light of a light without shadows passes through everything, so glass does not bend its rays.
-        let points = PointLightTable::extract(scene)?;
+        let points = scene.table::<PointLightTable>()?;
         for number in (0..points.position.len()).filter(|&number| points.casts_shadows[number]) {
             let (position, intensity) = (points.position[number], points.intensity[number]);
             powers.push(luminance(intensity) * 4.0 * PI);
             light.push(LightSource::Point { position, intensity, cone: None });
         }
-        let spots = SpotLightTable::extract(scene)?;
+        let spots = scene.table::<SpotLightTable>()?;
         for number in (0..spots.position.len()).filter(|&number| spots.casts_shadows[number]) {
             let (position, intensity) = (spots.position[number], spots.intensity[number]);
             let edges = [spots.inner[number], spots.outer[number]];
@@ -103,11 +103,11 @@ impl Table for LightPathTable {
 }
 
 /// Bounding spheres of all mirrors and glass; none where one of these is infinite.
-fn targets(scene: &World) -> Result<Vec<Target>, SceneError> {
-    let (shapes, materials) = (ShapeTable::extract(scene)?, MaterialTable::extract(scene)?);
-    let (spheres, ellipsoids) = (SphereTable::extract(scene)?, EllipsoidTable::extract(scene)?);
-    let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
-    let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
+fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
+    let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
+    let (spheres, ellipsoids) = (scene.table::<SphereTable>()?, scene.table::<EllipsoidTable>()?);
+    let (disks, rectangles) = (scene.table::<DiskTable>()?, scene.table::<RectangleTable>()?);
+    let (cuboids, triangles) = (scene.table::<CuboidTable>()?, scene.table::<TriangleTable>()?);
     let is_specular = |shape: &usize| match shapes.material[*shape] {
         NO_ROW => false,
         material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),

@@ -1,9 +1,10 @@
+use super::camera_entity::camera_of;
 use super::check::{at_most_one, kind_and_name, number};
 use super::{
-    ImageFrame, adaptive_of, area_light_evidence, camera_entity, glass_evidence, integrator_of, material_evidence,
-    mirror_evidence, motion_evidence,
+    ImageFrame, adaptive_of, area_light_evidence, glass_evidence, integrator_of, material_evidence, mirror_evidence,
+    motion_evidence,
 };
-use crate::plan::{ComponentKind, Evidence, Table};
+use crate::plan::{Census, ComponentKind, Evidence, Table};
 use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 
@@ -20,11 +21,11 @@ pub struct LightTracingTable {
 impl Table for LightTracingTable {
     const NAME: &'static str = "light tracing";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let Some(entity) = at_most_one::<LightTracing>(scene, "light_tracing", "LightTracing")? else {
             return Ok(Self::default());
         };
-        let camera = camera_entity(scene)?;
+        let camera = camera_of(scene)?;
         if camera != entity {
             let who = kind_and_name(scene, "light tracing", entity);
             return Err(SceneError::new(who, "light_tracing", "on no camera", "it must be on the camera"));
@@ -52,7 +53,7 @@ impl Table for LightTracingTable {
             let accepted = "a light path may contribute to any pixel, so none can request more: remove the Adaptive";
             return refused("with adaptive sampling", accepted);
         }
-        ImageFrame::extract(scene)?;
+        scene.table::<ImageFrame>()?;
         Ok(Self { paths })
     }
 
@@ -63,7 +64,7 @@ impl Table for LightTracingTable {
 
 /// Evidence that caustics are traced from the lights: the camera requests it, and there are a light to start on,
 /// mirrors or glass, and non-specular surfaces.
-pub fn traced_evidence(scene: &World) -> Evidence {
+pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
     let requested = Evidence::of::<LightTracing>(scene, "light-tracing camera");
     if !requested.needed {
         return requested;
@@ -76,12 +77,12 @@ pub fn traced_evidence(scene: &World) -> Evidence {
 }
 
 /// Evidence of a light on which light paths can start.
-pub fn started_on_evidence(scene: &World) -> Evidence {
+pub fn started_on_evidence(scene: &Census<'_>) -> Evidence {
     area_light_evidence(scene).or(shadowed_point_evidence(scene))
 }
 
 /// Evidence of a point or spot light that casts shadows.
-pub fn shadowed_point_evidence(scene: &World) -> Evidence {
+pub fn shadowed_point_evidence(scene: &Census<'_>) -> Evidence {
     const POINTS: [ComponentKind; 2] = [ComponentKind::of::<PointLight>(), ComponentKind::of::<SpotLight>()];
     Evidence::among_any(scene, "point or spot light", &POINTS, |light| {
         light.get::<PointLight>().is_none_or(|light| light.casts_shadows)

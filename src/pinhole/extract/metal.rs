@@ -1,14 +1,8 @@
-use super::MaterialKind;
 use super::check::{kind_and_name, number, reflectance};
-use super::material::{in_use_of, material_entities, material_kind};
-use crate::plan::{Evidence, Table};
+use super::material_kind::{MaterialKind, SMOOTHEST_METAL, in_use_of, material_entities, material_kind};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Metal, SceneError};
 use bevy_ecs::prelude::*;
-
-/// The least α of a rough metal; below it, metal is a perfect mirror.
-///
-/// There its highlight falls to one half within 0.07° of its centre.
-pub const SMOOTHEST_METAL: f64 = 1e-3;
 
 /// Rough metals, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,9 +16,9 @@ pub struct MetalTable {
 impl Table for MetalTable {
     const NAME: &'static str = "metals";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in material_entities(scene) {
+        for &entity in material_entities(scene).iter() {
             if material_kind(scene, entity) == Some(MaterialKind::Metal) {
                 let (colour, alpha) = metal_numbers(scene, entity)?;
                 table.colour.push(colour);
@@ -40,7 +34,7 @@ impl Table for MetalTable {
 }
 
 /// A metal's colour and roughness, checked.
-pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], f64), SceneError> {
+pub(super) fn metal_numbers(scene: &Census<'_>, entity: Entity) -> Result<([f64; 3], f64), SceneError> {
     let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
     let who = kind_and_name(scene, "metal", entity);
     let colour = reflectance(&who, "colour", metal.colour)?.to_array();
@@ -51,33 +45,26 @@ pub(super) fn metal_numbers(scene: &World, entity: Entity) -> Result<([f64; 3], 
     }
 }
 
-/// Checks a metal's values; its diffuse colour is black.
-pub(super) fn metal_colour(scene: &World, entity: Entity, _who: &str) -> Result<[f64; 3], SceneError> {
-    metal_numbers(scene, entity).map(|_| [0.0; 3])
-}
-
-/// The kind of a metal: a perfect mirror where it is smooth enough.
-pub(super) fn metal_kind(scene: &World, entity: Entity) -> MaterialKind {
-    let smooth = scene.get::<Metal>(entity).is_some_and(|metal| metal.roughness < SMOOTHEST_METAL);
-    if smooth { MaterialKind::Mirror } else { MaterialKind::Metal }
-}
-
 /// For each row of [`MetalTable`], whether it models multiple scattering between microfacets.
-pub fn multiple_scattering_metals(scene: &World) -> Vec<bool> {
-    let rough = material_entities(scene).into_iter();
-    let rough = rough.filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
+pub fn multiple_scattering_metals(scene: &Census<'_>) -> Vec<bool> {
+    let materials = material_entities(scene);
+    let rough = materials.iter().copied().filter(|&entity| material_kind(scene, entity) == Some(MaterialKind::Metal));
     rough.map(|entity| scene.get::<Metal>(entity).is_some_and(|metal| metal.multiple_scattering)).collect()
 }
 
 /// Evidence of multiple scattering between microfacets.
-pub fn multiple_scattering_evidence(scene: &World) -> Evidence {
-    in_use_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
-        metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
+pub fn multiple_scattering_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        in_use_of::<Metal>(scene, "rough metal of multiple scattering", |metal| {
+            metal.multiple_scattering && !matches!(metal.roughness, ..SMOOTHEST_METAL)
+        })
     })
 }
 
 /// Evidence of a shape made of rough metal.
-pub fn metal_evidence(scene: &World) -> Evidence {
-    // NaN counts too, so that it is reported and not overlooked.
-    in_use_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+pub fn metal_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        // NaN counts too, so that it is reported and not overlooked.
+        in_use_of::<Metal>(scene, "rough metal", |metal| !matches!(metal.roughness, ..SMOOTHEST_METAL))
+    })
 }

@@ -1,8 +1,9 @@
 use super::check::{kind_and_name, reflectance};
-use super::material::{in_use_of, material_entities, material_kind, material_kind_evidence};
+use super::material_kind::{
+    MaterialKind, SMOOTHEST_METAL, in_use_of, material_entities, material_kind, material_kind_evidence,
+};
 use super::metal::metal_numbers;
-use super::{MaterialKind, SMOOTHEST_METAL};
-use crate::plan::{Evidence, Table};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Metal, Mirror, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -16,9 +17,9 @@ pub struct MirrorTable {
 impl Table for MirrorTable {
     const NAME: &'static str = "mirrors";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in material_entities(scene) {
+        for &entity in material_entities(scene).iter() {
             if material_kind(scene, entity) != Some(MaterialKind::Mirror) {
                 continue;
             }
@@ -37,16 +38,11 @@ impl Table for MirrorTable {
     }
 }
 
-/// Checks a mirror's values; its diffuse colour is black.
-pub(super) fn mirror_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
-    let mirror = scene.get::<Mirror>(entity).copied().unwrap_or_default();
-    reflectance(who, "colour", mirror.colour)?;
-    Ok([0.0; 3])
-}
-
 /// Evidence of a perfect mirror, either a Mirror or metal smooth enough to be one.
-pub fn mirror_evidence(scene: &World) -> Evidence {
-    let mirror = material_kind_evidence::<Mirror>(scene, "mirror");
-    let smooth = in_use_of::<Metal>(scene, "smooth metal", |metal| metal.roughness < SMOOTHEST_METAL);
-    if smooth.needed { mirror.or(smooth) } else { mirror }
+pub fn mirror_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let mirror = material_kind_evidence::<Mirror>(scene, "mirror");
+        let smooth = in_use_of::<Metal>(scene, "smooth metal", |metal| metal.roughness < SMOOTHEST_METAL);
+        if smooth.needed { mirror.or(smooth) } else { mirror }
+    })
 }

@@ -12,6 +12,7 @@ mod background;
 mod blinn_phong;
 mod bounds;
 mod camera;
+mod camera_entity;
 mod camera_join;
 mod check;
 mod cuboid;
@@ -39,6 +40,7 @@ mod lens;
 mod light_path;
 mod light_tracing;
 mod material;
+mod material_kind;
 mod metal;
 mod mirror;
 mod motion;
@@ -53,6 +55,7 @@ mod pyramid;
 mod rectangle;
 mod sampling;
 mod shape;
+mod shape_kind;
 mod sphere;
 mod spot_light;
 mod srgb;
@@ -61,21 +64,23 @@ mod triangle;
 mod two_colours;
 mod uv_slope;
 mod uv_space;
+mod velocity;
 
-pub use adaptive::{adaptive_of, check_layers};
+pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
-    camera_entity, eye, half_extent, tan_half,
+    eye, half_extent, tan_half,
 };
+pub use camera_entity::camera_entity;
 pub use camera_join::CameraJoinTable;
 pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
 pub use disk::DiskTable;
-pub use ellipsoid::{Ellipsoid, EllipsoidTable, unevenly_scaled};
+pub use ellipsoid::{Ellipsoid, EllipsoidTable};
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
@@ -95,17 +100,14 @@ pub use integrator::{
 };
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
-pub use lens::{LensTable, check_lens, lens_evidence};
+pub use lens::{LensTable, lens_evidence};
 pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
-pub use material::{MaterialKind, MaterialTable, NO_ROW, material_evidence, material_kind_evidence, matte_evidence};
-pub use metal::{
-    MetalTable, SMOOTHEST_METAL, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals,
-};
+pub use material::{MaterialTable, material_evidence, matte_evidence};
+pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
+pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
 pub use mirror::{MirrorTable, mirror_evidence};
-pub use motion::{
-    ShutterTable, camera_moves_evidence, check_motion, motion_evidence, moves_while_open, moving_evidence, velocity_of,
-};
+pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{Body, MovingTable};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
@@ -114,12 +116,13 @@ pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
 pub use pose::{
     Pose, ahead, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
-    world_from_entity,
+    unevenly_scaled, world_from_entity,
 };
 pub use pyramid::{Pyramid, halved};
 pub use rectangle::RectangleTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
-pub use shape::{ShapeKind, ShapeTable, shape_entities};
+pub use shape::ShapeTable;
+pub use shape_kind::{ShapeKind, shape_entities, shape_name, shape_names};
 pub use sphere::SphereTable;
 pub use spot_light::{SpotLightTable, versine_of_half};
 pub use srgb::linear_from_srgb;
@@ -131,50 +134,62 @@ pub use triangle::{TriangleRow, TriangleTable, VertexNormalTable};
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
 pub use uv_slope::{UvSlope, UvSlopes, most_of};
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
+pub use velocity::{moves_while_open, velocity_of};
 
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
-use bevy_ecs::prelude::*;
 
-/// Checks every enabled component of a scene, whether or not the plan will use it.
+/// The tables that validate the components of a scene, in the order in which mistakes are reported: the camera, shapes,
+/// materials, lights, textures, the background, the view.
+///
+/// A new kind of component is added with a line; every other table is made from these.
+const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
+    answer::<ImageFrame>,
+    answer::<ShutterTable>,
+    answer::<CameraAxes>,
+    answer::<PerspectiveProjection>,
+    answer::<ImageCircle>,
+    answer::<OrthographicWindow>,
+    answer::<LensTable>,
+    answer::<SamplingTable>,
+    answer::<FilterTable>,
+    answer::<IntegratorTable>,
+    answer::<LightTracingTable>,
+    answer::<ShapeTable>,
+    answer::<MaterialTable>,
+    answer::<GlassTable>,
+    answer::<EmissiveTable>,
+    answer::<SphereTable>,
+    answer::<EllipsoidTable>,
+    answer::<PlaneTable>,
+    answer::<DiskTable>,
+    answer::<RectangleTable>,
+    answer::<CuboidTable>,
+    answer::<TriangleTable>,
+    answer::<MovingTable>,
+    answer::<PointLightTable>,
+    answer::<DirectionalLightTable>,
+    answer::<SpotLightTable>,
+    answer::<TextureMaps>,
+    answer::<CheckerTable>,
+    answer::<StripesTable>,
+    answer::<ImageTable>,
+    answer::<BackgroundTable>,
+    answer::<GradientTable>,
+    answer::<EnvironmentTable>,
+    |scene| check::at_most_one::<View>(scene, "view", "View").map(drop),
+    |scene| adaptive_of(scene).map(drop),
+    answer::<LayerTable>,
+];
+
+fn answer<T: Table>(scene: &Census<'_>) -> Result<(), SceneError> {
+    scene.table::<T>().map(drop)
+}
+
+/// Extracts what answers for each enabled component of a scene, whether or not the plan will use it; a render of the same
+/// census takes the tables from there.
 ///
 /// Errors: the first [`SceneError`] in the order camera, shapes, materials, lights, textures, background, view.
-pub fn validate(scene: &World) -> Result<(), SceneError> {
-    ImageFrame::extract(scene)?;
-    check_motion(scene)?;
-    CameraAxes::extract(scene)?;
-    camera::check_camera(scene)?;
-    check_lens(scene)?;
-    SamplingTable::extract(scene)?;
-    FilterTable::extract(scene)?;
-    IntegratorTable::extract(scene)?;
-    LightTracingTable::extract(scene)?;
-    ShapeTable::extract(scene)?;
-    MaterialTable::extract(scene)?;
-    GlassTable::extract(scene)?;
-    EmissiveTable::extract(scene)?;
-    SphereTable::extract(scene)?;
-    EllipsoidTable::extract(scene)?;
-    PlaneTable::extract(scene)?;
-    DiskTable::extract(scene)?;
-    RectangleTable::extract(scene)?;
-    CuboidTable::extract(scene)?;
-    TriangleTable::extract(scene)?;
-    MovingTable::extract(scene)?;
-    VertexNormalTable::extract(scene)?;
-    PointLightTable::extract(scene)?;
-    DirectionalLightTable::extract(scene)?;
-    SpotLightTable::extract(scene)?;
-    TextureMaps::extract(scene)?;
-    CheckerTable::extract(scene)?;
-    StripesTable::extract(scene)?;
-    image_texture::check_images(scene)?;
-    background::check_one_kind(scene)?;
-    BackgroundTable::extract(scene)?;
-    GradientTable::extract(scene)?;
-    EnvironmentTable::extract(scene)?;
-    check::at_most_one::<View>(scene, "view", "View")?;
-    adaptive_of(scene)?;
-    check_layers(scene)?;
-    Ok(())
+pub fn validate(scene: &Census<'_>) -> Result<(), SceneError> {
+    ANSWERS.iter().try_for_each(|answer| answer(scene))
 }

@@ -1,13 +1,18 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
-use super::{light_sampling_evidence, shape_entities, texture_evidence, unevenly_scaled};
-use crate::plan::{Evidence, Table, entities};
+use super::integrator::light_sampling_evidence;
+use super::pose::unevenly_scaled;
+use super::shape_kind::moving_shapes;
+use super::texture::texture_evidence;
+use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
+use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
-    Checker, ChildOf, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError,
-    Shutter, Sphere, SpotLight, Stripes, UsesMaterial, called,
+    Checker, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError, Shutter,
+    Sphere, SpotLight, Stripes, UsesMaterial, called,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use std::collections::HashSet;
 
 /// The latest time, such that times and their differences stay sufficiently accurate.
 const FARTHEST_TIME: f64 = 1e9;
@@ -24,9 +29,9 @@ pub struct ShutterTable {
 impl Table for ShutterTable {
     const NAME: &'static str = "shutter";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
-        let shutter = shutter_of(scene);
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        check_motion(scene)?;
+        let (camera, shutter) = (camera_of(scene)?, shutter_of(scene));
         Ok(Self { length: shutter.close - shutter.open, velocity: velocity_of(scene, camera) })
     }
 
@@ -35,67 +40,28 @@ impl Table for ShutterTable {
     }
 }
 
-/// The camera's shutter; without one, the moment 0.
-fn shutter_of(scene: &World) -> Shutter {
-    let shutters = entities::<With<Shutter>>(scene);
-    shutters
-        .first()
-        .and_then(|&camera| scene.get::<Shutter>(camera))
-        .copied()
-        .unwrap_or(Shutter { open: 0.0, close: 0.0 })
-}
-
-/// The velocity of an entity: its own and its parents' added.
-pub fn velocity_of(scene: &World, entity: Entity) -> DVec3 {
-    let (mut velocity, mut next, mut steps) = (DVec3::ZERO, Some(entity), 0);
-    // Cyclic parents are an error of every placement; here the loop must only end.
-    while let Some(own) = next.filter(|_| steps < 1 << 16) {
-        velocity += scene.get::<Motion>(own).map_or(DVec3::ZERO, |motion| motion.velocity);
-        next = scene.get::<ChildOf>(own).map(ChildOf::parent);
-        steps += 1;
-    }
-    velocity
-}
-
-/// The displacement of an entity at the moment when the shutter opens.
-pub fn displacement_at_opening(scene: &World, entity: Entity) -> Option<DVec3> {
-    let velocity = velocity_of(scene, entity);
-    (velocity != DVec3::ZERO).then(|| velocity * shutter_of(scene).open)
-}
-
-/// Whether the shutter is open for a positive time.
-pub fn shutter_has_duration(scene: &World) -> bool {
-    let Shutter { open, close } = shutter_of(scene);
-    close > open
-}
-
-/// A predicate for the shapes that move while the shutter is open.
-pub fn moves_while_open(scene: &World) -> impl Fn(Entity) -> bool {
-    let open = shutter_has_duration(scene) && !entities::<With<Motion>>(scene).is_empty();
-    move |entity| open && velocity_of(scene, entity) != DVec3::ZERO
-}
-
 /// Evidence that a shape moves while the shutter is open.
-pub fn moving_evidence(scene: &World) -> Evidence {
-    let moves = moves_while_open(scene);
-    let moving: Vec<Entity> = shape_entities(scene).into_iter().filter(|&shape| moves(shape)).collect();
-    said(scene, "moving shape", moving)
+pub fn moving_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        let moving = moving_shapes(scene).iter().map(|&(_, shape)| shape).collect();
+        said(scene, "moving shape", &moving)
+    })
 }
 
 /// Evidence that the camera moves while its shutter is open.
-pub fn camera_moves_evidence(scene: &World) -> Evidence {
+pub fn camera_moves_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
-    said(scene, "moving camera", camera_entity(scene).into_iter().filter(|&camera| moves(camera)).collect())
+    said(scene, "moving camera", &camera_of(scene).into_iter().filter(|&camera| moves(camera)).collect())
 }
 
 /// Evidence that anything moves while the shutter is open.
-pub fn motion_evidence(scene: &World) -> Evidence {
+pub fn motion_evidence(scene: &Census<'_>) -> Evidence {
     moving_evidence(scene).or(camera_moves_evidence(scene))
 }
 
-fn said(scene: &World, noun: &str, moving: Vec<Entity>) -> Evidence {
+fn said(scene: &Census<'_>, noun: &str, moving: &HashSet<Entity>) -> Evidence {
     let evidence = Evidence::of_kind::<()>(scene, noun, |entity| moving.contains(&entity));
-    let declared = entities::<With<Motion>>(scene);
+    let declared = scene.entities::<With<Motion>>();
     if evidence.needed || declared.is_empty() || shutter_has_duration(scene) {
         return evidence;
     }
@@ -107,9 +73,9 @@ fn said(scene: &World, noun: &str, moving: Vec<Entity>) -> Evidence {
 ///
 /// Errors: a shutter on something other than the camera, one that closes before it opens, a velocity that is not
 /// finite, a motion of something that may not move while the shutter is open.
-pub fn check_motion(scene: &World) -> Result<(), SceneError> {
-    let camera = camera_entity(scene)?;
-    for entity in entities::<With<Shutter>>(scene) {
+fn check_motion(scene: &Census<'_>) -> Result<(), SceneError> {
+    let camera = camera_of(scene)?;
+    for &entity in scene.entities::<With<Shutter>>().iter() {
         if entity != camera {
             let accepted = "only the camera may carry a Shutter";
             return Err(SceneError::new(called(scene, entity), "shutter", "given to no camera", accepted));
@@ -127,7 +93,7 @@ pub fn check_motion(scene: &World) -> Result<(), SceneError> {
             return Err(SceneError::new(who, "close", number(close), accepted));
         }
     }
-    for entity in entities::<With<Motion>>(scene) {
+    for &entity in scene.entities::<With<Motion>>().iter() {
         let velocity = scene.get::<Motion>(entity).copied().unwrap_or_default().velocity;
         finite_point(&called(scene, entity), "velocity", velocity)?;
     }
@@ -135,13 +101,17 @@ pub fn check_motion(scene: &World) -> Result<(), SceneError> {
 }
 
 /// Checks that only what may move does move while the shutter is open.
-fn check_movers(scene: &World) -> Result<(), SceneError> {
+fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
     let moves = moves_while_open(scene);
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
         Err(SceneError::new(kind_and_name(scene, kind, entity), "motion", value, accepted))
     };
-    let lights = [entities::<With<PointLight>>, entities::<With<DirectionalLight>>, entities::<With<SpotLight>>];
-    if let Some(light) = lights.iter().flat_map(|lights| lights(scene)).find(|&light| moves(light)) {
+    let lights = [
+        scene.entities::<With<PointLight>>(),
+        scene.entities::<With<DirectionalLight>>(),
+        scene.entities::<With<SpotLight>>(),
+    ];
+    if let Some(&light) = lights.iter().flat_map(|lights| lights.iter()).find(|&&light| moves(light)) {
         return refused(
             light,
             "light",
@@ -150,7 +120,7 @@ fn check_movers(scene: &World) -> Result<(), SceneError> {
         );
     }
     let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
-    for shape in shape_entities(scene).into_iter().filter(|&shape| moves(shape)) {
+    for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
         let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);
         if !(round || own.contains::<Disk>() || own.contains::<Rectangle>()) {

@@ -1,9 +1,10 @@
 use super::check::{kind_and_name, positive_length};
-use super::motion::{moves_while_open, velocity_of};
+use super::eye;
 use super::planar::{Planar, planar};
+use super::shape_kind::moving_shapes;
 use super::sphere::placed_sphere;
-use super::{eye, shape_entities};
-use crate::plan::Table;
+use super::velocity::velocity_of;
+use crate::plan::{Census, Table};
 use crate::scene::{Disk, Rectangle, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -38,10 +39,10 @@ pub struct MovingTable {
 impl Table for MovingTable {
     const NAME: &'static str = "moving shapes";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (eye, moves) = (eye(scene)?, moves_while_open(scene));
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let eye = eye(scene)?;
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| moves(entity)) {
+        for &(shape, entity) in moving_shapes(scene).iter() {
             let body = if let Some(sphere) = scene.get::<Sphere>(entity) {
                 let (centre, radius) = placed_sphere(scene, entity, sphere, eye)?;
                 Body::Sphere { centre, radius }

@@ -1,6 +1,6 @@
 use super::check::kind_and_name;
 use super::check::{number, reflectance, triple};
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{BlinnPhong, Phong, Rgb, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -32,9 +32,9 @@ pub fn phong_peak(exponent: f64) -> f64 {
 impl Table for PhongTable {
     const NAME: &'static str = "phong highlights";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in entities::<With<Phong>>(scene) {
+        for &entity in scene.entities::<With<Phong>>().iter() {
             let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "phong", entity);
             table.specular.push(diffuse_and_specular(&who, phong.colour, phong.specular)?[1]);
@@ -50,7 +50,7 @@ impl Table for PhongTable {
 }
 
 /// The diffuse colour of a Phong material, after checking all of its values.
-pub(super) fn phong_colour(scene: &World, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
+pub(super) fn phong_colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
     let phong = scene.get::<Phong>(entity).copied().unwrap_or_default();
     exponent_within(who, phong.exponent)?;
     Ok(diffuse_and_specular(who, phong.colour, phong.specular)?[0])
@@ -69,7 +69,7 @@ pub(super) fn exponent_within(who: &str, exponent: f64) -> Result<f64, SceneErro
 /// Checks that a texture's colour and the specular albedo of its material add up to at most 1; `largest` is the
 /// texture's maximum in each component.
 pub(super) fn beside_highlight(
-    scene: &World,
+    scene: &Census<'_>,
     material: Entity,
     (who, field, value): (&str, &'static str, String),
     largest: Rgb,

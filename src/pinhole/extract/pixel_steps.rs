@@ -1,7 +1,6 @@
-use super::{
-    CameraAxes, ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SamplingTable, camera_entity,
-};
-use crate::plan::Table;
+use super::camera_entity::camera_of;
+use super::{CameraAxes, ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SamplingTable};
+use crate::plan::{Census, Table};
 use crate::scene::{EquirectangularCamera, FisheyeCamera, OrthographicCamera, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -28,24 +27,24 @@ pub struct PixelSteps {
 impl Table for PixelSteps {
     const NAME: &'static str = "pixel steps";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (image, axes) = (ImageFrame::extract(scene)?, CameraAxes::extract(scene)?.world_from_camera);
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (image, axes) = (*scene.table::<ImageFrame>()?, scene.table::<CameraAxes>()?.world_from_camera);
         // Pixels are square, on a screen of height 2.
-        let fraction = (1.0 / f64::from(SamplingTable::extract(scene)?.samples).sqrt()).max(MIN_FRACTION);
+        let fraction = (1.0 / f64::from(scene.table::<SamplingTable>()?.samples).sqrt()).max(MIN_FRACTION);
         let pixel = 2.0 / f64::from(image.height) * fraction;
         let steps = |length: f64| [axes.x_axis * length, -axes.y_axis * length];
-        let camera = scene.entity(camera_entity(scene)?);
+        let camera = scene.entity(camera_of(scene)?);
         let none = [DVec3::ZERO; 2];
         let (mut direction, mut origin, mut angle) = (none, none, None);
         if camera.contains::<OrthographicCamera>() {
-            origin = steps(pixel * OrthographicWindow::extract(scene)?.half_height);
+            origin = steps(pixel * scene.table::<OrthographicWindow>()?.half_height);
         } else if camera.contains::<FisheyeCamera>() {
-            angle = Some(ImageCircle::extract(scene)?.pixel(image) * fraction);
+            angle = Some(scene.table::<ImageCircle>()?.pixel(image) * fraction);
         } else if camera.contains::<EquirectangularCamera>() {
             // At the horizon; towards the poles the step to the right becomes shorter, while that down stays the same.
             angle = Some((2.0 * PI / f64::from(image.width)).max(PI / f64::from(image.height)) * fraction);
         } else {
-            direction = steps(pixel * PerspectiveProjection::extract(scene)?.tan_half_vertical);
+            direction = steps(pixel * scene.table::<PerspectiveProjection>()?.tan_half_vertical);
         }
         Ok(Self { direction, origin, ahead: -axes.z_axis, angle })
     }

@@ -1,6 +1,7 @@
 use super::check::{finite_point, positive_length};
 use super::pose::normal_world_from_object;
 use super::{Pose, eye, pose};
+use crate::plan::Census;
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -53,7 +54,7 @@ pub fn unit_in_f32(v: DVec3) -> DVec3 {
 }
 
 /// The plane of an entity with these half edges along its own x and z axes.
-pub fn planar(scene: &World, who: &str, entity: Entity, half: [f64; 2]) -> Result<Planar, SceneError> {
+pub fn planar(scene: &Census<'_>, who: &str, entity: Entity, half: [f64; 2]) -> Result<Planar, SceneError> {
     let Pose { world_from_entity, entity_from_world } = pose(scene, who, entity)?;
     let centre = finite_point(who, "position", world_from_entity.translation - eye(scene)?)?;
     let map = world_from_entity.matrix3;

@@ -1,7 +1,8 @@
+use super::camera::eye;
 use super::check::{finite_point, kind_and_name, triple};
 use super::pose::{normal_world_from_object, pose};
-use super::{eye, shape_entities};
-use crate::plan::Table;
+use super::shape_kind::numbered;
+use crate::plan::{Census, Table};
 use crate::scene::{Plane, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -21,10 +22,10 @@ pub struct PlaneTable {
 impl Table for PlaneTable {
     const NAME: &'static str = "planes";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+        for (shape, entity) in numbered::<Plane>(scene) {
             let Some(plane) = scene.get::<Plane>(entity) else { continue };
             let who = kind_and_name(scene, "plane", entity);
             let pose = pose(scene, &who, entity)?;

@@ -1,6 +1,6 @@
 use super::check::{finite_point, kind_and_name, light_colour};
 use super::{eye, world_from_entity};
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{PointLight, SceneError};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -19,10 +19,10 @@ pub struct PointLightTable {
 impl Table for PointLightTable {
     const NAME: &'static str = "point lights";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for entity in entities::<With<PointLight>>(scene) {
+        for &entity in scene.entities::<With<PointLight>>().iter() {
             let light = scene.get::<PointLight>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "point light", entity);
             let pose = world_from_entity(scene, &who, entity)?;

@@ -1,5 +1,6 @@
 use super::check::{finite_point, number, triple};
-use super::motion::displacement_at_opening;
+use super::velocity::displacement_at_opening;
+use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, Placement, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -8,6 +9,9 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 const UNIT_TOLERANCE: f64 = 1e-6;
 /// The sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
 const LEAST_SINE: f64 = 1e-6;
+/// How far the three scales of a sphere may differ, relative to the first, and still be considered equal up to
+/// rounding.
+const EVEN_TOLERANCE: f64 = 1e-9;
 const ONE_OF_THE_TWO: &str = "a LookAt already gives position and orientation: use one of the two";
 
 /// The transform between an entity's object space and world space.
@@ -24,12 +28,12 @@ pub struct Pose {
 /// The transform from object space to world space: the entity's placement, then its parent's, and so on to the root.
 ///
 /// `who` is the entity's name in error messages, such as `sphere "ball"`.
-pub fn world_from_entity(scene: &World, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
+pub fn world_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DAffine3, SceneError> {
     Ok(pose(scene, who, entity)?.world_from_entity)
 }
 
 /// The direction in which an entity looks: its own −z in world space, a unit vector.
-pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
+pub fn ahead(scene: &Census<'_>, who: &str, entity: Entity) -> Result<DVec3, SceneError> {
     let along = world_from_entity(scene, who, entity)?.matrix3 * DVec3::NEG_Z;
     let accepted = "its −z must keep a direction";
     direction(along)
@@ -38,7 +42,7 @@ pub fn ahead(scene: &World, who: &str, entity: Entity) -> Result<DVec3, SceneErr
 
 // ANCHOR: pose
 /// The same transform with its inverse.
-pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
+pub fn pose(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let Pose { mut world_from_entity, mut entity_from_world } = parent_from_entity(scene, who, entity)?;
     let (mut child, mut seen) = (entity, vec![entity]);
     while let Some(parent) = scene.get::<ChildOf>(child).map(ChildOf::parent) {
@@ -66,7 +70,7 @@ pub fn pose(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError
 // ANCHOR_END: pose
 
 /// The transform from an entity to its parent only.
-fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, SceneError> {
+fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<Pose, SceneError> {
     let placement = scene.get::<Placement>(entity).copied().unwrap_or_default();
     let look_at = scene.get::<LookAt>(entity);
     let position = finite_point(who, "position", placement.position)?;
@@ -104,6 +108,25 @@ fn parent_from_entity(scene: &World, who: &str, entity: Entity) -> Result<Pose, 
         world_from_entity: DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: origin },
         entity_from_world: DMat3::from_diagonal(1.0 / scale) * axes.transpose(),
     })
+}
+
+/// Whether the entity's placement and its parents' together have a non-uniform scale, so that a sphere becomes an
+/// ellipsoid.
+///
+/// An invalid placement counts as uniform: extraction will report what is wrong with it.
+pub fn unevenly_scaled(scene: &Census<'_>, entity: Entity) -> bool {
+    let scale = scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale.abs());
+    let even_alone = scale.x == scale.y && scale.y == scale.z && scene.get::<ChildOf>(entity).is_none();
+    !even_alone && pose(scene, "", entity).is_ok_and(|pose| !is_even(pose.world_from_entity.matrix3))
+}
+
+/// Whether a map lengthens every direction by the same factor, mirrored or not.
+fn is_even(world_from_entity: DMat3) -> bool {
+    let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_entity.col(axis).length()));
+    let [x, y, z] = [0, 1, 2].map(|axis| world_from_entity.col(axis));
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    let uneven = (lengths - lengths.x).abs().max_element();
+    uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
 }
 
 // ANCHOR: point_object_from_world
@@ -181,7 +204,7 @@ mod tests {
         let parent = world.spawn(Placement { position, orientation: tilt, scale: planar }).id();
         let own = Placement { position, orientation: tilt, scale: DVec3::new(-1.0, 3.0, 0.5) };
         let entity = world.spawn((own, ChildOf(parent))).id();
-        pose(&world, "", entity).expect("a pose")
+        pose(&Census::of(&world), "", entity).expect("a pose")
     }
 
     #[test]

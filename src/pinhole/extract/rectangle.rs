@@ -1,7 +1,8 @@
 use super::check::{kind_and_name, positive_length};
 use super::planar::{Planar, planar};
-use super::{moves_while_open, shape_entities};
-use crate::plan::Table;
+use super::shape_kind::numbered;
+use super::velocity::moves_while_open;
+use crate::plan::{Census, Table};
 use crate::scene::{Rectangle, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -18,9 +19,9 @@ pub struct RectangleTable {
 impl Table for RectangleTable {
     const NAME: &'static str = "rectangles";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (mut table, moves) = (Self::default(), moves_while_open(scene));
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate().filter(|&(_, entity)| !moves(entity)) {
+        for (shape, entity) in numbered::<Rectangle>(scene).into_iter().filter(|&(_, entity)| !moves(entity)) {
             let Some(rectangle) = scene.get::<Rectangle>(entity) else { continue };
             let who = kind_and_name(scene, "rectangle", entity);
             let width = positive_length(&who, "width", rectangle.width)?;

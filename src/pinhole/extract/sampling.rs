@@ -1,6 +1,6 @@
-use super::camera::camera_entity;
+use super::camera_entity::camera_of;
 use super::check::kind_and_name;
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Sampler, Sampling, SceneError};
 use bevy_ecs::prelude::*;
 
@@ -36,8 +36,8 @@ impl SamplingTable {
 impl Table for SamplingTable {
     const NAME: &'static str = "sampling";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let camera = camera_entity(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let camera = camera_of(scene)?;
         let Some(&Sampling { samples, seed, sampler, .. }) = scene.get::<Sampling>(camera) else {
             return Ok(Self { samples: 1, ..Self::default() });
         };

@@ -1,6 +1,9 @@
+use super::camera::eye;
 use super::check::{finite_point, kind_and_name, number, positive_length};
-use super::{eye, moves_while_open, shape_entities, unevenly_scaled, world_from_entity};
-use crate::plan::Table;
+use super::pose::{unevenly_scaled, world_from_entity};
+use super::shape_kind::numbered;
+use super::velocity::moves_while_open;
+use crate::plan::{Census, Table};
 use crate::scene::{SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -31,10 +34,10 @@ impl SphereTable {
 impl Table for SphereTable {
     const NAME: &'static str = "spheres";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (eye, moves) = (eye(scene)?, moves_while_open(scene));
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
+        for (shape, entity) in numbered::<Sphere>(scene) {
             let still = |_: &&Sphere| !unevenly_scaled(scene, entity) && !moves(entity);
             let Some(sphere) = scene.get::<Sphere>(entity).filter(still) else {
                 continue;
@@ -56,7 +59,7 @@ impl Table for SphereTable {
 
 /// The centre of a sphere, relative to the eye, and its radius, with its placement applied.
 pub(super) fn placed_sphere(
-    scene: &World,
+    scene: &Census<'_>,
     entity: Entity,
     sphere: &Sphere,
     eye: DVec3,

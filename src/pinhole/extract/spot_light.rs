@@ -1,7 +1,7 @@
 use super::check::{finite_point, kind_and_name, light_colour, number};
 use super::pose::ahead;
 use super::{eye, world_from_entity};
-use crate::plan::{Table, entities};
+use crate::plan::{Census, Table};
 use crate::scene::{Degrees, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -26,10 +26,10 @@ pub struct SpotLightTable {
 impl Table for SpotLightTable {
     const NAME: &'static str = "spot lights";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for entity in entities::<With<SpotLight>>(scene) {
+        for &entity in scene.entities::<With<SpotLight>>().iter() {
             let light = scene.get::<SpotLight>(entity).copied().unwrap_or_default();
             let who = kind_and_name(scene, "spot light", entity);
             let pose = world_from_entity(scene, &who, entity)?;

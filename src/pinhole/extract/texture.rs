@@ -1,8 +1,10 @@
+use super::camera::eye;
 use super::check::{kind_and_name, positive_length, triple};
-use super::material::{material_entities, material_kind};
-use super::{MaterialKind, eye, pose, shape_entities};
-use crate::plan::{Evidence, Table, entities};
-use crate::scene::{Checker, ImageTexture, SceneError, Stripes, TextureBy, UsesMaterial};
+use super::material_kind::{MaterialKind, in_use, material_entities, material_kind};
+use super::pose::pose;
+use super::shape_kind::shape_entities;
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{Checker, ImageTexture, SceneError, Stripes, TextureBy};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
@@ -56,38 +58,42 @@ impl Texture for ImageTexture {
 }
 
 /// Evidence that a shape is made of a material with such a texture.
-pub fn texture_of_kind<T: Texture>(scene: &World, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
-    let shapes = shape_entities(scene);
-    let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
-    let in_use: BTreeSet<Entity> = used.chain(shapes.iter().copied()).collect();
+pub fn texture_of_kind<T: Texture>(scene: &Census<'_>, noun: &str, such: impl Fn(&T) -> bool) -> Evidence {
+    let used = in_use(scene);
     Evidence::among::<With<T>>(scene, noun, |entity| {
-        in_use.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
+        used.contains(&entity.id()) && entity.get::<T>().is_some_and(&such)
     })
 }
 
 /// Evidence that a shape is made of a material with a texture of any kind.
-pub fn texture_evidence(scene: &World) -> Evidence {
-    texture_of_kind::<Checker>(scene, Checker::NOUN, |_| true)
-        .or(texture_of_kind::<Stripes>(scene, Stripes::NOUN, |_| true))
-        .or(texture_of_kind::<ImageTexture>(scene, ImageTexture::NOUN, |_| true))
+pub fn texture_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        texture_of_kind::<Checker>(scene, Checker::NOUN, |_| true)
+            .or(texture_of_kind::<Stripes>(scene, Stripes::NOUN, |_| true))
+            .or(texture_of_kind::<ImageTexture>(scene, ImageTexture::NOUN, |_| true))
+    })
 }
 
 /// Evidence that a texture is filtered.
-pub fn filtered_evidence(scene: &World) -> Evidence {
-    texture_of_kind(scene, "filtered checker", Checker::filter)
-        .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
-        .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
+pub fn filtered_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        texture_of_kind(scene, "filtered checker", Checker::filter)
+            .or(texture_of_kind(scene, "filtered stripe pattern", Stripes::filter))
+            .or(texture_of_kind(scene, "filtered image", ImageTexture::filter))
+    })
 }
 
 /// Evidence that a texture is mapped by uv.
-pub fn by_uv_evidence(scene: &World) -> Evidence {
-    texture_of_kind::<Checker>(scene, "checker by uv", |texture| texture.by == TextureBy::Uv)
-        .or(texture_of_kind::<Stripes>(scene, "stripe pattern by uv", |texture| texture.by == TextureBy::Uv))
-        .or(texture_of_kind::<ImageTexture>(scene, "image by uv", |texture| texture.by == TextureBy::Uv))
+pub fn by_uv_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| {
+        texture_of_kind::<Checker>(scene, "checker by uv", |texture| texture.by == TextureBy::Uv)
+            .or(texture_of_kind::<Stripes>(scene, "stripe pattern by uv", |texture| texture.by == TextureBy::Uv))
+            .or(texture_of_kind::<ImageTexture>(scene, "image by uv", |texture| texture.by == TextureBy::Uv))
+    })
 }
 
 /// Evidence that a texture is mapped by uv and filtered.
-pub fn filtered_by_uv_evidence(scene: &World) -> Evidence {
+pub fn filtered_by_uv_evidence(scene: &Census<'_>) -> Evidence {
     fn such<T: Texture>(texture: &T) -> bool {
         texture.by() == TextureBy::Uv && texture.filter()
     }
@@ -131,9 +137,10 @@ pub struct TextureMaps {
 impl Table for TextureMaps {
     const NAME: &'static str = "texture maps";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         check_owners(scene)?;
-        let map = material_entities(scene).into_iter().map(|material| texture_map(scene, material));
+        let materials = material_entities(scene);
+        let map = materials.iter().map(|&material| texture_map(scene, material));
         Ok(Self { map: map.collect::<Result<_, _>>()? })
     }
 
@@ -143,7 +150,7 @@ impl Table for TextureMaps {
 }
 
 /// The texture mapping of a material's entity.
-fn texture_map(scene: &World, material: Entity) -> Result<TextureMap, SceneError> {
+fn texture_map(scene: &Census<'_>, material: Entity) -> Result<TextureMap, SceneError> {
     if let Some(checker) = scene.get::<Checker>(material) {
         let size = size_of_texture::<Checker>(scene, material, checker.size)?;
         return Ok(mapping_by(checker.by, DMat3::from_diagonal(DVec3::splat(1.0 / size))));
@@ -186,17 +193,17 @@ fn mapping_by(by: TextureBy, matrix: DMat3) -> TextureMap {
     }
 }
 
-fn size_of_texture<T: Texture>(scene: &World, material: Entity, size: f64) -> Result<f64, SceneError> {
+fn size_of_texture<T: Texture>(scene: &Census<'_>, material: Entity, size: f64) -> Result<f64, SceneError> {
     positive_length(&kind_and_name(scene, T::WORD, material), "size", size)
 }
 
 /// Checks that every texture belongs to a material, and that a material has at most one.
-fn check_owners(scene: &World) -> Result<(), SceneError> {
-    let materials: BTreeSet<Entity> = material_entities(scene).into_iter().collect();
+fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
+    let materials: BTreeSet<Entity> = material_entities(scene).iter().copied().collect();
     let mut owned: Vec<(Entity, &str)> = Vec::new();
-    owned.extend(entities::<With<Checker>>(scene).into_iter().map(|owner| (owner, Checker::WORD)));
-    owned.extend(entities::<With<Stripes>>(scene).into_iter().map(|owner| (owner, Stripes::WORD)));
-    owned.extend(entities::<With<ImageTexture>>(scene).into_iter().map(|owner| (owner, ImageTexture::WORD)));
+    owned.extend(scene.entities::<With<Checker>>().iter().map(|&owner| (owner, Checker::WORD)));
+    owned.extend(scene.entities::<With<Stripes>>().iter().map(|&owner| (owner, Stripes::WORD)));
+    owned.extend(scene.entities::<With<ImageTexture>>().iter().map(|&owner| (owner, ImageTexture::WORD)));
     owned.sort_by_key(|(owner, _)| owner.index());
     for (at, &(owner, word)) in owned.iter().enumerate() {
         let who = kind_and_name(scene, word, owner);
@@ -224,9 +231,9 @@ fn check_owners(scene: &World) -> Result<(), SceneError> {
 }
 
 /// The row of each material among those with a texture of one kind, and the entities of these rows.
-pub(super) fn rows_of_kind<T: Texture>(scene: &World) -> (Vec<u32>, Vec<Entity>) {
+pub(super) fn rows_of_kind<T: Texture>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
     let (mut of_material, mut rows) = (Vec::new(), Vec::new());
-    for material in material_entities(scene) {
+    for &material in material_entities(scene).iter() {
         let carries = scene.get::<T>(material).is_some();
         of_material.push(if carries { rows.len() as u32 } else { NO_TEXTURE });
         rows.extend(carries.then_some(material));
@@ -248,10 +255,10 @@ pub struct ShapeSpaces {
 impl Table for ShapeSpaces {
     const NAME: &'static str = "shape spaces";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for shape in shape_entities(scene) {
+        for &shape in shape_entities(scene).iter() {
             let pose = pose(scene, &kind_and_name(scene, "shape", shape), shape)?;
             table.origin.push(pose.world_from_entity.translation - eye);
             table.shape_from_world.push(pose.entity_from_world);

@@ -1,10 +1,13 @@
+use super::camera::eye;
 use super::check::{finite_point, kind_and_name, number, triple};
 use super::exact_sum::{exact_cross, exact_difference};
-use super::{eye, normal_world_from_object, pose, shape_entities};
-use crate::plan::Table;
+use super::pose::{normal_world_from_object, pose};
+use super::shape_kind::numbered;
+use crate::plan::{Census, Table};
 use crate::scene::{SceneError, Triangle};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// A triangle whose least height is at most this fraction of its longest edge has lost its normal to rounding.
 const LEAST_HEIGHT: f64 = 1.0 / (1_u64 << 48) as f64;
@@ -95,16 +98,13 @@ impl TriangleTable {
 impl Table for TriangleTable {
     const NAME: &'static str = "triangles";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let eye = eye(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for (shape, entity) in shape_entities(scene).into_iter().enumerate() {
-            let Some(triangle) = scene.get::<Triangle>(entity) else { continue };
-            let (corners, normals) = placed(scene, entity, triangle, eye)?;
-            table.push(corners, checked_uvs(scene, entity, triangle)?, shape as u32);
+        for triangle in placed_triangles(scene)?.iter() {
+            table.push(triangle.corners, triangle.uvs, triangle.shape);
             let last = table.normal.len() - 1;
             // A mirroring placement reverses the order of corners, but not the normals.
-            if normals.is_some_and(|normals| normals[0].dot(table.normal[last]) < 0.0) {
+            if triangle.normals.is_some_and(|normals| normals[0].dot(table.normal[last]) < 0.0) {
                 table.normal[last] = -table.normal[last];
                 table.turned[last] = !table.turned[last];
             }
@@ -128,15 +128,12 @@ pub struct VertexNormalTable {
 impl Table for VertexNormalTable {
     const NAME: &'static str = "vertex normals";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let eye = eye(scene)?;
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for entity in shape_entities(scene) {
-            let Some(triangle) = scene.get::<Triangle>(entity) else { continue };
-            let (corners, normals) = placed(scene, entity, triangle, eye)?;
+        for triangle in placed_triangles(scene)?.iter() {
+            let (corners, normals) = (&triangle.corners, triangle.normals.unwrap_or_default());
             let mut order_of_corners = [0, 1, 2];
             order_of_corners.sort_by(|&i, &j| order(&corners[i], &corners[j]));
-            let normals = normals.unwrap_or_default();
             table.normals.push(order_of_corners.map(|corner| normals[corner]));
         }
         Ok(table)
@@ -147,12 +144,33 @@ impl Table for VertexNormalTable {
     }
 }
 
+/// A triangle in render space, its corners in the author's order.
+struct PlacedTriangle {
+    shape: u32,
+    corners: [DVec3; 3],
+    normals: Option<[DVec3; 3]>,
+    uvs: [DVec2; 3],
+}
+
+/// All triangles, for the table of their corners and that of their normals.
+fn placed_triangles(scene: &Census<'_>) -> Result<Arc<[PlacedTriangle]>, SceneError> {
+    scene.once(|scene| {
+        let eye = eye(scene)?;
+        let placed = |(shape, entity): (usize, Entity)| {
+            let triangle = scene.get::<Triangle>(entity).copied().unwrap_or_default();
+            let (corners, normals) = placed(scene, entity, &triangle, eye)?;
+            Ok(PlacedTriangle { shape: shape as u32, corners, normals, uvs: checked_uvs(scene, entity, &triangle)? })
+        };
+        numbered::<Triangle>(scene).into_iter().map(placed).collect()
+    })
+}
+
 /// Corners and vertex normals of a triangle in render space, in the author's order.
 ///
 /// A corner depends only on its own coordinates and the placement, so triangles with a common corner agree to the last
 /// bit.
 fn placed(
-    scene: &World,
+    scene: &Census<'_>,
     entity: Entity,
     triangle: &Triangle,
     eye: DVec3,
@@ -194,7 +212,7 @@ fn placed(
     Ok((corners, Some(placed)))
 }
 
-fn checked_uvs(scene: &World, entity: Entity, triangle: &Triangle) -> Result<[DVec2; 3], SceneError> {
+fn checked_uvs(scene: &Census<'_>, entity: Entity, triangle: &Triangle) -> Result<[DVec2; 3], SceneError> {
     let uvs = triangle.uvs.unwrap_or(OWN_UVS);
     match uvs.iter().find(|uv| !uv.is_finite()) {
         None => Ok(uvs),

@@ -1,7 +1,7 @@
 use super::check::{kind_and_name, reflectance, triple};
 use super::phong::beside_highlight;
 use super::texture::{Texture, rows_of_kind};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Checker, Rgb, SceneError, Stripes};
 use bevy_ecs::prelude::*;
 
@@ -19,7 +19,7 @@ pub struct TwoColours {
 }
 
 impl TwoColours {
-    fn of<T: Texture>(scene: &World, colours: impl Fn(&T) -> (Rgb, Rgb)) -> Result<Self, SceneError> {
+    fn of<T: Texture>(scene: &Census<'_>, colours: impl Fn(&T) -> (Rgb, Rgb)) -> Result<Self, SceneError> {
         let (of_material, rows) = rows_of_kind::<T>(scene);
         let mut table = Self { of_material, ..Self::default() };
         for material in rows {
@@ -52,7 +52,7 @@ pub struct StripesTable(pub TwoColours);
 impl Table for CheckerTable {
     const NAME: &'static str = "checkers";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         TwoColours::of::<Checker>(scene, |checker| (checker.first, checker.second)).map(Self)
     }
 
@@ -64,7 +64,7 @@ impl Table for CheckerTable {
 impl Table for StripesTable {
     const NAME: &'static str = "stripes";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         TwoColours::of::<Stripes>(scene, |stripes| (stripes.first, stripes.second)).map(Self)
     }
 

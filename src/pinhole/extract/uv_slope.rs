@@ -1,5 +1,5 @@
 use super::{CuboidTable, DiskTable, RectangleTable, TriangleTable, UvSpaceTable, face_axes, shape_entities};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Plane, SceneError, Sphere};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
@@ -86,11 +86,11 @@ pub struct UvSlopes {
 impl Table for UvSlopes {
     const NAME: &'static str = "uv slopes";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let shapes = shape_entities(scene);
-        let spaces = UvSpaceTable::extract(scene)?;
+        let spaces = scene.table::<UvSpaceTable>()?;
         let mut slope = vec![UvSlope::Nowhere; shapes.len()];
-        for (shape, entity) in shapes.into_iter().enumerate() {
+        for (shape, entity) in shapes.iter().copied().enumerate() {
             if scene.get::<Plane>(entity).is_some() {
                 let matrix = spaces.uv_from_world[shape];
                 slope[shape] = UvSlope::Planar([matrix.row(0), matrix.row(1)]);
@@ -99,17 +99,17 @@ impl Table for UvSlopes {
             }
         }
         // Their plane coordinates run from −1 to 1 where u and v run from 0 to 1.
-        let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
+        let (disks, rectangles) = (scene.table::<DiskTable>()?, scene.table::<RectangleTable>()?);
         let planar_shapes =
             disks.planar.iter().zip(&disks.shape).chain(rectangles.planar.iter().zip(&rectangles.shape));
         for (planar, &shape) in planar_shapes {
             slope[shape as usize] = UvSlope::Planar(planar.along.map(|along| 0.5 * along));
         }
-        let cuboids = CuboidTable::extract(scene)?;
+        let cuboids = scene.table::<CuboidTable>()?;
         for (slabs, &shape) in cuboids.slabs.iter().zip(&cuboids.shape) {
             slope[shape as usize] = UvSlope::Faces([0, 1, 2].map(|axis| slabs.normal[axis] / slabs.half[axis]));
         }
-        let triangles = TriangleTable::extract(scene)?;
+        let triangles = scene.table::<TriangleTable>()?;
         for (triangle, &shape) in triangles.shape.iter().enumerate() {
             let [a, b, c] = triangles.triangle[triangle].corners;
             slope[shape as usize] = planar_slope([b - a, c - a], triangles.uvs[triangle]);

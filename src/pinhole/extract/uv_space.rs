@@ -1,7 +1,7 @@
 use super::check::{finite_point, kind_and_name};
 use super::pose::{normal_world_from_object, point_object_from_world};
 use super::{Pose, eye, pose, shape_entities};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::{Plane, SceneError};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
@@ -28,10 +28,10 @@ impl UvSpaceTable {
 impl Table for UvSpaceTable {
     const NAME: &'static str = "uv spaces";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let eye = eye(scene)?;
         let mut table = Self::default();
-        for entity in shape_entities(scene) {
+        for &entity in shape_entities(scene).iter() {
             let who = kind_and_name(scene, "shape", entity);
             let Pose { world_from_entity, entity_from_world } = pose(scene, &who, entity)?;
             table.origin.push(finite_point(&who, "position", world_from_entity.translation - eye)?);
@@ -105,7 +105,7 @@ mod tests {
         let placement = Placement { scale: DVec3::new(-2.0, 3.0, 0.5), ..Placement::at(4.0, 5.0, 6.0) };
         world.spawn((Sphere::default(), Matte::default(), placement));
         world.spawn((Plane::default(), Matte::default(), placement));
-        let table = UvSpaceTable::extract(&world).expect("spaces");
+        let table = UvSpaceTable::extract(&Census::of(&world)).expect("spaces");
         let own = DVec3::new(0.25, -0.5, 8.0);
         let there = placement.position - DVec3::new(1.0, 2.0, 3.0) + own * placement.scale;
         assert!((table.point(0, there) - own).length() < 1e-14);

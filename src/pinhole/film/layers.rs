@@ -1,7 +1,7 @@
 use crate::extract::{LayerTable, MaterialTable, layer_evidence};
 use crate::intersect::{Hits, NO_SHAPE, ShadingNormals, SurfaceUvs, Surfaces};
 use crate::plan::{
-    Column, ColumnComponent, ColumnKind, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems,
+    Census, Column, ColumnComponent, ColumnKind, ComponentValues, Evidence, Lifetime, Shared, Stage, TileSystems,
     column_component,
 };
 use crate::rays::{PixelSamples, RasterPoints, WorldRays, sampling_evidence};
@@ -225,7 +225,7 @@ pub fn layers_stage() -> Stage {
         .when(|scene| layer_evidence(scene, "layer request", |_| true))
 }
 
-fn albedo_evidence(scene: &World) -> Evidence {
+fn albedo_evidence(scene: &Census<'_>) -> Evidence {
     layer_evidence(scene, "albedo layer", |kind| kind == LayerKind::Albedo)
 }
 

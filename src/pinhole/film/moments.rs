@@ -1,6 +1,8 @@
 use super::FilmTile;
 use crate::extract::layer_evidence;
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems, column_component};
+use crate::plan::{
+    Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, Stage, TileSystems, column_component,
+};
 use crate::rays::{PixelSamples, sampling_evidence};
 use crate::scene::{Adaptive, LayerKind};
 use crate::shade::Radiance;
@@ -92,7 +94,7 @@ pub fn add_to_moments(mut tiles: Query<(&Radiance, Option<&PixelSamples>, &FilmT
 }
 
 /// Evidence that the variance of pixels is needed.
-pub fn variance_evidence(scene: &World) -> Evidence {
+pub fn variance_evidence(scene: &Census<'_>) -> Evidence {
     let adaptive = Evidence::of::<Adaptive>(scene, "adaptive camera");
     let layer = layer_evidence(scene, "variance layer", |kind| kind == LayerKind::Variance);
     adaptive.or(layer)

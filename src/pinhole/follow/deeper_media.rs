@@ -1,7 +1,6 @@
 use super::{Media, MediumStack};
 use crate::extract::{NO_ROW, deep_glass, followed_evidence, glass_evidence};
-use crate::plan::{Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
-use bevy_ecs::prelude::*;
+use crate::plan::{Census, Column, ColumnComponent, ComponentValues, Evidence, Lifetime, column_component};
 
 /// The media around each ray's origin beyond the four that [`Media`] holds, in order of rank; exists only where more
 /// than four glass shapes may overlap.
@@ -130,7 +129,7 @@ impl Column for DeeperMedia {
 }
 
 /// Evidence that a ray may be inside more than four glass shapes at once.
-pub fn deeper_media_evidence(scene: &World) -> Evidence {
+pub fn deeper_media_evidence(scene: &Census<'_>) -> Evidence {
     glass_evidence(scene).and(|| followed_evidence(scene)).and(|| deep_glass(scene, Media::PLACES))
 }
 

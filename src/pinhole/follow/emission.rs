@@ -4,7 +4,7 @@ use crate::extract::{
     environment_light_evidence, followed_evidence, light_sampling_evidence, one_sided_evidence, traced_evidence,
 };
 use crate::intersect::{EmissiveRows, Hits, NO_SHAPE, SurfaceSides};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Paths, WorldRays};
 use crate::shade::{Radiance, area_light_pdf, environment_pdf, environment_radiance};
 use bevy_ecs::prelude::*;
@@ -92,7 +92,7 @@ pub fn mis_emission_stage() -> Stage {
 }
 
 /// Evidence that some emitting surfaces are sampled as lights, so that their emission must not be counted twice.
-fn mis_emission_evidence(scene: &World) -> Evidence {
+fn mis_emission_evidence(scene: &Census<'_>) -> Evidence {
     let emits = emissive_evidence(scene).and(|| followed_evidence(scene));
     let traced = emits.clone().and(|| traced_evidence(scene));
     if traced.needed { traced } else { emits.and(|| light_sampling_evidence(scene)) }

@@ -7,7 +7,7 @@ use crate::extract::{
     GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
@@ -196,7 +196,7 @@ fn reading(stage: Stage) -> Stage {
 }
 
 /// Evidence that both rays are traced at glass.
-fn split_evidence(scene: &World) -> Evidence {
+fn split_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Whitted { .. }))
 }
 

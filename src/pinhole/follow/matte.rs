@@ -3,7 +3,7 @@ use super::view::{BsdfView, BsdfViewItem};
 use super::{Scattered, ScatteredRay};
 use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, offset_origin};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
@@ -81,6 +81,6 @@ fn reading(stage: Stage) -> Stage {
 }
 
 /// Evidence that light is scattered from matte surfaces to others.
-pub(super) fn scattered_evidence(scene: &World) -> Evidence {
+pub(super) fn scattered_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(|| material_evidence(scene))
 }

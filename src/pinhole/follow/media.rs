@@ -2,7 +2,7 @@ use super::deeper_media::{Carrier, deeper_media_evidence};
 use super::{DeeperMedia, GlassRows, MediumStack, Scattered, transmittance};
 use crate::extract::{GlassTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that};
 use crate::intersect::{Hits, SurfaceSides, Surfaces};
-use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -149,12 +149,12 @@ pub fn carry_media_stage() -> Stage {
 }
 
 /// Evidence that a shape is made of absorbing glass.
-fn absorption_evidence(scene: &World) -> Evidence {
+fn absorption_evidence(scene: &Census<'_>) -> Evidence {
     glass_that(scene, "absorbing glass surface", |glass| glass.absorption.to_array() != [0.0; 3])
 }
 
 /// Evidence that the media along rays must be known: glass absorbs, or two glass shapes overlap.
-pub fn media_evidence(scene: &World) -> Evidence {
+pub fn media_evidence(scene: &Census<'_>) -> Evidence {
     let glass = glass_evidence(scene).and(|| followed_evidence(scene));
     if !glass.needed {
         return glass;

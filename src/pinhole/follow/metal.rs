@@ -7,7 +7,7 @@ use crate::extract::{
     MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, multiple_scattering_evidence, needed_if,
 };
 use crate::intersect::{NO_SHAPE, offset_origin};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
@@ -152,6 +152,6 @@ pub fn metal_light_stage() -> Stage {
 }
 
 /// Evidence that directions from rough metal are sampled.
-fn scattered_evidence(scene: &World) -> Evidence {
+fn scattered_evidence(scene: &Census<'_>) -> Evidence {
     needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. } | Integrator::Distribution { .. }))
 }

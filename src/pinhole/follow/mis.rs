@@ -4,7 +4,7 @@ use crate::extract::{
     metal_evidence, mis_evidence, multiple_scattering_evidence,
 };
 use crate::intersect::{ShadingNormals, Surfaces};
-use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
 use crate::shade::{LightPdfs, LightRays};
 use bevy_ecs::prelude::*;
@@ -33,7 +33,7 @@ pub fn mis_matte(
 // ANCHOR_END: mis_matte
 
 /// Evidence that a light can be found by BSDF sampling too.
-fn light_rays_evidence(scene: &World) -> Evidence {
+fn light_rays_evidence(scene: &Census<'_>) -> Evidence {
     area_light_evidence(scene).or(environment_light_evidence(scene))
 }
 

@@ -1,6 +1,6 @@
 use super::{cosine_pdf, ggx_sample};
 use crate::extract::{MetalTable, multiple_scattering_metals};
-use crate::plan::Table;
+use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -72,8 +72,8 @@ pub fn multiple_scattering_albedo(colour: f64, lost: f64) -> f64 {
 impl Table for MultipleScatteringTable {
     const NAME: &'static str = "multiple scattering";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let (metals, several) = (MetalTable::extract(scene)?, multiple_scattering_metals(scene));
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (metals, several) = (scene.table::<MetalTable>()?, multiple_scattering_metals(scene));
         let mut table = Self::default();
         for (metal, several) in several.into_iter().enumerate() {
             table.push(metals.colour[metal], several.then_some(metals.alpha[metal]));

@@ -1,7 +1,7 @@
 //! Materials whose BSDF no stage on offer samples.
 
-use crate::extract::{GlassTable, MetalTable, MirrorTable, ShapeTable, followed_evidence, shape_entities};
-use crate::plan::{Stage, Table, TableKind, TileSystems};
+use crate::extract::{GlassTable, MetalTable, MirrorTable, followed_evidence, shape_entities, shape_name};
+use crate::plan::{Census, Stage, TableKind, TileSystems};
 use crate::scene::{Glass, Metal, Mirror, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 
@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 /// a chapter offers the stages taught so far, and other materials would be black without a warning.
 ///
 /// Errors: the first shape of a material that no stage on offer samples.
-pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<(), SceneError> {
+pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
     let shapes = shape_entities(scene);
     let unsampled = |word: &'static str, table: TableKind, is_made: &dyn Fn(EntityRef<'_>) -> bool| {
         let scatters = |stage: &Stage| stage.set == TileSystems::SampleBsdfs && stage.tables.contains(&table);
@@ -24,9 +24,8 @@ pub fn check_materials_are_followed(scene: &World, offer: &[Stage]) -> Result<()
         let Some(first) = shapes.iter().position(made).filter(|_| followed_evidence(scene).needed) else {
             return Ok(());
         };
-        let name = ShapeTable::extract(scene)?.name.get(first).cloned().unwrap_or_default();
         let accepted = "no stage on offer samples its BSDF; offer stages::all(), which do";
-        Err(SceneError::new(name, word, "given", accepted))
+        Err(SceneError::new(shape_name(scene, first), word, "given", accepted))
     };
     unsampled("mirror", TableKind::of::<MirrorTable>(), &|entity| entity.contains::<Mirror>())?;
     unsampled("glass", TableKind::of::<GlassTable>(), &|entity| entity.contains::<Glass>())?;

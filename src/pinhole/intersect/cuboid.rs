@@ -7,7 +7,7 @@ use super::uv::cuboid_uv;
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{CuboidTable, ShapeTable, Slabs};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Cuboid;
 use bevy_ecs::prelude::*;
@@ -239,6 +239,6 @@ pub fn cuboid_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a cuboid.
-pub fn cuboid_evidence(scene: &World) -> Evidence {
+pub fn cuboid_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Cuboid>(scene, "cuboid")
 }

@@ -5,7 +5,7 @@ use super::rows::DiskRows;
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{DiskTable, Planar, ShapeTable, moves_while_open};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Disk;
 use bevy_ecs::prelude::*;
@@ -89,7 +89,7 @@ pub fn disk_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a disk.
-pub fn disk_evidence(scene: &World) -> Evidence {
+pub fn disk_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Disk>>(scene, "disk", |disk| !moves(disk))
 }

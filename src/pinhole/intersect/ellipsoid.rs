@@ -10,7 +10,7 @@ use crate::extract::{
     Ellipsoid, EllipsoidTable, ShapeTable, direction_object_from_world, normal_world_from_object,
     point_object_from_world, unevenly_scaled,
 };
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
 use bevy_ecs::prelude::*;
@@ -223,7 +223,7 @@ pub fn ellipsoid_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a sphere with a non-uniform scale.
-pub fn ellipsoid_evidence(scene: &World) -> Evidence {
+pub fn ellipsoid_evidence(scene: &Census<'_>) -> Evidence {
     let uneven = |sphere| unevenly_scaled(scene, sphere);
     Evidence::of_kind::<With<Sphere>>(scene, "unevenly scaled sphere", uneven)
 }

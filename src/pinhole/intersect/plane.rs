@@ -3,7 +3,7 @@ use super::surface::{Surface, SurfaceUvs, offset_bound};
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{PlaneTable, ShapeTable, UvSpaceTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Plane;
 use bevy_ecs::prelude::*;
@@ -95,6 +95,6 @@ pub fn plane_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a plane.
-pub fn plane_evidence(scene: &World) -> Evidence {
+pub fn plane_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Plane>(scene, "plane")
 }

@@ -5,7 +5,7 @@ use super::rows::RectangleRows;
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{Planar, RectangleTable, ShapeTable, moves_while_open};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Rectangle;
 use bevy_ecs::prelude::*;
@@ -86,7 +86,7 @@ pub fn rectangle_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a rectangle.
-pub fn rectangle_evidence(scene: &World) -> Evidence {
+pub fn rectangle_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Rectangle>>(scene, "rectangle", |rectangle| !moves(rectangle))
 }

@@ -2,7 +2,7 @@ use super::rows::TriangleRows;
 use super::triangle_surface::TriangleHit;
 use super::{Hits, Surfaces};
 use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
-use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
 use bevy_ecs::prelude::*;
@@ -91,7 +91,7 @@ pub fn shading_normal_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a triangle with vertex normals.
-pub fn vertex_normal_evidence(scene: &World) -> Evidence {
+pub fn vertex_normal_evidence(scene: &Census<'_>) -> Evidence {
     let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
     Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)
 }

@@ -6,7 +6,7 @@ use super::uv::sphere_uv;
 use super::view::{SurfaceView, SurfaceViewItem};
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{ShapeTable, SphereTable, UvSpaceTable, moves_while_open, unevenly_scaled};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Sphere;
 use bevy_ecs::prelude::*;
@@ -181,7 +181,7 @@ pub fn sphere_surface_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a static sphere that is not scaled to an ellipsoid.
-pub fn sphere_evidence(scene: &World) -> Evidence {
+pub fn sphere_evidence(scene: &Census<'_>) -> Evidence {
     let moves = moves_while_open(scene);
     Evidence::of_kind::<With<Sphere>>(scene, "sphere", |sphere| !unevenly_scaled(scene, sphere) && !moves(sphere))
 }

@@ -3,7 +3,7 @@ use super::sphere::nearness;
 use super::triangle_exact::exact_triangle_t;
 use super::{HitColumn, Hits, RayColumn, RaySlices};
 use crate::extract::{TriangleRow, TriangleTable};
-use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, TileSystems};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
 use bevy_ecs::prelude::*;
@@ -72,16 +72,16 @@ pub struct Edges {
 /// where m is the sum of the six sheared coordinates' magnitudes.
 /// Two triangles with a common edge compute it from the same numbers, so no ray passes between them.
 #[inline(always)]
-pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Edges {
+pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, triangle: &TriangleRow, ray_size: f64) -> Edges {
     const ROUNDING: f64 = 1.0 / (1_u64 << 49) as f64;
     let sheared = |vertex: DVec3| {
         let [x, y, z] = permuted::<Z>(vertex - origin);
         (x - shear.x * z, y - shear.y * z, z)
     };
-    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = facet.corners.map(sheared);
+    let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = triangle.corners.map(sheared);
     let areas = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
     let lengths = ax.abs() + ay.abs() + bx.abs() + by.abs() + cx.abs() + cy.abs();
-    let size = ray_size + facet.size;
+    let size = ray_size + triangle.size;
     let error = ROUNDING * size * (lengths + ROUNDING * size);
     Edges { areas, depths: [az, bz, cz], error }
 }
@@ -95,8 +95,13 @@ pub fn edges<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, r
 /// The result is uncertain if rounding could have changed the sign of an area, or t by more than 2⁻²⁵ relative to
 /// itself or across 0.
 #[inline(always)]
-pub fn intersection<const Z: usize>(origin: DVec3, shear: Shear, facet: &TriangleRow, ray_size: f64) -> Intersection {
-    let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, facet, ray_size);
+pub fn intersection<const Z: usize>(
+    origin: DVec3,
+    shear: Shear,
+    triangle: &TriangleRow,
+    ray_size: f64,
+) -> Intersection {
+    let Edges { areas: [u, v, w], depths: [az, bz, cz], error } = edges::<Z>(origin, shear, triangle, ray_size);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
     let misses = (least < -error) & (most > error);
     let inside = (least > error) | (most < -error);
@@ -113,19 +118,19 @@ pub fn intersection<const Z: usize>(origin: DVec3, shear: Shear, facet: &Triangl
 // ANCHOR_END: triangle_intersection
 
 /// Intersects a ray with a triangle, in f64.
-pub fn triangle_intersection(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Intersection {
+pub fn triangle_intersection(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Intersection {
     let size = origin.abs().element_sum();
     match longest_axis(direction) {
-        0 => intersection::<0>(origin, Shear::along::<0>(direction), facet, size),
-        1 => intersection::<1>(origin, Shear::along::<1>(direction), facet, size),
-        _ => intersection::<2>(origin, Shear::along::<2>(direction), facet, size),
+        0 => intersection::<0>(origin, Shear::along::<0>(direction), triangle, size),
+        1 => intersection::<1>(origin, Shear::along::<1>(direction), triangle, size),
+        _ => intersection::<2>(origin, Shear::along::<2>(direction), triangle, size),
     }
 }
 
 /// The t > 0 at which O + tR hits a triangle, or infinity; uncertain cases are decided by exact arithmetic.
-pub fn triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
-    let intersection = triangle_intersection(origin, direction, facet);
-    if intersection.uncertain { exact_triangle_t(origin, direction, facet) } else { intersection.t }
+pub fn triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> f64 {
+    let intersection = triangle_intersection(origin, direction, triangle);
+    if intersection.uncertain { exact_triangle_t(origin, direction, triangle) } else { intersection.t }
 }
 
 /// Intersects any column of rays with all triangles and keeps the closest hits.
@@ -208,17 +213,17 @@ fn rows_along<const Z: usize>(
             (own_t[lane], own_shape[lane]) = (t[row as usize], shape[row as usize]);
         }
         let sheared = [x, y, z, size];
-        for (facet, &number) in triangles.triangle.iter().zip(&triangles.shape) {
+        for (triangle, &number) in triangles.triangle.iter().zip(&triangles.shape) {
             let mut nearest = [f64::NEG_INFINITY; LANES];
             for (lane, nearness_of_lane) in nearest.iter_mut().enumerate() {
-                let f = facet.centre - vector(&o, lane);
-                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], facet.bounding_radius);
+                let f = triangle.centre - vector(&o, lane);
+                *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], triangle.bounding_radius);
             }
             let (near, _) = nearest.as_chunks::<GROUP>();
             let t = own_t[..rows.len()].chunks_mut(GROUP);
             for (group, (t, shape)) in t.zip(own_shape[..rows.len()].chunks_mut(GROUP)).enumerate() {
                 if near[group].iter().any(|&nearness| nearness >= 0.0) {
-                    keep_closest::<Z>(&o, &d, &sheared, group, facet, number, t, shape);
+                    keep_closest::<Z>(&o, &d, &sheared, group, triangle, number, t, shape);
                 }
             }
         }
@@ -238,7 +243,7 @@ fn keep_closest<const Z: usize>(
     d: &[[f64; LANES]; 3],
     sheared: &Sheared,
     group: usize,
-    facet: &TriangleRow,
+    triangle: &TriangleRow,
     number: u32,
     t: &mut [f64],
     shape: &mut [u32],
@@ -249,13 +254,13 @@ fn keep_closest<const Z: usize>(
     for lane in 0..GROUP {
         let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
         let origin = DVec3::new(ox[lane], oy[lane], oz[lane]);
-        let intersection = intersection::<Z>(origin, shear, facet, size[lane]);
+        let intersection = intersection::<Z>(origin, shear, triangle, size[lane]);
         (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
     for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
         if uncertain[lane] {
             let row = group * GROUP + lane;
-            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), facet);
+            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), triangle);
         }
         if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
             (*t, *shape) = (found[lane], number);
@@ -270,7 +275,7 @@ pub fn triangle_stage() -> Stage {
 }
 
 /// Evidence that the scene contains a triangle.
-pub fn triangle_evidence(scene: &World) -> Evidence {
+pub fn triangle_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Triangle>(scene, "triangle")
 }
 
@@ -278,13 +283,13 @@ pub fn triangle_evidence(scene: &World) -> Evidence {
 mod tests {
     use super::*;
 
-    fn facet(corners: [[f64; 3]; 3]) -> TriangleRow {
+    fn triangle(corners: [[f64; 3]; 3]) -> TriangleRow {
         TriangleRow::new(corners.map(DVec3::from))
     }
 
     /// Half of a square of side 2, three units ahead.
     fn half() -> TriangleRow {
-        facet([[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [-1.0, 1.0, -3.0]])
+        triangle([[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [-1.0, 1.0, -3.0]])
     }
 
     #[test]
@@ -313,7 +318,7 @@ mod tests {
 
     #[test]
     fn a_ray_in_its_plane_misses() {
-        let edge_on = facet([[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [0.0, 0.0, -5.0]]);
+        let edge_on = triangle([[-1.0, 0.0, -3.0], [1.0, 0.0, -3.0], [0.0, 0.0, -5.0]]);
         for origin in [DVec3::ZERO, DVec3::X * 0.25] {
             assert_eq!(triangle_t(origin, DVec3::NEG_Z, &edge_on), f64::INFINITY);
         }
@@ -324,10 +329,10 @@ mod tests {
     fn the_order_of_vertices_changes_no_bit() {
         let corners = [[0.1, 0.2, -3.3], [1.7, -0.4, -2.9], [-0.6, 1.3, -4.1]];
         let (origin, direction) = (DVec3::new(0.01, 0.02, 0.03), DVec3::new(0.1, 0.05, -1.0));
-        let t = triangle_t(origin, direction, &facet(corners));
+        let t = triangle_t(origin, direction, &triangle(corners));
         assert!(t.is_finite());
         for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
-            assert_eq!(triangle_t(origin, direction, &facet(order.map(|corner| corners[corner]))), t);
+            assert_eq!(triangle_t(origin, direction, &triangle(order.map(|corner| corners[corner]))), t);
         }
     }
 

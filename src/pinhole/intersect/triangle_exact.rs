@@ -14,8 +14,8 @@ struct ExactEdges {
 }
 
 impl ExactEdges {
-    fn of(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
-        let corners = facet.corners.map(|corner| exact_difference(corner, origin));
+    fn of(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
+        let corners = triangle.corners.map(|corner| exact_difference(corner, origin));
         let direction = exact_difference(direction, DVec3::ZERO);
         let [a, b, c] = &corners;
         let areas = [(b, c), (c, a), (a, b)].map(|(i, j)| exact_dot(&direction, &exact_cross(i, j)));
@@ -29,11 +29,11 @@ impl ExactEdges {
 /// An edge or a vertex belongs to every triangle that has it; a ray in the triangle's plane misses.
 #[cold]
 #[inline(never)]
-pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> f64 {
+pub fn exact_triangle_t(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> f64 {
     if !(origin.is_finite() && direction.is_finite()) {
         return f64::INFINITY;
     }
-    let ExactEdges { areas, whole, corners: [a, b, c] } = ExactEdges::of(origin, direction, facet);
+    let ExactEdges { areas, whole, corners: [a, b, c] } = ExactEdges::of(origin, direction, triangle);
     let signs = areas.map(|area| area.sign());
     if signs.contains(&1) == signs.contains(&-1) {
         return f64::INFINITY;
@@ -46,8 +46,8 @@ pub fn exact_triangle_t(origin: DVec3, direction: DVec3, facet: &TriangleRow) ->
 /// roundings, and R · (B − A) × (C − A), whose sign is exact.
 #[cold]
 #[inline(never)]
-pub fn exact_barycentrics(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> ([f64; 3], f64) {
-    let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, facet);
+pub fn exact_barycentrics(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> ([f64; 3], f64) {
+    let ExactEdges { areas, whole, .. } = ExactEdges::of(origin, direction, triangle);
     let along = whole.rounded();
     (areas.map(|area| area.rounded() / along), along)
 }

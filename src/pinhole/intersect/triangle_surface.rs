@@ -21,25 +21,25 @@ pub struct TriangleHit {
 impl TriangleHit {
     /// The hit of a ray that is known to hit the triangle.
     #[inline(always)]
-    pub fn of(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
+    pub fn of(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
         match longest_axis(direction) {
-            0 => Self::by::<0>(origin, direction, facet),
-            1 => Self::by::<1>(origin, direction, facet),
-            _ => Self::by::<2>(origin, direction, facet),
+            0 => Self::by::<0>(origin, direction, triangle),
+            1 => Self::by::<1>(origin, direction, triangle),
+            _ => Self::by::<2>(origin, direction, triangle),
         }
     }
 
     /// The barycentric coordinates are the areas over their sum; those that rounding made negative are set to 0.
     /// If the sum is so small that a coordinate could be off by more than 2⁻²⁶, exact arithmetic is used.
     #[inline(always)]
-    fn by<const Z: usize>(origin: DVec3, direction: DVec3, facet: &TriangleRow) -> Self {
+    fn by<const Z: usize>(origin: DVec3, direction: DVec3, triangle: &TriangleRow) -> Self {
         let (shear, size) = (Shear::along::<Z>(direction), origin.abs().element_sum());
-        let Edges { areas, error, .. } = edges::<Z>(origin, shear, facet, size);
+        let Edges { areas, error, .. } = edges::<Z>(origin, shear, triangle, size);
         let whole: f64 = areas.iter().sum();
         let (weights, along) = if 4.0 * error < 0.25 * UNIT_ROUNDOFF * whole.abs() {
             (areas.map(|area| area / whole), whole * shear.z)
         } else {
-            exact_barycentrics(origin, direction, facet)
+            exact_barycentrics(origin, direction, triangle)
         };
         let weights = weights.map(|weight| weight.max(0.0));
         let sum: f64 = weights.iter().sum();
@@ -75,10 +75,10 @@ pub fn triangle_surface(
     direction: DVec3,
     material: u32,
 ) -> (Surface, TriangleHit) {
-    let facet = &triangles.triangle[row];
-    let triangle_hit = TriangleHit::of(origin, direction, facet);
-    let point = triangle_hit.interpolate(&facet.corners);
-    let bound = offset_bound(point, origin, facet.size);
+    let triangle = &triangles.triangle[row];
+    let triangle_hit = TriangleHit::of(origin, direction, triangle);
+    let point = triangle_hit.interpolate(&triangle.corners);
+    let bound = offset_bound(point, origin, triangle.size);
     let leaves_by_normal = triangle_hit.along != triangles.turned[row];
     let normal = if leaves_by_normal { -triangles.normal[row] } else { triangles.normal[row] };
     (Surface { position: point.as_vec3(), normal: normal.as_vec3(), bound, material }, triangle_hit)

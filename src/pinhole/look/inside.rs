@@ -1,9 +1,8 @@
 use crate::Result;
-use crate::extract::{CuboidTable, EllipsoidTable, ShapeTable, SphereTable, TriangleTable, shape_entities};
-use crate::plan::Table;
+use crate::extract::{CuboidTable, EllipsoidTable, ShapeTable, SphereTable, TriangleTable, shape_entities, shape_name};
+use crate::plan::Census;
 use crate::scene::{Glass, Rgb, UsesMaterial};
 use crate::shade::emitter::triangle_solid_angle;
-use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -14,22 +13,22 @@ const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 ///
 /// The medium around the camera attenuates the light that the camera receives from that shape's own surface, but not
 /// from objects inside it.
-pub fn shape_around_camera(scene: &World, shapes: &ShapeTable) -> Result<Option<String>> {
-    let spheres = SphereTable::extract(scene)?;
+pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Option<String>> {
+    let spheres = scene.table::<SphereTable>()?;
     let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
     let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
-    let cuboids = CuboidTable::extract(scene)?;
+    let cuboids = scene.table::<CuboidTable>()?;
     let within = |row: &usize| cuboids.slabs[*row].contains_the_eye();
     let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
-    let ellipsoids = EllipsoidTable::extract(scene)?;
+    let ellipsoids = scene.table::<EllipsoidTable>()?;
     let within = |row: &usize| {
         let egg = &ellipsoids.ellipsoid[*row];
         (egg.unit_from_world * egg.centre).length() < 1.0
     };
     let ellipsoid = (0..ellipsoids.ellipsoid.len()).find(within).map(|row| ellipsoids.shape[row]);
-    let mesh = triangles_around(&TriangleTable::extract(scene)?, shapes);
+    let mesh = triangles_around(&*scene.table::<TriangleTable>()?, shapes);
     let Some(shape) = sphere.or(cuboid).or(ellipsoid).or(mesh) else { return Ok(None) };
-    let name = shapes.name.get(shape as usize).cloned().unwrap_or_default();
+    let name = shape_name(scene, shape as usize);
     let entity = shape_entities(scene).get(shape as usize).copied();
     let absorbs = entity.is_some_and(|entity| {
         let used = scene.get::<UsesMaterial>(entity).and_then(|used| scene.get::<Glass>(used.0));

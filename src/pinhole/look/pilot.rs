@@ -1,7 +1,7 @@
 use crate::Result;
 use crate::extract::ImageFrame;
 use crate::intersect::{Hits, NO_SHAPE};
-use crate::plan::{Column, ColumnKind, ExtractedTable, Plan, Stage, Table};
+use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
 use crate::rays::{Depth, Tile};
 use crate::render::{Hook, probe_tiles, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
@@ -63,8 +63,8 @@ struct Counted {
 /// Traces one sample per pixel of some small tiles, spread evenly over the image, until all are done or the time is up.
 ///
 /// Errors: a camera without a valid resolution.
-pub fn pilot(scene: &World, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
-    let image = ImageFrame::extract(scene)?;
+pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
+    let image = *scene.table::<ImageFrame>()?;
     let side = SIDE.min(usual_tile_side(scene, prepared.0));
     let small_tiles = small_tiles(image, side);
     let mut pilot = Pilot { tiles: small_tiles.len(), ..Pilot::default() };

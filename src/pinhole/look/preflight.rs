@@ -4,13 +4,13 @@ use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, traced_evidence,
+    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, shape_name,
+    traced_evidence,
 };
-use crate::plan::{Evidence, ExtractedTable, Plan, Table};
+use crate::plan::{Census, Evidence, ExtractedTable, Plan};
 use crate::scene::{DirectionalLight, Environment, Integrator};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
-use bevy_ecs::prelude::*;
 use std::time::{Duration, Instant};
 
 /// The fraction of rays from which a picture is called black.
@@ -48,19 +48,23 @@ impl Preflight {
 /// That takes about a second for any scene; the warnings then rest on the rays that were finished.
 /// `prepared` holds the plan and the tables that the render has made of the scene.
 /// Errors: whatever the render would refuse.
-pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), conditions: Preflight) -> Result<Vec<String>> {
+pub fn preflight(
+    scene: &Census<'_>,
+    prepared: (&Plan, &[ExtractedTable]),
+    conditions: Preflight,
+) -> Result<Vec<String>> {
     if prepared.0.view.is_some() {
         return Ok(Vec::new());
     }
     let pilot = pilot(scene, prepared, conditions.patience.unwrap_or(PATIENCE))?;
-    let shapes = ShapeTable::extract(scene).map_err(Error::from)?;
-    let (effort, max_depth) = (effort(scene, conditions)?, IntegratorTable::extract(scene)?.max_depth);
+    let shapes = scene.table::<ShapeTable>().map_err(Error::from)?;
+    let (effort, max_depth) = (effort(scene, conditions)?, scene.table::<IntegratorTable>()?.max_depth);
     let mut warnings = Vec::new();
     if pilot.rays > 0 {
         warnings.extend(by_pilot(scene, &pilot, &shapes));
         warnings.extend(many_bounces(&pilot, max_depth));
     } else {
-        warnings.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.name.len()), effort));
+        warnings.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.kind.len()), effort));
     }
     warnings.extend(shape_around_camera(scene, &shapes)?);
     warnings.extend(unseen(scene));
@@ -72,14 +76,14 @@ pub fn preflight(scene: &World, prepared: (&Plan, &[ExtractedTable]), conditions
 }
 
 /// What a few test rays say about the picture.
-fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
+fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
     let fraction = |count: usize| count as f64 / pilot.rays.max(1) as f64;
     let mut warnings = Vec::new();
     // The pilot's radiance does not include light traced from lights.
     let traced = traced_evidence(scene).needed && point_evidence(scene).or(emissive_evidence(scene)).needed;
     if fraction(pilot.black) >= NEARLY_ALL && !traced {
-        warnings.push(format!("the picture will probably be black: {}", why_black(scene, pilot, shapes)));
-    } else if pilot.hits == 0 && !shapes.name.is_empty() {
+        warnings.push(format!("the picture will probably be black: {}", why_black(scene, pilot)));
+    } else if pilot.hits == 0 && !shapes.kind.is_empty() {
         warnings.push(format!("none of {} test rays, spread over the picture, hits a shape", pilot.rays));
     }
     let percent = 100.0 * fraction(pilot.beyond_white);
@@ -92,7 +96,7 @@ fn by_pilot(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> Vec<String> {
     warnings
 }
 
-fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
+fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     let (points, areas) = (point_evidence(scene), emissive_evidence(scene).or(environment_evidence(scene)));
     let sampled = points.needed || light_sampling_evidence(scene).needed;
     let lights = points.or(areas);
@@ -128,28 +132,28 @@ fn why_black(scene: &World, pilot: &Pilot, shapes: &ShapeTable) -> String {
     }
     if blocked == pilot.to_lights {
         let most = pilot.blocked.iter().max_by_key(|(_, count)| **count);
-        let name = most.and_then(|(&shape, _)| shapes.name.get(shape as usize)).cloned().unwrap_or_default();
+        let name = most.map_or_else(String::new, |(&shape, _)| shape_name(scene, shape as usize));
         return format!("all {blocked} shadow rays are blocked, most of them by the {name}");
     }
     format!("so little light arrives ({}) that nearly all of it is too dark to be seen", lights.reason)
 }
 
-fn environment_evidence(scene: &World) -> Evidence {
+fn environment_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Environment>(scene, "environment")
 }
 
 /// The number of samples to take, paths from lights included; none where the render ends after a given time.
-fn effort(scene: &World, conditions: Preflight) -> Result<Effort> {
-    let image = ImageFrame::extract(scene)?;
+fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
+    let image = scene.table::<ImageFrame>()?;
     let pixels = f64::from(image.width) * f64::from(image.height);
-    let paths = if traced_evidence(scene).needed { LightTracingTable::extract(scene)?.paths } else { 0.0 };
-    let samples = f64::from(SamplingTable::extract(scene)?.samples) * (1.0 + paths);
+    let paths = if traced_evidence(scene).needed { scene.table::<LightTracingTable>()?.paths } else { 0.0 };
+    let samples = f64::from(scene.table::<SamplingTable>()?.samples) * (1.0 + paths);
     let threads = conditions.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     Ok(Effort { samples: (!conditions.ends_in_time).then_some(samples * pixels), threads })
 }
 
 /// The paths of light that the integrator cannot sample in this scene at all.
-fn missing_paths(scene: &World) -> Vec<String> {
+fn missing_paths(scene: &Census<'_>) -> Vec<String> {
     let (points, bends) = (point_evidence(scene), glass_evidence(scene).or(mirror_evidence(scene)));
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();

@@ -1,6 +1,6 @@
 use super::pilot::Pilot;
+use crate::plan::Census;
 use crate::shade::point_evidence;
-use bevy_ecs::prelude::*;
 
 /// A warning about time is given from this many seconds on.
 const LONG: f64 = 600.0;
@@ -61,7 +61,7 @@ pub fn never_done(pilot: &Pilot, why: &str, effort: Effort) -> String {
 }
 
 /// The reason why a ray takes long in this scene.
-pub fn why_slow(scene: &World, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
+pub fn why_slow(scene: &Census<'_>, pilot: &Pilot, max_depth: u32, shapes: usize) -> String {
     if f64::from(pilot.deepest) >= MANY_BOUNCES {
         return format!(
             "after {} bounces its path had not ended, and the integrator allows a max_depth of {max_depth}; a smaller one, or \

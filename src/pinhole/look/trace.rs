@@ -1,11 +1,12 @@
-use crate::plan::{ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
+use crate::extract::{ImageFrame, SamplingTable, shape_entities};
+use crate::plan::{Census, ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
 use crate::rays::{Depth, PathLight, Paths, Tile};
 use crate::render::{Hook, inspect_pixel};
-use crate::scene::{SceneError, TracePixel};
+use crate::scene::{SceneError, TracePixel, called};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -38,8 +39,8 @@ pub struct Trace {
     pub sample: u32,
     /// What each stage wrote.
     pub stages: Vec<Recorded>,
-    /// The names of the shapes, by number.
-    pub shapes: Vec<String>,
+    /// The names of the shapes that stages wrote, by number.
+    pub shapes: BTreeMap<u32, String>,
     /// Whether all bounces are printed, however many there are; otherwise only the first few and the last.
     pub prints_all: bool,
 }
@@ -50,21 +51,21 @@ const SHOWN: [u32; 2] = [16, 4];
 /// Traces the first sample of a pixel by running the stages on a tile of that pixel.
 ///
 /// Errors: whatever a render would refuse, and a pixel outside the image.
-pub fn trace(scene: &World, offer: &[Stage], pixel: TracePixel) -> Result<Trace> {
+pub fn trace(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel) -> Result<Trace> {
     trace_sample(scene, offer, pixel, 0)
 }
 
 /// The same for any of the pixel's samples.
 ///
 /// Errors: those of [`trace`], and a sample that the camera does not take.
-pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u32) -> Result<Trace> {
-    let image = <crate::extract::ImageFrame as crate::plan::Table>::extract(scene)?;
+pub fn trace_sample(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel, sample: u32) -> Result<Trace> {
+    let image = scene.table::<ImageFrame>()?;
     if pixel.x >= image.width || pixel.y >= image.height {
         let value = format!("{},{}", pixel.x, pixel.y);
         let accepted = format!("the image has pixels 0,0 to {},{}", image.width - 1, image.height - 1);
         return Err(Error::from(SceneError::new("the trace", "pixel", value, accepted)));
     }
-    let samples = <crate::extract::SamplingTable as crate::plan::Table>::extract(scene)?.samples;
+    let samples = scene.table::<SamplingTable>()?.samples;
     if sample >= samples {
         let accepted = match samples {
             1 => "the camera takes one sample of each pixel, number 0".into(),
@@ -75,9 +76,20 @@ pub fn trace_sample(scene: &World, offer: &[Stage], pixel: TracePixel, sample: u
     let hook = record_hook(pixel, sample);
     let mut inspection = inspect_pixel(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
     let stages = inspection.world.remove_resource::<Recording>().unwrap_or_default().0;
-    let shapes = crate::extract::shape_entities(scene);
-    let shapes = shapes.into_iter().map(|shape| crate::scene::called(scene, shape)).collect();
+    let shapes = shapes_named(scene, &stages);
     Ok(Trace { pixel, sample, stages, shapes, prints_all: false })
+}
+
+/// What a message calls each shape that a stage wrote the number of.
+fn shapes_named(scene: &Census<'_>, stages: &[Recorded]) -> BTreeMap<u32, String> {
+    let shapes = shape_entities(scene);
+    let name = |&(component, number): &(&str, ComponentNumber)| match number {
+        ComponentNumber::U32(Some(number)) if component == "shape" => {
+            Some((number, called(scene, *shapes.get(number as usize)?)))
+        }
+        _ => None,
+    };
+    stages.iter().flat_map(|recorded| recorded.rows.iter().flatten()).filter_map(name).collect()
 }
 
 /// A system after each stage that copies what it wrote for the pixel, before a later bounce can overwrite it.
@@ -175,7 +187,7 @@ impl Trace {
     /// The name of the shape with this number; none where nothing was hit.
     pub fn shape_name(&self, number: ComponentNumber) -> Option<&str> {
         let ComponentNumber::U32(Some(number)) = number else { return None };
-        self.shapes.get(number as usize).map(String::as_str)
+        self.shapes.get(&number).map(String::as_str)
     }
 
     /// The components of a row, vectors in brackets, a shape by its name.

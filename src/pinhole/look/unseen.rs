@@ -3,12 +3,12 @@
 use crate::extract::{
     emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence,
 };
+use crate::plan::Census;
 use crate::scene::Integrator;
 use crate::shade::point_evidence;
-use bevy_ecs::prelude::*;
 
 /// A sentence for each kind of light or material in the scene that its integrator does not render.
-pub fn unseen(scene: &World) -> Vec<String> {
+pub fn unseen(scene: &Census<'_>) -> Vec<String> {
     let (material, emitters) = (matte_evidence(scene), emissive_evidence(scene));
     let (specular, metal) = (mirror_evidence(scene).or(glass_evidence(scene)), metal_evidence(scene));
     let lit_by_area = emitters.needed && (material.needed || metal.needed);

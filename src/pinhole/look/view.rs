@@ -1,5 +1,5 @@
 use crate::extract::ImageFrame;
-use crate::plan::{Column, ColumnKind, ComponentValues, Evidence, Shared, Stage, Table, TileSystems};
+use crate::plan::{Census, Column, ColumnKind, ComponentValues, Evidence, Shared, Stage, Table, TileSystems};
 use crate::rays::{RasterPoints, Tile};
 use crate::scene::{SceneError, View};
 use crate::shade::Radiance;
@@ -16,8 +16,8 @@ pub struct ViewTable {
 impl Table for ViewTable {
     const NAME: &'static str = "view";
 
-    fn extract(scene: &World) -> Result<Self, SceneError> {
-        let viewers = crate::plan::entities::<With<View>>(scene);
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let viewers = scene.entities::<With<View>>();
         let view = viewers.first().and_then(|&viewer| scene.get::<View>(viewer));
         Ok(Self { column: view.map(|view| view.column.clone()).unwrap_or_default() })
     }

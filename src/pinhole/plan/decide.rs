@@ -1,4 +1,4 @@
-use super::{Column, ColumnKind, Lifetime, Stage, TableKind, TileSystems, entities};
+use super::{Census, Column, ColumnKind, Lifetime, RowKind, Stage, TableKind, TileSystems};
 use crate::scene::{Statistics, View, printable};
 use bevy_ecs::prelude::*;
 use serde::Serialize;
@@ -40,16 +40,6 @@ pub enum PlanError {
         /// The columns there are instead.
         why: String,
     },
-}
-
-/// What one row of a batch represents in a pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RowKind {
-    /// A pixel, for paths from the camera.
-    Pixel,
-    /// A path that starts on a light.
-    LightPath,
 }
 
 /// One run over all batches of rows.
@@ -111,7 +101,7 @@ impl Plan {
 ///
 /// Deterministic and without side effects: the same scene and offer give the same plan.
 /// Stages of one set keep the order in which they are offered.
-pub fn plan(scene: &World, offer: &[Stage]) -> Result<Plan, PlanError> {
+pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
     offer.sort_by_key(|stage| stage.set);
     let view = requested::<View>(scene).map(|view| find_view(&offer, &view.column)).transpose()?;
@@ -170,7 +160,12 @@ struct Painted<'p> {
     over: &'p [ColumnKind],
 }
 
-fn decide<'s>(scene: &World, stage: &'s Stage, view: Option<Painted<'_>>, wanted: &BTreeSet<TypeId>) -> Decided<'s> {
+fn decide<'s>(
+    scene: &Census<'_>,
+    stage: &'s Stage,
+    view: Option<Painted<'_>>,
+    wanted: &BTreeSet<TypeId>,
+) -> Decided<'s> {
     let evidence = (stage.when)(scene);
     let of_film = |column: &ColumnKind| column.lifetime == Lifetime::Film;
     let read = stage.writes.iter().filter(|column| wanted.contains(&column.id) || of_film(column));
@@ -260,7 +255,7 @@ fn find_view(offer: &[&Stage], wanted: &str) -> Result<ColumnKind, PlanError> {
     })
 }
 
-fn collect(scene: &World, decided: Vec<Decided<'_>>, view: Option<ColumnKind>) -> Plan {
+fn collect(scene: &Census<'_>, decided: Vec<Decided<'_>>, view: Option<ColumnKind>) -> Plan {
     let (mut columns, mut tables): (Vec<ColumnKind>, Vec<TableKind>) = (Vec::new(), Vec::new());
     let (mut stages, mut rows) = (Vec::new(), Vec::new());
     for decision in decided {
@@ -286,6 +281,6 @@ fn collect(scene: &World, decided: Vec<Decided<'_>>, view: Option<ColumnKind>) -
     Plan { rows, stages, columns, tables, passes, view, statistics: requested::<Statistics>(scene).is_some() }
 }
 
-fn requested<R: Component>(scene: &World) -> Option<&R> {
-    entities::<With<R>>(scene).first().and_then(|&entity| scene.get::<R>(entity))
+fn requested<'s, R: Component>(scene: &'s Census<'_>) -> Option<&'s R> {
+    scene.entities::<With<R>>().first().and_then(|&entity| scene.get::<R>(entity))
 }

@@ -1,7 +1,8 @@
+use super::Census;
 use crate::scene::called;
-use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
-use bevy_ecs::query::{Allow, QueryFilter};
+use bevy_ecs::query::QueryFilter;
+use std::sync::Arc;
 
 /// Whether the scene needs a stage, and what in the scene requires it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,42 +22,55 @@ impl Evidence {
     }
 
     /// Needed if any enabled entity has the component; `noun` names one such entity.
-    pub fn of<C: Component>(scene: &World, noun: &str) -> Self {
-        Self::among::<With<C>>(scene, noun, |_| true)
+    pub fn of<C: Component>(scene: &Census<'_>, noun: &str) -> Self {
+        let enabled = scene.entities::<With<C>>();
+        Self::found_among(scene, noun, &enabled, &enabled, &scene.declared::<With<C>>())
     }
 
     /// Needed if any enabled entity passes the filter and is in use.
-    pub fn among<F: QueryFilter>(scene: &World, noun: &str, in_use: impl Fn(EntityRef<'_>) -> bool) -> Self {
-        let enabled = entities::<F>(scene);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
-        Self::from_entities(scene, noun, &found, &enabled, &declared::<F>(scene))
+    pub fn among<F: QueryFilter + 'static>(
+        scene: &Census<'_>,
+        noun: &str,
+        reachable: impl Fn(EntityRef<'_>) -> bool,
+    ) -> Self {
+        let enabled = scene.entities::<F>();
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        Self::found_among(scene, noun, &found, &enabled, &scene.declared::<F>())
     }
 
     /// Needed if any enabled entity has one of these components and is in use.
     ///
     /// This is not `Or` in a filter, since a read-only query finds nothing if one of its components was never spawned.
-    pub fn among_any(scene: &World, noun: &str, any: &[ComponentKind], in_use: impl Fn(EntityRef<'_>) -> bool) -> Self {
-        let all = |find: fn(&ComponentKind) -> fn(&World) -> Vec<Entity>| {
-            let mut found: Vec<Entity> = any.iter().flat_map(|component| find(component)(scene)).collect();
+    pub fn among_any(
+        scene: &Census<'_>,
+        noun: &str,
+        any: &[ComponentKind],
+        reachable: impl Fn(EntityRef<'_>) -> bool,
+    ) -> Self {
+        let all = |find: fn(&ComponentKind) -> Find| {
+            let lists: Vec<Arc<[Entity]>> = any.iter().map(|carried| find(carried)(scene)).collect();
+            let mut found: Vec<Entity> = lists.iter().flat_map(|list| list.iter().copied()).collect();
             found.sort_by_key(|entity| entity.index());
             found.dedup();
             found
         };
-        let enabled = all(|component| component.enabled);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
-        Self::from_entities(scene, noun, &found, &enabled, &all(|component| component.declared))
+        let enabled = all(|carried| carried.enabled);
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| reachable(scene.entity(e))).collect();
+        Self::found_among(scene, noun, &found, &enabled, &all(|carried| carried.declared))
     }
 
     /// Needed if any enabled entity that passes the filter is of a kind; other entities are not even mentioned.
-    pub fn of_kind<F: QueryFilter>(scene: &World, noun: &str, is_of_kind: impl Fn(Entity) -> bool) -> Self {
-        let mut declared = declared::<F>(scene);
-        declared.retain(|&entity| is_of_kind(entity));
-        let mut found = entities::<F>(scene);
-        found.retain(|&entity| is_of_kind(entity));
-        Self::from_entities(scene, noun, &found, &found, &declared)
+    pub fn of_kind<F: QueryFilter + 'static>(
+        scene: &Census<'_>,
+        noun: &str,
+        is_of_kind: impl Fn(Entity) -> bool,
+    ) -> Self {
+        let of_kind = |all: Arc<[Entity]>| all.iter().copied().filter(|&entity| is_of_kind(entity)).collect::<Vec<_>>();
+        let (found, declared) = (of_kind(scene.entities::<F>()), of_kind(scene.declared::<F>()));
+        Self::found_among(scene, noun, &found, &found, &declared)
     }
 
-    fn from_entities(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
+    fn found_among(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
         let mut reason = counted(found.len(), noun);
         if !found.is_empty() {
             reason = format!("{reason}: {}", first_three(scene, found));
@@ -92,34 +106,20 @@ impl Evidence {
     }
 }
 
+type Find = fn(&Census<'_>) -> Arc<[Entity]>;
+
 /// A component whose entities evidence looks for.
 #[derive(Clone, Copy)]
 pub struct ComponentKind {
-    enabled: fn(&World) -> Vec<Entity>,
-    declared: fn(&World) -> Vec<Entity>,
+    enabled: Find,
+    declared: Find,
 }
 
 impl ComponentKind {
     /// The component `C`.
     pub const fn of<C: Component>() -> Self {
-        Self { enabled: entities::<With<C>>, declared: declared::<With<C>> }
+        Self { enabled: |scene| scene.entities::<With<C>>(), declared: |scene| scene.declared::<With<C>>() }
     }
-}
-
-/// Enabled entities that pass the filter, in spawn order.
-pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
-    sorted(scene.try_query_filtered::<Entity, F>().map(|mut query| query.iter(scene).collect()))
-}
-
-/// Entities that pass the filter, including disabled ones.
-fn declared<F: QueryFilter>(scene: &World) -> Vec<Entity> {
-    sorted(scene.try_query_filtered::<Entity, (F, Allow<Disabled>)>().map(|mut query| query.iter(scene).collect()))
-}
-
-fn sorted(entities: Option<Vec<Entity>>) -> Vec<Entity> {
-    let mut entities = entities.unwrap_or_default();
-    entities.sort_by_key(|entity| entity.index());
-    entities
 }
 
 /// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`.

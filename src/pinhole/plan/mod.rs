@@ -8,6 +8,7 @@
 //! A dropped stage is never built, so it costs nothing.
 
 mod access;
+mod census;
 mod column;
 mod decide;
 mod evidence;
@@ -16,12 +17,13 @@ mod stage;
 mod systems;
 mod table;
 
+pub use census::{Census, entities};
 pub use column::{
     Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
     column_component,
 };
-pub use decide::{Pass, Plan, PlanError, PlanRow, RowKind, plan, view_names};
-pub use evidence::{ComponentKind, Evidence, counted, entities};
+pub use decide::{Pass, Plan, PlanError, PlanRow, plan, view_names};
+pub use evidence::{ComponentKind, Evidence, counted};
 pub use stage::{Slot, Stage, StageKind};
-pub use systems::{Bounce, Sample, TileSystems};
+pub use systems::{Bounce, RowKind, Sample, TileSystems};
 pub use table::{ExtractedTable, Shared, Table, TableKind};

@@ -1,5 +1,5 @@
 use super::access::Access;
-use super::{Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
+use super::{Census, Column, ColumnKind, Evidence, RowKind, Table, TableKind, TileSystems};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
@@ -37,7 +37,7 @@ pub struct Stage {
     /// Columns that it reads where they exist.
     pub reads_if: Vec<ColumnKind>,
     /// Columns that it reads where they exist, and requests where the scene gives a reason.
-    pub reads_where: Vec<(ColumnKind, fn(&World) -> Evidence)>,
+    pub reads_where: Vec<(ColumnKind, fn(&Census<'_>) -> Evidence)>,
     /// Columns that it writes; those that nothing reads do not exist.
     pub writes: Vec<ColumnKind>,
     /// Whether it runs at every bounce, or at the first one only.
@@ -49,13 +49,13 @@ pub struct Stage {
     /// Tables that it reads.
     pub tables: Vec<TableKind>,
     /// Tables that it reads where the scene gives a reason.
-    pub tables_where: Vec<(TableKind, fn(&World) -> Evidence)>,
+    pub tables_where: Vec<(TableKind, fn(&Census<'_>) -> Evidence)>,
     /// Tables that it reads where a column that it writes is read.
     pub tables_with: Vec<(TableKind, ColumnKind)>,
     /// Whether it reads the column that a `View` names.
     pub reads_view: bool,
     /// Whether a scene needs it.
-    pub when: fn(&World) -> Evidence,
+    pub when: fn(&Census<'_>) -> Evidence,
     /// The system's configuration, made anew for each schedule.
     pub system: Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>,
 }
@@ -132,7 +132,7 @@ impl Stage {
     }
 
     /// Adds a column that it reads where it exists, and requests only where the scene gives a reason.
-    pub fn reads_where<C: Column>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn reads_where<C: Column>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         let column = ColumnKind::of::<C>();
         self.reads.retain(|own| *own != column);
         self.reads_if.retain(|own| *own != column);
@@ -164,7 +164,7 @@ impl Stage {
     }
 
     /// Adds a table that it reads where the scene gives a reason.
-    pub fn table_where<T: Table>(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn table_where<T: Table>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         let table = TableKind::of::<T>();
         self.tables.retain(|own| *own != table);
         self.tables_where.push((table, predicate));
@@ -180,7 +180,7 @@ impl Stage {
     }
 
     /// The tables that it reads for a scene, where these of its columns are read.
-    pub fn tables_for(&self, scene: &World, columns: &[ColumnKind]) -> Vec<TableKind> {
+    pub fn tables_for(&self, scene: &Census<'_>, columns: &[ColumnKind]) -> Vec<TableKind> {
         let needed = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);
         let beside = self.tables_with.iter().filter(|(_, column)| columns.contains(column));
         let more = needed.map(|(table, _)| table).chain(beside.map(|(table, _)| table));
@@ -194,7 +194,7 @@ impl Stage {
     }
 
     /// Sets the predicate by which a scene needs it.
-    pub fn when(mut self, predicate: fn(&World) -> Evidence) -> Self {
+    pub fn when(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.when = predicate;
         self
     }

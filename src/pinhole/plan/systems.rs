@@ -1,6 +1,16 @@
-use super::RowKind;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::ScheduleLabel;
+use serde::Serialize;
+
+/// What one row of a batch represents in a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RowKind {
+    /// A pixel, for paths from the camera.
+    Pixel,
+    /// A path that starts on a light.
+    LightPath,
+}
 
 /// The schedule that takes one sample of every pixel of a tile from raster points to the film.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]

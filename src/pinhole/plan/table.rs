@@ -1,3 +1,4 @@
+use super::Census;
 use crate::scene::SceneError;
 use bevy_ecs::component::{ComponentId, Mutable, RequiredComponentsRegistrator, StorageType};
 use bevy_ecs::prelude::*;
@@ -10,8 +11,9 @@ use std::sync::Arc;
 pub trait Table: Sized + Send + Sync + 'static {
     /// The name that the plan uses.
     const NAME: &'static str;
-    /// Extracts the table from the scene, in spawn order, relative to the eye.
-    fn extract(scene: &World) -> Result<Self, SceneError>;
+    /// Reads the table off the scene, in spawn order, relative to the eye; other tables that it builds on come from the
+    /// [census](Census::table), and whoever wants this one asks there too.
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError>;
     /// The memory of its arrays, in bytes.
     fn bytes(&self) -> usize;
 }
@@ -54,7 +56,7 @@ pub struct TableKind {
     /// The name that the plan uses.
     pub name: &'static str,
     /// Extracts it from the scene.
-    pub extract: fn(&World) -> Result<ExtractedTable, SceneError>,
+    pub extract: fn(&Census<'_>) -> Result<ExtractedTable, SceneError>,
     /// Whether a render world has it.
     pub present: fn(&World) -> bool,
 }
@@ -78,7 +80,7 @@ impl TableKind {
             id: TypeId::of::<T>(),
             name: T::NAME,
             extract: |scene| {
-                let table = Arc::new(T::extract(scene)?);
+                let table = scene.table::<T>()?;
                 let bytes = table.bytes();
                 let insert = Box::new(move |world: &mut World| world.insert_resource(Shared(Arc::clone(&table))));
                 Ok(ExtractedTable { id: TypeId::of::<T>(), name: T::NAME, bytes, insert })

@@ -1,6 +1,6 @@
 use super::{RasterPoints, Tile};
 use crate::extract::{FilterCells, FilterTable, SamplingTable};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::sample::{
     Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
 };
@@ -136,12 +136,12 @@ pub fn place_samples_stage() -> Stage {
 }
 
 /// Evidence that the camera places its samples at random.
-pub fn sampling_evidence(scene: &World) -> Evidence {
+pub fn sampling_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Sampling>(scene, "sampling camera")
 }
 
 /// Evidence that the camera's filter has negative lobes.
-pub fn signed_evidence(scene: &World) -> Evidence {
+pub fn signed_evidence(scene: &Census<'_>) -> Evidence {
     let signed = |camera: EntityRef<'_>| camera.get::<Sampling>().is_some_and(|own| own.filter.is_signed());
     Evidence::among::<With<Sampling>>(scene, "camera whose filter is negative in places", signed)
 }

@@ -9,7 +9,7 @@ pub struct CameraJoin {
     /// The raster point of that ray, in pixels, y down.
     pub raster: DVec2,
     /// The importance We with its geometric term: the contribution to a pixel per unit of radiance and of projected
-    /// area at the point, which is the density of the camera's rays there.
+    /// area at the point, which equals the number of camera rays through a unit of that area with one ray per pixel.
     pub importance: f64,
 }
 
@@ -155,7 +155,7 @@ mod tests {
             tried += 1;
         }
         assert!(tried > 1000, "{tried}");
-        eprintln!("importance: {tried} points, each within 1 % of the density of the camera's rays");
+        eprintln!("importance: {tried} points, each within 1 % of the number of camera rays per area");
     }
 
     #[test]

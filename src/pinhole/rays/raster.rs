@@ -89,7 +89,7 @@ pub fn raster_stage() -> Stage {
 }
 // ANCHOR_END: raster_stage
 
-/// The number of rows of a tile's raster points, which all aligned columns share.
+/// The number of rows of a tile's raster points, the same for all aligned columns.
 pub(crate) fn aligned_rows(raster: &RasterPoints) -> usize {
     raster.rows()
 }

@@ -9,7 +9,7 @@ use super::{Execution, Rendered, Watch, Worlds};
 use crate::extract::{ImageFrame, LayerTable, SamplingTable};
 use crate::film::{Film, FilmLayers, FilmMoments, FilmSplats, FilmTile};
 use crate::follow::{Splats, Stop};
-use crate::plan::{ExtractedTable, Plan, Shared, Stage, Table};
+use crate::plan::{Census, ExtractedTable, Plan, Shared, Stage};
 use crate::rays::PixelSamples;
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -49,16 +49,16 @@ pub(super) struct FilmPart<'f> {
 }
 
 impl RenderInProgress {
-    /// Plans a scene, reads its tables, and makes an empty film.
+    /// Plans a scene, extracts its tables, and makes an empty film.
     ///
     /// Errors: an invalid scene, or a plan that cannot be made.
-    pub fn begin(scene: &World, offer: &[Stage], execution: &Execution) -> Result<Self> {
+    pub fn begin(scene: &Census<'_>, offer: &[Stage], execution: &Execution) -> Result<Self> {
         let (plan, tables) = prepare(scene, offer)?;
-        let image = ImageFrame::extract(scene)?;
+        let image = *scene.table::<ImageFrame>()?;
         check_film_fits(scene, &plan)?;
         let execution = Execution { tile_side: tile_side(scene, &plan, execution.tile_side), ..execution.clone() };
         let film = film_for(scene, &plan, Film::new(image.width, image.height, execution.tile_side));
-        let sampling = SamplingTable::extract(scene)?;
+        let sampling = *scene.table::<SamplingTable>()?;
         let pool = match execution.worlds {
             Worlds::One => None,
             Worlds::PerWorker => Some(
@@ -197,7 +197,7 @@ impl RenderInProgress {
 }
 
 /// A film with the columns that the plan requires beside sums and counts.
-pub(super) fn film_for(scene: &World, plan: &Plan, mut film: Film) -> Film {
+pub(super) fn film_for(scene: &Census<'_>, plan: &Plan, mut film: Film) -> Film {
     let rows = film.tiles.iter().map(|tile| tile.tile.rows());
     if plan.keeps::<FilmMoments>() {
         film.moments = rows.clone().map(FilmMoments::new).collect();

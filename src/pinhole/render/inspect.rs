@@ -7,7 +7,7 @@ use crate::Result;
 use crate::extract::ImageFrame;
 use crate::film::{Film, FilmTile};
 use crate::follow::Stop;
-use crate::plan::{ExtractedTable, Plan, Stage, Table, TileSystems};
+use crate::plan::{Census, ExtractedTable, Plan, Stage, TileSystems};
 use crate::rays::Tile;
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -34,7 +34,8 @@ pub fn inspect(scene: &World, offer: &[Stage], tile_side: u32) -> Result<Inspect
 
 /// The same with hooks, which follow each stage and see what it wrote before a later stage overwrites it.
 pub fn inspect_stages(scene: &World, offer: &[Stage], tile_side: u32, hooks: &[Hook]) -> Result<Inspection> {
-    let image = ImageFrame::extract(scene)?;
+    let scene = &Census::of(scene);
+    let image = *scene.table::<ImageFrame>()?;
     let film = Film::new(image.width, image.height, tile_side);
     inspect_film(scene, offer, image, film, Run::FIRST, hooks)
 }
@@ -54,13 +55,13 @@ pub fn first_bounce_only(offer: &[Stage]) -> Vec<Stage> {
 ///
 /// The pixel is a tile by itself, since nothing that a stage writes for it depends on its neighbours.
 pub fn inspect_pixel(
-    scene: &World,
+    scene: &Census<'_>,
     offer: &[Stage],
     [x, y]: [u32; 2],
     sample: u32,
     hooks: &[Hook],
 ) -> Result<Inspection> {
-    let image = ImageFrame::extract(scene)?;
+    let image = *scene.table::<ImageFrame>()?;
     let film = film_of(Tile { x, y, width: 1, height: 1 });
     inspect_film(scene, offer, image, film, Run::of_all(sample), hooks)
 }
@@ -84,7 +85,7 @@ fn film_of(tile: Tile) -> Film {
 /// All tiles together take no longer than `patience`, and each at most a fraction of the time that is left, so that a
 /// tile whose paths do not end leaves time for others.
 pub fn probe_tiles(
-    scene: &World,
+    scene: &Census<'_>,
     (plan, tables): (&Plan, &[ExtractedTable]),
     tiles: &[Tile],
     patience: Duration,
@@ -112,12 +113,12 @@ pub fn probe_tiles(
 }
 
 /// The side of a full tile, in pixels, with the default execution.
-pub fn usual_tile_side(scene: &World, plan: &Plan) -> u32 {
+pub fn usual_tile_side(scene: &Census<'_>, plan: &Plan) -> u32 {
     tile_side(scene, plan, Execution::default().tile_side)
 }
 
 fn inspect_film(
-    scene: &World,
+    scene: &Census<'_>,
     offer: &[Stage],
     image: ImageFrame,
     film: Film,

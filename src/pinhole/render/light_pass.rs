@@ -4,7 +4,7 @@ use super::render_world::RenderWorld;
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
 use crate::follow::{LIGHT_PATHS, Splats, Stop};
-use crate::plan::{ExtractedTable, Plan, RowKind, Shared, Table};
+use crate::plan::{Census, ExtractedTable, Plan, RowKind, Shared};
 use crate::rays::{SampleNumber, Tile};
 use crate::render::Watch;
 use crate::scene::SceneError;
@@ -33,7 +33,7 @@ pub(super) struct LightPass {
 
 /// The greatest number of batches that a render's light pass runs at once; 0 without such a pass.
 pub(super) fn batches(
-    scene: &World,
+    scene: &Census<'_>,
     plan: &Plan,
     sampling: SamplingTable,
     image: ImageFrame,
@@ -42,7 +42,7 @@ pub(super) fn batches(
         return Ok(0);
     }
     let samples = f64::from(image.width) * f64::from(image.height) * f64::from(sampling.samples);
-    Ok(batches_for(samples, LightTracingTable::extract(scene)?.paths).min(BATCHES_AT_ONCE))
+    Ok(batches_for(samples, scene.table::<LightTracingTable>()?.paths).min(BATCHES_AT_ONCE))
 }
 
 /// The number of batches that corresponds to so many pixel samples.
@@ -64,16 +64,16 @@ pub(super) struct Means<'a> {
 
 impl LightPass {
     /// The pass, where the plan has one.
-    pub fn of(scene: &World, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
+    pub fn of(scene: &Census<'_>, plan: &Plan, workers: usize) -> Result<Option<Self>, SceneError> {
         if !has_light_pass(plan) {
             return Ok(None);
         }
         Ok(Some(Self {
             worlds: (0..workers).map(|_| Mutex::new(None)).collect(),
             lists: (0..BATCHES_AT_ONCE).map(|_| Mutex::default()).collect(),
-            paths: LightTracingTable::extract(scene)?.paths,
-            filter: SplatFilter::new(FilterTable::extract(scene)?.filter),
-            sampling: SamplingTable::extract(scene)?.for_light_paths(),
+            paths: scene.table::<LightTracingTable>()?.paths,
+            filter: SplatFilter::new(scene.table::<FilterTable>()?.filter),
+            sampling: scene.table::<SamplingTable>()?.for_light_paths(),
         }))
     }
 

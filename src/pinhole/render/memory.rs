@@ -1,7 +1,7 @@
 use crate::extract::{FilterTable, ImageFrame, LayerTable, adaptive_of};
 use crate::film::{FilmLayers, FilmMoments};
 use crate::follow::Splats;
-use crate::plan::{Plan, Table};
+use crate::plan::{Census, Plan};
 use crate::scene::{Filter, LayerKind, SceneError, TooLittleMemory, called, check_memory};
 use bevy_ecs::prelude::*;
 
@@ -14,11 +14,11 @@ pub fn peak_memory() -> Option<u64> {
 }
 
 /// Bytes that a render of a scene takes per pixel of its film, including the layers of a file written at its end.
-pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, SceneError> {
+pub fn film_bytes_a_pixel(scene: &Census<'_>, plan: &Plan) -> Result<u64, SceneError> {
     const THREE: u64 = 3 * size_of::<f64>() as u64;
     const COUNT: u64 = size_of::<u32>() as u64;
     let mut film = THREE + COUNT;
-    if matches!(FilterTable::extract(scene)?.filter, Filter::Mitchell { .. }) {
+    if matches!(scene.table::<FilterTable>()?.filter, Filter::Mitchell { .. }) {
         film += THREE + COUNT;
     }
     if plan.keeps::<FilmMoments>() {
@@ -45,8 +45,8 @@ pub fn film_bytes_a_pixel(scene: &World, plan: &Plan) -> Result<u64, SceneError>
 /// Checks that there is memory for a render's film before any of it is allocated.
 ///
 /// Errors: the resolution, the memory it needs, the memory there is, and the resolution that would fit.
-pub fn check_film_fits(scene: &World, plan: &Plan) -> Result<(), SceneError> {
-    let image = ImageFrame::extract(scene)?;
+pub fn check_film_fits(scene: &Census<'_>, plan: &Plan) -> Result<(), SceneError> {
+    let image = scene.table::<ImageFrame>()?;
     let (width, height) = (image.width, image.height);
     let a_pixel = film_bytes_a_pixel(scene, plan)?;
     let pixels = u64::from(width) * u64::from(height);

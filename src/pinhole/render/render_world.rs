@@ -5,7 +5,7 @@ use crate::Result;
 use crate::extract::validate;
 use crate::film::FilmTile;
 use crate::follow::{Stop, check_materials_are_followed, is_whole};
-use crate::plan::{Bounce, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
+use crate::plan::{Bounce, Census, ColumnKind, ExtractedTable, Plan, RowKind, Sample, Slot, Stage, TileSystems, plan};
 use crate::rays::{ActivePixels, Depth, PixelSamples, SampleNumber, Tile};
 use crate::shade::check_shapes_are_intersected;
 use bevy_ecs::prelude::*;
@@ -24,7 +24,7 @@ struct HookTurn(usize, usize);
 /// Checks a scene, plans it, and extracts its tables.
 ///
 /// Errors: the reason why the scene is invalid, or why there is no plan.
-pub fn prepare(scene: &World, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
+pub fn prepare(scene: &Census<'_>, offer: &[Stage]) -> Result<(Plan, Vec<ExtractedTable>)> {
     validate(scene)?;
     let plan = plan(scene, offer)?;
     check_shapes_are_intersected(scene, offer, &plan)?;

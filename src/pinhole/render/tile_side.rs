@@ -1,7 +1,6 @@
 use crate::extract::shape_entities;
-use crate::plan::{ColumnKind, Plan};
+use crate::plan::{Census, ColumnKind, Plan};
 use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
-use bevy_ecs::prelude::*;
 
 /// The greatest memory for the shadow rays of a worker's tile, in bytes, without the spare capacity of the lists.
 const MOST_BYTES: f64 = (16_u32 << 20) as f64;
@@ -16,7 +15,7 @@ const LEAST: u32 = 2;
 ///
 /// Every pixel sends a shadow ray to each light without an area, and those of a tile are in memory at once.
 /// No bit of the image depends on the side.
-pub(super) fn tile_side(scene: &World, plan: &Plan, most: u32) -> u32 {
+pub(super) fn tile_side(scene: &Census<'_>, plan: &Plan, most: u32) -> u32 {
     let of_light =
         |column: &&ColumnKind| column.is::<LightRays>() || column.is::<LightPdfs>() || column.is::<ShadowHits>();
     let columns = plan.columns.iter().filter(of_light);

@@ -1,6 +1,6 @@
 use super::{Execution, Limits, RenderInProgress, Rendered, Watch, render_in_passes};
 use crate::extract::adaptive_of;
-use crate::plan::Stage;
+use crate::plan::{Census, Stage};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 
@@ -8,6 +8,7 @@ use bevy_ecs::prelude::*;
 ///
 /// Errors: an invalid scene, a plan that cannot be made, or an observer that stopped the render.
 pub fn render(scene: &World, offer: &[Stage], execution: &Execution, watch: &dyn Watch) -> Result<Rendered> {
+    let scene = &Census::of(scene);
     let mut in_progress = RenderInProgress::begin(scene, offer, execution)?;
     match adaptive_of(scene)? {
         None => in_progress.advance(in_progress.steps(), watch)?,

@@ -40,7 +40,7 @@ pub const INTEGRANDS: [Integrand; 4] = [
         variance: PI / 4.0 * (1.0 - PI / 4.0),
     },
     Integrand {
-        name: "a slanted edge",
+        name: "an oblique edge",
         value: |[x, y]| if x < 0.2 + 0.6 * y { 1.0 } else { 0.0 },
         mean: 0.5,
         variance: 0.25,

@@ -80,7 +80,10 @@ mod tests {
                 for number in 0..purpose.numbers() {
                     let dimension = purpose.dimension(depth) + number;
                     assert!(dimension / DIMENSIONS == depth, "{purpose:?} exceeds its bounce");
-                    assert!(!taken.contains(&dimension), "{purpose:?} at depth {depth} shares dimension {dimension}");
+                    assert!(
+                        !taken.contains(&dimension),
+                        "{purpose:?} at depth {depth} has dimension {dimension} in common with another"
+                    );
                     taken.push(dimension);
                 }
             }

@@ -34,8 +34,8 @@ pub enum Integrator {
         max_depth: u32,
         /// How direct light is estimated.
         lights: LightStrategy,
-        /// The path length, in segments, from which Russian roulette may end a path (Mitsuba's `rr_depth`); it leaves the
-        /// expected value unchanged; 0 for never.
+        /// The path length, in segments, from which Russian roulette may end a path (Mitsuba's `rr_depth`); it leaves
+        /// the expected value unchanged; 0 for never.
         roulette: u32,
     },
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A matte surface (diffuse, Lambertian): its BRDF is the constant colour / π.
 ///
-/// Put it on the shape itself, or on an entity of its own that shapes share through [`UsesMaterial`].
+/// Put it on the shape itself, or on a separate entity that shapes refer to through [`UsesMaterial`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Matte {

@@ -6,7 +6,7 @@ use crate::extract::{
 use crate::intersect::{
     NO_SHAPE, RayColumn, RaySlices, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
-use crate::plan::{Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::plan::{Census, Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -297,23 +297,23 @@ pub(super) fn either(one: Evidence, other: Evidence) -> Evidence {
 }
 
 /// Evidence that there is a light, and a material that it can illuminate.
-pub fn lit_evidence(scene: &World) -> Evidence {
+pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
     light_evidence(scene).and(|| material_evidence(scene))
 }
 
 /// Evidence that there is a light of any kind to which shadow rays are traced.
-pub(super) fn light_evidence(scene: &World) -> Evidence {
+pub(super) fn light_evidence(scene: &Census<'_>) -> Evidence {
     let sampled = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
     either(sampled, traced_evidence(scene))
 }
 
 /// Evidence that there is a light without an area.
-pub fn point_evidence(scene: &World) -> Evidence {
+pub fn point_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
 }
 
 /// The evidence of lights without an area, or else that there are others and they are sampled.
-pub(super) fn or_light(scene: &World, points: Evidence) -> Evidence {
+pub(super) fn or_light(scene: &Census<'_>, points: Evidence) -> Evidence {
     let others =
         area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| light_sampling_evidence(scene));
     if others.needed { points.or(others) } else { points }

@@ -6,7 +6,7 @@ use crate::intersect::{
     intersect_ellipsoids, intersect_moving, intersect_planes, intersect_rectangles, intersect_spheres,
     intersect_triangles, rectangle_evidence, sphere_evidence, triangle_evidence,
 };
-use crate::plan::{Column, Evidence, Stage, TileSystems, column};
+use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
 use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
 use bevy_ecs::prelude::*;
 
@@ -111,7 +111,7 @@ pub fn moving_shadow_stage() -> Stage {
 }
 
 /// Evidence that a light casts shadows on a material.
-pub fn shadow_evidence(scene: &World) -> Evidence {
+pub fn shadow_evidence(scene: &Census<'_>) -> Evidence {
     let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
         entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
             || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)

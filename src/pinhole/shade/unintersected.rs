@@ -1,9 +1,9 @@
 //! Shapes that no stage on offer intersects.
 
 use super::shadow::ShadowHits;
-use crate::extract::ShapeTable;
+use crate::extract::{ShapeTable, shape_name};
 use crate::intersect::{Hits, Surfaces};
-use crate::plan::{ColumnKind, Plan, Stage, Table, TableKind};
+use crate::plan::{Census, ColumnKind, Plan, Stage, TableKind};
 use crate::scene::SceneError;
 use bevy_ecs::prelude::*;
 
@@ -12,7 +12,7 @@ use bevy_ecs::prelude::*;
 /// would be missing from its picture without a warning.
 ///
 /// Errors: the first shape that no stage on offer intersects.
-pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
+pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &Plan) -> Result<(), SceneError> {
     let intersects = |column: ColumnKind, table: TableKind| {
         offer.iter().any(|stage| stage.writes.contains(&column) && stage.tables.contains(&table))
     };
@@ -28,11 +28,11 @@ pub fn check_shapes_are_intersected(scene: &World, offer: &[Stage], plan: &Plan)
         if !plan.columns.contains(&column) {
             continue;
         }
-        let shapes = ShapeTable::extract(scene)?;
-        let missing = shapes.kind.iter().zip(&shapes.name).find(|(kind, _)| !intersects(column, kind.table()));
-        if let Some((kind, name)) = missing {
+        let shapes = scene.table::<ShapeTable>()?;
+        let missing = shapes.kind.iter().enumerate().find(|(_, kind)| !intersects(column, kind.table()));
+        if let Some((shape, kind)) = missing {
             let value = format!("in the table of {}", kind.table().name);
-            return Err(SceneError::new(name.clone(), "shape", value, accepted));
+            return Err(SceneError::new(shape_name(scene, shape), "shape", value, accepted));
         }
     }
     Ok(())

@@ -2,7 +2,7 @@ use super::light::light_evidence;
 use super::{Radiance, SurfaceColours};
 use crate::extract::{MaterialTable, emissive_evidence, followed_evidence, material_evidence, occlusion_evidence};
 use crate::intersect::{MaterialRows, Surfaces, shape_evidence};
-use crate::plan::{Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use bevy_ecs::prelude::*;
 
 // ANCHOR: shade_unlit
@@ -33,7 +33,7 @@ pub fn unlit_stage() -> Stage {
 }
 
 /// Evidence that there is a surface to show.
-pub fn shown_evidence(scene: &World) -> Evidence {
+pub fn shown_evidence(scene: &Census<'_>) -> Evidence {
     let shapes = shape_evidence(scene);
     if shapes.needed { material_evidence(scene) } else { shapes }
 }

@@ -10,7 +10,7 @@ use pinhole::extract::{
     CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Planar, PlaneTable, RectangleTable, ShapeKind,
     ShapeTable, Slabs, SphereTable, TriangleRow, TriangleTable, camera_entity,
 };
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::render::Inspection;
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera};
 
@@ -37,13 +37,14 @@ impl Exact {
     pub fn of(scene: &World, frame: &Inspection) -> Result<Self> {
         let camera = camera_entity(scene)?;
         let (width, height) = (frame.image.width, frame.image.height);
-        let axes = CameraAxes::extract(scene)?.world_from_camera;
+        let census = &Census::of(scene);
+        let axes = CameraAxes::extract(census)?.world_from_camera;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
-        let (shapes, spheres) = (ShapeTable::extract(scene)?, SphereTable::extract(scene)?);
-        let (planes, ellipsoids) = (PlaneTable::extract(scene)?, EllipsoidTable::extract(scene)?);
-        let (disks, rectangles) = (DiskTable::extract(scene)?, RectangleTable::extract(scene)?);
-        let (cuboids, triangles) = (CuboidTable::extract(scene)?, TriangleTable::extract(scene)?);
+        let (shapes, spheres) = (ShapeTable::extract(census)?, SphereTable::extract(census)?);
+        let (planes, ellipsoids) = (PlaneTable::extract(census)?, EllipsoidTable::extract(census)?);
+        let (disks, rectangles) = (DiskTable::extract(census)?, RectangleTable::extract(census)?);
+        let (cuboids, triangles) = (CuboidTable::extract(census)?, TriangleTable::extract(census)?);
         let shape = |(kind, &row): (&ShapeKind, &u32)| {
             Some(match (kind, row as usize) {
                 (ShapeKind::Sphere, row) => {

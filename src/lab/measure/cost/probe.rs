@@ -178,7 +178,7 @@ fn exact_nearest(origin: Vec3, direction: Vec3, shapes: &[ExactShape]) -> Option
             ExactShape::Disk(planar) => disk_hit(origin, direction, planar),
             ExactShape::Rectangle(planar) => rectangle_hit(origin, direction, planar),
             ExactShape::Cuboid(slabs) => cuboid_hit(origin, direction, slabs).map(|(t, _)| t),
-            ExactShape::Triangle(facet, _) => triangle_hit(origin, direction, facet.corners),
+            ExactShape::Triangle(triangle, _) => triangle_hit(origin, direction, triangle.corners),
         };
         if let Some(t) = t.filter(|t| nearest.as_ref().is_none_or(|(_, nearest)| t < nearest)) {
             nearest = Some((number, t));
@@ -250,8 +250,8 @@ fn probe_surface(shape: u32, surfaces: &Surfaces, row: usize, exact: &Exact, wor
             let farthest = beyond(0).max(beyond(1)).max(beyond(2));
             farthest.abs() / (U * position.as_dvec3().length())
         }
-        ExactShape::Triangle(facet, normal) => {
-            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(facet.corners[0])));
+        ExactShape::Triangle(triangle, normal) => {
+            let above = ExactVector::of(*normal).dot(&point.minus(&ExactVector::of(triangle.corners[0])));
             above.to_f64().abs() / (U * position.as_dvec3().length())
         }
     };

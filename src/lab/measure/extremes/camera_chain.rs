@@ -12,7 +12,7 @@ use crate::naive::camera::viewport_f32;
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3};
 use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection, SMALLEST_PIXEL};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::rays::{self, CameraRays, NdcPoints, RasterPoints, ScreenPoints, Tile, WorldRays};
 use pinhole::scene::{Degrees, FovAxis, LookAt, PerspectiveCamera, Placement, Resolution, SceneError};
 
@@ -94,9 +94,10 @@ impl CameraChain {
             }
             Pose::Looking(look) => camera.insert((look, Placement::default())),
         };
-        let axes = CameraAxes::extract(&self.scene)?;
-        self.bench.share(ImageFrame::extract(&self.scene)?);
-        self.bench.share(PerspectiveProjection::extract(&self.scene)?);
+        let census = &Census::of(&self.scene);
+        let axes = CameraAxes::extract(census)?;
+        self.bench.share(ImageFrame::extract(census)?);
+        self.bench.share(PerspectiveProjection::extract(census)?);
         self.bench.share(axes);
         self.set = Some((asked, axes.world_from_camera));
         Ok(axes.world_from_camera)

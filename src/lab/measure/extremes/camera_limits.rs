@@ -46,7 +46,7 @@ fn every_pixel(width: u32) -> Trial {
     one_by_one(&format!("{width} x 1, every pixel"), &ROWS, check).at_most(u64::from(width))
 }
 
-/// tan(α / 2) of angles that leave 0.01° to 90° to 180°. In f64 four roundings, one of them through a slope of 2 at
+/// tan(φ / 2) of angles that leave 0.01° to 90° to 180°. In f64 four roundings, one of them through a slope of 2 at
 /// most: 8 · 2⁻⁵³.
 fn wide_tangents() -> Trial {
     const BOUND: f64 = 8.0 / (1_u64 << 29) as f64;

@@ -10,7 +10,7 @@ use pinhole::extract::SphereTable;
 use pinhole::film::film_stage;
 use pinhole::intersect::Hits;
 use pinhole::look::view_stage;
-use pinhole::plan::{Column, Stage, Table};
+use pinhole::plan::{Census, Column, Stage, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -74,7 +74,7 @@ fn scene(frame: u64) -> World {
 
 /// Judges the first rays of a frame; a scene that is refused is a failure.
 fn check_frame(scene: &World, rays: usize, tally: &mut Tally) {
-    let (frame, table) = (inspect(scene, &offer(), SIDE), SphereTable::extract(scene));
+    let (frame, table) = (inspect(scene, &offer(), SIDE), SphereTable::extract(&Census::of(scene)));
     let (Ok(frame), Ok(table)) = (frame, table) else {
         tally.scores[0].check(false);
         return;

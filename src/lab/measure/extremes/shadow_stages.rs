@@ -139,8 +139,8 @@ impl ShadowStages {
     fn shapes(&mut self, kind: ShapeKind, count: usize) {
         let row = (0..count as u32).collect();
         let (material, emissive) = (vec![0; count], vec![NO_ROW; count]);
-        let (non_specular, name) = (vec![true; count], Vec::new());
-        let table = ShapeTable { kind: vec![kind; count], row, material, non_specular, emissive, name };
+        let non_specular = vec![true; count];
+        let table = ShapeTable { kind: vec![kind; count], row, material, non_specular, emissive };
         self.to_surface.share(table);
     }
 

@@ -13,7 +13,7 @@ use crate::naive::ellipsoid::{look_at_unchecked, normal_as_direction};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use pinhole::extract::{EllipsoidTable, PlaneTable, SMALLEST_PIXEL, look_at_axes, world_from_entity};
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{ChildOf, LookAt, Matte, PerspectiveCamera, Placement, Plane, Sphere};
 use std::ops::Range;
 
@@ -108,9 +108,10 @@ fn check_planes(range: Range<u64>) -> Tally {
         let levels = 1 + (draws.unit() * 3.0) as usize;
         let (chain, normal) = (chain(&mut draws, &[3.0; 3][..levels]), draws.unit_vector());
         let (world, entity) = scene(Plane { normal }, &chain);
-        let table = PlaneTable::extract(&world);
+        let census = &Census::of(&world);
+        let table = PlaneTable::extract(census);
         tally.count(table.is_ok());
-        let (Ok(table), Ok(map)) = (table, world_from_entity(&world, "", entity)) else {
+        let (Ok(table), Ok(map)) = (table, world_from_entity(census, "", entity)) else {
             tally.scores[0].check(false);
             continue;
         };
@@ -137,7 +138,7 @@ fn check_pixels(range: Range<u64>) -> Tally {
         let chain = chain(&mut draws, &[6.9 * share, 6.9 * (1.0 - share)]);
         let (radius, on_unit) = (draws.between(0.5, 2.0), draws.unit_vector());
         let (world, _) = scene(Sphere { radius }, &chain);
-        let table = EllipsoidTable::extract(&world);
+        let table = EllipsoidTable::extract(&Census::of(&world));
         let ellipsoid = table.as_ref().ok().and_then(|table| table.ellipsoid.first().copied());
         tally.count(ellipsoid.is_some());
         let Some(ellipsoid) = ellipsoid else {
@@ -169,7 +170,7 @@ fn check_refusals(range: Range<u64>) -> Tally {
         let uneven = Placement { scale, orientation: turn(&mut draws), ..Placement::default() };
         let chain = if parent { vec![even, uneven] } else { vec![uneven] };
         let (world, _) = scene(Sphere::default(), &chain);
-        let refused = pinhole::extract::validate(&world).is_err();
+        let refused = pinhole::extract::validate(&Census::of(&world)).is_err();
         tally.count(!refused);
         tally.scores[0].check(refused == beyond);
     }

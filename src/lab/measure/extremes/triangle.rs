@@ -74,8 +74,8 @@ pub(super) fn exact(ray: AimedRay, corners: Corners) -> Option<f64> {
 }
 
 /// The distance by the kit's function of one ray and one triangle.
-pub(super) fn by_function(ray: AimedRay, facet: &TriangleRow) -> f64 {
-    triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), facet)
+pub(super) fn by_function(ray: AimedRay, triangle: &TriangleRow) -> f64 {
+    triangle_t(ray.origin.as_dvec3(), ray.direction.as_dvec3(), triangle)
 }
 
 /// One ray and one triangle through the stage: no neighbour can save a ray from being culled.
@@ -97,7 +97,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     bench.run();
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
-        let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+        let nearest = table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
         score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
             score.check_t(Some(hits.t[row]), exact[row]);

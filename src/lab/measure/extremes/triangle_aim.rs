@@ -5,7 +5,7 @@ use crate::measure::ray_aim::{AimedRay, BAND_IN_QUANTA, Draws, rounded_ray};
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::TriangleTable;
-use pinhole::plan::Table;
+use pinhole::plan::{Census, Table};
 use pinhole::scene::{ChildOf, Matte, PerspectiveCamera, Placement, SceneError, Triangle};
 
 /// One direction quantum: the spacing of f32 numbers just below 1.
@@ -161,7 +161,7 @@ impl Mesh {
             let vertices = face.map(|corner| self.corners[corner]);
             scene.spawn((Triangle { vertices, ..Triangle::default() }, Matte::default(), ChildOf(parent)));
         }
-        TriangleTable::extract(&scene)
+        TriangleTable::extract(&Census::of(&scene))
     }
 }
 

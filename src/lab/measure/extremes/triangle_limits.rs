@@ -78,10 +78,10 @@ fn lengths_of_directions() -> Trial {
         let (ray, corners) = at_edge(262, index);
         let scale = libm::ldexp(1.0, Draws::new(263, index).between(-60.0, 61.0).floor() as i32);
         let longer = AimedRay { direction: ray.direction * scale as f32, ..ray };
-        let facet = TriangleRow::new(corners);
-        let t = by_function(ray, &facet);
+        let triangle = TriangleRow::new(corners);
+        let t = by_function(ray, &triangle);
         tally.count(t.is_finite());
-        tally.scores[0].check(t.to_bits() == (by_function(longer, &facet) * scale).to_bits());
+        tally.scores[0].check(t.to_bits() == (by_function(longer, &triangle) * scale).to_bits());
         let rounded = corners.map(|corner| corner.as_vec3());
         let naive = |ray: AimedRay| hit_f32(ray.origin, ray.direction, rounded).map(f64::from);
         let [t, of_longer] = [naive(ray).unwrap_or(-1.0), naive(longer).unwrap_or(-1.0 / scale)];
@@ -110,7 +110,8 @@ fn no_rays() -> Trial {
         let hits = bench.column::<Hits>();
         tally.count(true);
         for (component, &ray) in rays.iter().enumerate() {
-            let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
+            let nearest =
+                table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
             let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
             tally.scores[0].check(if component == bad {
                 nothing

@@ -92,7 +92,7 @@ fn check_mesh(
     tally: &mut Tally,
 ) {
     bench.share(table.clone());
-    let rounded: Vec<[Vec3; 3]> = table.triangle.iter().map(|facet| facet.corners.map(|c| c.as_vec3())).collect();
+    let rounded: Vec<[Vec3; 3]> = table.triangle.iter().map(|triangle| triangle.corners.map(|c| c.as_vec3())).collect();
     let rays: Vec<(AimedRay, [DVec3; 2])> = range.map(|index| aimed(view, table, centre, index)).collect();
     for rays in rays.chunks(AT_ONCE) {
         bench.aim(&rays.iter().map(|&(ray, _)| ray).collect::<Vec<_>>());
@@ -101,14 +101,17 @@ fn check_mesh(
         for (row, &(ray, at)) in rays.iter().enumerate() {
             let met = hits.shape[row] != NO_SHAPE;
             tally.count(met);
-            let nearest = table.triangle.iter().map(|facet| by_function(ray, facet)).fold(f64::INFINITY, f64::min);
-            let must = view.inside || met || table.triangle.iter().any(|facet| exact(ray, facet.corners).is_some());
+            let nearest =
+                table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
+            let must =
+                view.inside || met || table.triangle.iter().any(|triangle| exact(ray, triangle.corners).is_some());
             tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && met == must);
             let found = table.triangle.get(hits.shape[row] as usize);
-            let about = table.triangle.iter().filter(|facet| at.iter().all(|corner| facet.corners.contains(corner)));
-            for facet in about.chain(found) {
-                let t = by_function(ray, facet);
-                tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+            let about =
+                table.triangle.iter().filter(|triangle| at.iter().all(|corner| triangle.corners.contains(corner)));
+            for triangle in about.chain(found) {
+                let t = by_function(ray, triangle);
+                tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
             }
             if must {
                 let by_f32 = rounded.iter().any(|&corners| hit_f32(ray.origin, ray.direction, corners).is_some());
@@ -146,13 +149,13 @@ fn check_on_edges(range: Range<u64>) -> Tally {
         let met = bench.column::<Hits>().shape[0] != NO_SHAPE;
         tally.count(met);
         tally.scores[0].check(met);
-        for facet in &table.triangle {
-            let t = by_function(ray, facet);
-            tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, facet.corners));
+        for triangle in &table.triangle {
+            let t = by_function(ray, triangle);
+            tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
         }
         let strictly =
             |corners| hit_inside_strictly(ray.origin.as_dvec3(), ray.direction.as_dvec3(), corners).is_some();
-        tally.scores[2].check(table.triangle.iter().any(|facet| strictly(facet.corners)));
+        tally.scores[2].check(table.triangle.iter().any(|triangle| strictly(triangle.corners)));
     }
     tally
 }

@@ -123,26 +123,26 @@ fn check_shares(range: Range<u64>) -> Tally {
     for index in range {
         let view = View { seed: 251, thinnest: 8.0, aim: SampleLights::Inside, from: From::Anywhere(9.0) };
         let (ray, corners) = shot(view, index);
-        let facet = TriangleRow::new(corners);
-        let t = by_function(ray, &facet);
-        let truth = if t.is_finite() { exact_weights(ray.origin, ray.direction, facet.corners) } else { None };
+        let triangle = TriangleRow::new(corners);
+        let t = by_function(ray, &triangle);
+        let truth = if t.is_finite() { exact_weights(ray.origin, ray.direction, triangle.corners) } else { None };
         tally.count(truth.is_some());
         let Some(truth) = truth else { continue };
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-        let triangle_hit = TriangleHit::of(origin, direction, &facet);
+        let triangle_hit = TriangleHit::of(origin, direction, &triangle);
         let off = |shares: [f64; 3]| shares.iter().zip(truth).map(|(a, b)| (a - b).abs() / U).fold(0.0, f64::max);
         tally.scores[0].measure(off(triangle_hit.weights));
         let mut draws = Draws::new(252, index);
         let normals = [(); 3].map(|()| (DVec3::Z + draws.unit_vector() * 0.99).normalize());
         tally.scores[1].measure((shading_normal(&normals, &triangle_hit).length() - 1.0).abs() / U);
-        tally.scores[2].measure(off(by_areas(origin + t * direction, &facet)));
+        tally.scores[2].measure(off(by_areas(origin + t * direction, &triangle)));
     }
     tally
 }
 
 /// The shares as areas about a point that was reached along the ray.
-fn by_areas(point: DVec3, facet: &TriangleRow) -> [f64; 3] {
-    let [a, b, c] = facet.corners;
+fn by_areas(point: DVec3, triangle: &TriangleRow) -> [f64; 3] {
+    let [a, b, c] = triangle.corners;
     let normal = normal_by_winding([a, b, c]);
     let area = |b: DVec3, c: DVec3| (b - point).cross(c - point).dot(normal);
     let areas = [area(b, c), area(c, a), area(a, b)];

@@ -13,7 +13,7 @@ use pinhole::Result;
 use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection, PlaneTable, SphereTable, eye};
 use pinhole::film::Curve;
 use pinhole::intersect::{plane_t, sphere_t};
-use pinhole::plan::{Stage, Table};
+use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -55,7 +55,7 @@ fn strip(title: String, says: impl Fn(usize, usize) -> String, naive: (&str, Pic
 
 /// The frame's rays, line by line from the top.
 fn rays_of(scene: &World, offer: &[Stage]) -> Result<Vec<AimedRay>> {
-    let image = ImageFrame::extract(scene)?;
+    let image = ImageFrame::extract(&Census::of(scene))?;
     // One tile, whose rows then are the image's lines.
     let frame = inspect(scene, offer, image.width.max(image.height))?;
     let Some(rays) = frame.world.get::<WorldRays>(frame.tiles[0]) else { return Ok(Vec::new()) };
@@ -134,7 +134,8 @@ fn shadows(
 
 /// What rays from the eye meet, painted by its normal.
 fn painted(scene: &World, rays: &[AimedRay], width: u32) -> Result<Picture> {
-    let (spheres, planes) = (SphereTable::extract(scene)?, PlaneTable::extract(scene)?);
+    let census = &Census::of(scene);
+    let (spheres, planes) = (SphereTable::extract(census)?, PlaneTable::extract(census)?);
     let colour = |ray: &AimedRay| {
         let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let mut nearest = (f64::INFINITY, DVec3::ZERO);
@@ -162,8 +163,9 @@ fn far_eye(make: &dyn Fn() -> World, offer: &[Stage], distance: f64) -> Result<S
     shift(&mut scene, DVec3::splat(distance));
     let rays = rays_of(&scene, offer)?;
     let kit = painted(&scene, &rays, SIZE[0])?;
-    let (eye, axes) = (eye(&scene)?.as_vec3(), CameraAxes::extract(&scene)?.world_from_camera.as_mat3());
-    let vertical = 2.0 * libm::atan(PerspectiveProjection::extract(&scene)?.tan_half_vertical).to_degrees();
+    let census = &Census::of(&scene);
+    let (eye, axes) = (eye(census)?.as_vec3(), CameraAxes::extract(census)?.world_from_camera.as_mat3());
+    let vertical = 2.0 * libm::atan(PerspectiveProjection::extract(census)?.tan_half_vertical).to_degrees();
     let naive_ray = |pixel: u32| {
         let pixel = [pixel % SIZE[0], pixel / SIZE[0]];
         let direction = viewport_f32(eye, axes, vertical as f32, SIZE, pixel);
@@ -206,7 +208,7 @@ fn widest(make: &dyn Fn() -> World, offer: &[Stage]) -> Result<Strip> {
     set_size(&mut scene, SIZE);
     set_fov(&mut scene, WIDEST);
     let kit = painted(&scene, &rays_of(&scene, offer)?, SIZE[0])?;
-    let axes = CameraAxes::extract(&scene)?.world_from_camera.as_mat3();
+    let axes = CameraAxes::extract(&Census::of(&scene))?.world_from_camera.as_mat3();
     let naive = |degrees: f32| {
         let (tangent, [width, height]) = (tan_half_f32(degrees), SIZE.map(|side| side as f32));
         let ray = |pixel: u32| {

@@ -8,7 +8,7 @@ use pinhole::Result;
 use pinhole::extract::{PlaneTable, SphereTable};
 use pinhole::film::{Curve, FilmTile};
 use pinhole::intersect::{Surfaces, plane_t, sphere_t};
-use pinhole::plan::{Stage, Table};
+use pinhole::plan::{Census, Stage, Table};
 use pinhole::render::inspect;
 use pinhole::shade::LightRays;
 
@@ -22,7 +22,8 @@ pub fn with_start(
     start: fn(Vec3, Vec3) -> ShadowStart,
 ) -> Result<Option<[Picture; 2]>> {
     let frame = inspect(scene, offer, size[0].max(size[1]))?;
-    let (spheres, planes) = (SphereTable::extract(scene)?, PlaneTable::extract(scene)?);
+    let census = &Census::of(scene);
+    let (spheres, planes) = (SphereTable::extract(census)?, PlaneTable::extract(census)?);
     let tile = frame.world.entity(frame.tiles[0]);
     let (Some(film), Some(surfaces), Some(rays)) =
         (tile.get::<FilmTile>(), tile.get::<Surfaces>(), tile.get::<LightRays>())

@@ -148,7 +148,7 @@ pub fn has_children(scene: &World) -> bool {
 mod tests {
     use super::*;
     use pinhole::extract::{CameraAxes, PlaneTable, SphereTable};
-    use pinhole::plan::Table;
+    use pinhole::plan::{Census, Table};
 
     /// A camera that looks at a ball on a floor, and another ball that hangs on the first.
     fn scene(with_child: bool) -> World {
@@ -174,18 +174,19 @@ mod tests {
             let mut moved = scene(with_child);
             shift(&mut moved, DVec3::new(1.0, 2.0, 3.0));
             assert_eq!(place(&moved), DVec3::new(1.5, 2.0, 3.0));
-            assert_eq!(pinhole::extract::eye(&moved), Ok(DVec3::new(1.0, 2.0, 7.0)));
+            assert_eq!(pinhole::extract::eye(&Census::of(&moved)), Ok(DVec3::new(1.0, 2.0, 7.0)));
             // From the eye nothing has moved, also not what hangs on a parent.
-            let of = |world: &World| SphereTable::extract(world).expect("spheres");
+            let of = |world: &World| SphereTable::extract(&Census::of(world)).expect("spheres");
             assert_eq!(of(&moved).x, of(&scene(with_child)).x);
 
             let mut turned = scene(with_child);
             let half = std::f64::consts::FRAC_1_SQRT_2;
             turn(&mut turned, DQuat::from_xyzw(0.0, 0.0, half, half));
             assert!((place(&turned) - DVec3::Y * 0.5).length() < 1e-15);
-            let axes = CameraAxes::extract(&turned).expect("axes").world_from_camera;
+            let census = &Census::of(&turned);
+            let axes = CameraAxes::extract(census).expect("axes").world_from_camera;
             assert!((axes.y_axis + DVec3::X).length() < 1e-15);
-            let normal = PlaneTable::extract(&turned).expect("planes").normal[0];
+            let normal = PlaneTable::extract(census).expect("planes").normal[0];
             assert!((normal + DVec3::X).length() < 1e-7);
 
             let mut large = scene(with_child);

@@ -10,7 +10,7 @@ use pinhole::extract::{
 };
 use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, NO_SHAPE, face_of_point};
-use pinhole::plan::{Stage, Table};
+use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::render::inspect;
 use serde::Serialize;
@@ -73,15 +73,16 @@ struct Shapes {
 
 impl Shapes {
     fn of(scene: &World) -> Result<Self> {
+        let census = &Census::of(scene);
         Ok(Self {
-            all: ShapeTable::extract(scene)?,
-            spheres: SphereTable::extract(scene)?,
-            planes: PlaneTable::extract(scene)?,
-            ellipsoids: EllipsoidTable::extract(scene)?,
-            disks: DiskTable::extract(scene)?,
-            rectangles: RectangleTable::extract(scene)?,
-            cuboids: CuboidTable::extract(scene)?,
-            triangles: TriangleTable::extract(scene)?,
+            all: ShapeTable::extract(census)?,
+            spheres: SphereTable::extract(census)?,
+            planes: PlaneTable::extract(census)?,
+            ellipsoids: EllipsoidTable::extract(census)?,
+            disks: DiskTable::extract(census)?,
+            rectangles: RectangleTable::extract(census)?,
+            cuboids: CuboidTable::extract(census)?,
+            triangles: TriangleTable::extract(census)?,
         })
     }
 

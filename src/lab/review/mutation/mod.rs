@@ -20,7 +20,7 @@ use bevy_ecs::schedule::ScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 use pinhole::Chapter;
 use pinhole::film::byte_from_linear;
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage};
 use pinhole::{Error, Overrides, Result};
 use std::sync::Arc;
 
@@ -107,6 +107,6 @@ impl Mutation {
 
 fn runs(chapter: &Chapter, stages: &[Stage], wanted: &Stage) -> Result<bool> {
     let world = chapter.world(&Overrides { resolution: Some(SNAPSHOT_SIZE), ..Overrides::default() });
-    let plan = pinhole::plan::plan(&world, stages)?;
+    let plan = pinhole::plan::plan(&Census::of(&world), stages)?;
     Ok(plan.stages.contains(wanted))
 }

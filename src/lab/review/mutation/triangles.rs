@@ -10,8 +10,8 @@ use pinhole::rays::WorldRays;
 pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for row in 0..rays.rows() {
-            for (facet, &number) in triangles.triangle.iter().zip(&triangles.shape) {
-                let ([a, b, c], direction) = (facet.corners, rays.direction_of(row));
+            for (triangle, &number) in triangles.triangle.iter().zip(&triangles.shape) {
+                let ([a, b, c], direction) = (triangle.corners, rays.direction_of(row));
                 let (e1, e2, s) = (b - a, c - a, rays.origin_of(row) - a);
                 let (p, q) = (direction.cross(e2), s.cross(e1));
                 let (determinant, t) = (e1.dot(p), e2.dot(q) / e1.dot(p));
@@ -33,11 +33,11 @@ pub fn next_corner(
     for (rays, hits, list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let facet = &triangles.triangle[shapes.row[hits.shape[row] as usize] as usize];
-            let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), facet);
+            let triangle = &triangles.triangle[shapes.row[hits.shape[row] as usize] as usize];
+            let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), triangle);
             triangle_hit.weights.rotate_left(1);
             let mut surface = surfaces.get(row);
-            surface.position = triangle_hit.interpolate(&facet.corners).as_vec3();
+            surface.position = triangle_hit.interpolate(&triangle.corners).as_vec3();
             surfaces.set(row, surface);
         }
     }

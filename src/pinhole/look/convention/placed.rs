@@ -1,5 +1,5 @@
 use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, eye};
-use crate::plan::Table;
+use crate::plan::Census;
 use crate::scene::{ChildOf, LookAt, OrthographicCamera, PerspectiveCamera};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
@@ -24,6 +24,7 @@ impl PlacedCamera {
     ///
     /// Errors: whatever a render would refuse, and an orthographic camera, which has no field of view.
     pub fn of(scene: &World) -> Result<Self> {
+        let scene = &Census::of(scene);
         let camera = camera_entity(scene)?;
         if scene.get::<PerspectiveCamera>(camera).is_none() {
             let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
@@ -32,15 +33,15 @@ impl PlacedCamera {
                 format!("the conventions are those of perspective cameras, and this scene's camera is {kind}");
             return Err(Error::Usage(message));
         }
-        let world_from_camera = CameraAxes::extract(scene)?.world_from_camera;
+        let world_from_camera = scene.table::<CameraAxes>()?.world_from_camera;
         let eye = eye(scene)?;
         let derived = LookAt { eye, target: eye - world_from_camera.z_axis, up: world_from_camera.y_axis };
         let written = scene.get::<LookAt>(camera).copied().filter(|_| scene.get::<ChildOf>(camera).is_none());
         Ok(Self {
             look: written.unwrap_or(derived),
             world_from_camera,
-            tan_half_vertical: PerspectiveProjection::extract(scene)?.tan_half_vertical,
-            image: ImageFrame::extract(scene)?,
+            tan_half_vertical: scene.table::<PerspectiveProjection>()?.tan_half_vertical,
+            image: *scene.table::<ImageFrame>()?,
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The kit inside the builder: runs its command lines and keeps what they answer.
+//! pinhole's program inside the builder: runs command lines and keeps what they answer.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -9,13 +9,13 @@ use std::rc::Rc;
 type Run = dyn Fn(&[String], &mut dyn Write) -> Result<(), String>;
 
 /// Answers commands, each only once however many pages ask.
-pub struct Kit {
+pub struct Program {
     run: Box<Run>,
     answers: HashMap<(String, Option<&'static str>), Result<Rc<[u8]>, String>>,
 }
 
-impl Kit {
-    /// The kit of this repository, to be shared by the pages of one build.
+impl Program {
+    /// The program of this repository, to be shared by the pages of one build.
     pub fn shared() -> Rc<RefCell<Self>> {
         let chapters = chapters::all();
         Self::with(move |arguments, out| {
@@ -25,7 +25,7 @@ impl Kit {
         })
     }
 
-    /// A kit that answers as the function does.
+    /// A program that answers as the function does.
     pub fn with(run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static) -> Rc<RefCell<Self>> {
         Rc::new(RefCell::new(Self { run: Box::new(run), answers: HashMap::new() }))
     }
@@ -37,13 +37,13 @@ impl Kit {
 
     /// What the command prints.
     pub fn text(&mut self, command: &str) -> Result<String, String> {
-        let printed = self.answer(command, None, |kit| kit.printed(command))?;
+        let printed = self.answer(command, None, |program| program.printed(command))?;
         Ok(String::from_utf8_lossy(&printed).trim_end().to_owned())
     }
 
     /// The file the command makes when it is told where to.
     pub fn file(&mut self, command: &str, extension: &'static str) -> Result<Rc<[u8]>, String> {
-        self.answer(command, Some(extension), |kit| kit.made(command, extension))
+        self.answer(command, Some(extension), |program| program.made(command, extension))
     }
 
     fn answer(
@@ -89,25 +89,26 @@ mod tests {
     fn a_command_runs_once() {
         let count = Rc::new(Cell::new(0));
         let counted = Rc::clone(&count);
-        let kit = Kit::with(move |words, out| {
+        let program = Program::with(move |words, out| {
             counted.set(counted.get() + 1);
             writeln!(out, "{}\n", words.join("+")).map_err(|error| error.to_string())
         });
-        let mut kit = kit.borrow_mut();
-        assert_eq!(kit.text("plan 05"), Ok("plan+05".to_owned()));
-        assert_eq!(kit.text("plan  05"), Ok("plan+05".to_owned()));
+        let mut program = program.borrow_mut();
+        assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
+        assert_eq!(program.text("plan  05"), Ok("plan+05".to_owned()));
         assert_eq!(count.get(), 1);
-        kit.forget();
-        assert_eq!(kit.text("plan 05"), Ok("plan+05".to_owned()));
+        program.forget();
+        assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
         assert_eq!(count.get(), 2);
     }
 
     #[test]
     fn a_failure_is_one_sentence() {
-        let kit = Kit::with(|words, _| if words[0] == "fine" { Ok(()) } else { Err("there is no chapter 99.".into()) });
-        let mut kit = kit.borrow_mut();
-        assert_eq!(kit.text("plan 99"), Err("`plan 99` failed: there is no chapter 99.".to_owned()));
-        let told = kit.file("fine x", "png").expect_err("no file");
+        let program =
+            Program::with(|words, _| if words[0] == "fine" { Ok(()) } else { Err("there is no chapter 99.".into()) });
+        let mut program = program.borrow_mut();
+        assert_eq!(program.text("plan 99"), Err("`plan 99` failed: there is no chapter 99.".to_owned()));
+        let told = program.file("fine x", "png").expect_err("no file");
         assert_eq!(told, "`fine x` wrote no .png file when told where with `-o`.");
     }
 }
