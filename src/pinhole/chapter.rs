@@ -1,11 +1,52 @@
 use crate::extract::camera_entity;
 use crate::look::view_stage;
 use crate::plan::{Column, Stage};
+use crate::render::{Execution, Rendered, render};
 use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
-use crate::stages;
+use crate::{Result, stages};
 use bevy_ecs::prelude::*;
 
+/// Renders a scene with whichever of all stages it needs, on all cores.
+///
+/// Errors: what is wrong with the scene, in one sentence.
+///
+/// ```
+/// use pinhole::prelude::*;
+///
+/// let mut scene = World::new();
+/// scene.spawn((PerspectiveCamera::default(), Resolution { width: 16, height: 9 }));
+/// scene.spawn(Background { colour: Rgb::new(0.25, 0.5, 1.0) });
+/// let rendered = render_scene(&scene)?;
+/// assert_eq!(rendered.film.mean(3, 4), [0.25, 0.5, 1.0]);
+/// # Ok::<(), pinhole::Error>(())
+/// ```
+pub fn render_scene(scene: &World) -> Result<Rendered> {
+    let stages = Chapter::new("scene", "a scene", |_| ()).offer(stages::all()).stages();
+    render(scene, &stages, &Execution::default(), &())
+}
+
 /// A chapter of the book: a scene, and the stages taught so far, of which the plan keeps those that the scene needs.
+///
+/// ```
+/// use pinhole::prelude::*;
+/// use pinhole::stages;
+///
+/// fn scene(world: &mut World) {
+///     world.spawn((PerspectiveCamera::default(), Resolution { width: 32, height: 18 }));
+///     world.spawn((Sphere { radius: 1.0 }, Placement::at(0.0, 0.0, -4.0), Matte::default()));
+/// }
+///
+/// let chapter = Chapter::new("my_chapter", "a silhouette", scene)
+///     .offer(stages::camera_rays())
+///     .offer(stages::intersection())
+///     .offer(stages::surfaces())
+///     .offer(stages::unlit());
+/// let world = chapter.world(&Overrides::default());
+/// let plan = pinhole::plan::plan(&Census::of(&world), &chapter.stages())?;
+/// assert!(plan.rows.iter().any(|row| row.stage == "Intersect spheres" && row.kept));
+/// assert!(plan.rows.iter().any(|row| row.stage == "Intersect planes" && !row.kept));
+/// # Ok::<(), pinhole::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Chapter {
     /// The stem shared by its folder, its page and its example, such as `05_pinhole`.

@@ -1,8 +1,32 @@
-//! A ray tracing book you can run.
+//! A data-oriented ray tracing renderer: scenes of plain `bevy_ecs` components, a plan, and stages that fill columns.
+//!
+//! A matte ball on the ground, lit from the upper left, as letters that grow darker with the light:
+//!
+//! ```
+//! use pinhole::prelude::*;
+//!
+//! let mut scene = World::new();
+//! scene.spawn((
+//!     PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
+//!     LookAt { eye: [0.0, 1.6, 6.0].into(), target: [0.0, 0.9, 0.0].into(), ..LookAt::default() },
+//!     Resolution { width: 56, height: 16 },
+//! ));
+//! scene.spawn((Sphere { radius: 1.0 }, Placement::at(0.0, 1.0, 0.0), Matte { colour: Rgb::grey(0.9) }));
+//! scene.spawn((Plane::default(), Matte { colour: Rgb::grey(0.35) }));
+//! let light = PointLight { intensity: Rgb::grey(160.0), ..PointLight::default() };
+//! scene.spawn((light, Placement::at(-4.0, 5.0, 3.0)));
+//!
+//! let film = render_scene(&scene)?.film;
+//! let letter = |x, y| b" .:-=+*#%@"[(film.mean(x, y)[0] * 9.0).min(9.0) as usize] as char;
+//! let picture: Vec<String> = (0..16).map(|y| (0..56).map(|x| letter(x, y)).collect()).collect();
+//! PICTURE
+//! # Ok::<(), pinhole::Error>(())
+//! ```
 //!
 //! The scene is a `bevy_ecs` world of plain components; a plan decides from them which stages exist; the stages are
 //! systems that fill the columns of small tiles, one space after another, until light lands on the film.
-//! The modules are listed in that order, and each uses only those above it:
+//! The modules are listed in that order, and each uses only those above it.
+//! What they make public without documenting it here serves the laboratory and may change at any time:
 //!
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
@@ -16,13 +40,16 @@
 //! 10. [`render`]: the loop over tiles.
 //! 11. [`look`]: traces, views and statistics.
 //! 12. [`stages`]: all stages, in the order of the data.
+//! 13. [`prelude`]: what a scene or a stage of one's own begins with.
 
 pub mod scene;
 
 pub mod plan;
 
+#[doc(hidden)]
 pub mod extract;
 
+#[doc(hidden)]
 pub mod sample;
 
 pub mod rays;
@@ -31,6 +58,7 @@ pub mod intersect;
 
 pub mod shade;
 
+#[doc(hidden)]
 pub mod follow;
 
 pub mod film;
@@ -41,11 +69,13 @@ pub mod look;
 
 pub mod stages;
 
+pub mod prelude;
+
 mod chapter;
 mod error;
 mod example;
 
-pub use chapter::{Chapter, Overrides, SamplingOverrides, Size};
+pub use chapter::{Chapter, Overrides, SamplingOverrides, Size, render_scene};
 pub use error::{Error, Result};
 pub use example::run;
 

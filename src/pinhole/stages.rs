@@ -3,6 +3,14 @@
 //! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
 //! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
 //! Stages of one set run in the order of this list, whichever group was offered first.
+//!
+//! ```
+//! use pinhole::stages;
+//!
+//! let names: Vec<&str> = stages::camera_rays().iter().map(|stage| stage.name).collect();
+//! assert_eq!(names[..3], ["Place raster points", "Compute NDC points", "Compute screen points"]);
+//! assert!(stages::all().len() > 90);
+//! ```
 
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};

@@ -5,6 +5,19 @@
 //! Space: *render space*, with the axes of world space and the eye at its origin; the eye is subtracted here, once, in
 //! f64, so that a scene far from the world's origin loses no precision.
 //! After this, no stage reads a component of the scene.
+//!
+//! ```
+//! use pinhole::extract::SphereTable;
+//! use pinhole::prelude::*;
+//!
+//! let mut scene = World::new();
+//! scene.spawn((PerspectiveCamera::default(), Placement::at(1.0, 0.0, 0.0)));
+//! scene.spawn((Sphere { radius: 0.5 }, Placement::at(1.0, 0.0, -3.0), Matte::default()));
+//! // Positions are relative to the eye.
+//! let spheres = Census::of(&scene).table::<SphereTable>()?;
+//! assert_eq!((spheres.x[0], spheres.z[0], spheres.radius[0]), (0.0, -3.0, 0.5));
+//! # Ok::<(), pinhole::scene::SceneError>(())
+//! ```
 
 mod adaptive;
 mod area_light;

@@ -4,6 +4,16 @@
 //! Writes: [`FilmTile`], sums in f64 and counts; checkpoints; at the end an image of 8-bit sRGB (PNG) or linear floats
 //! (EXR).
 //! The renderer writes to disk nowhere else, and never leaves a partial file behind.
+//!
+//! ```
+//! use pinhole::film::{Curve, Film, png_bytes};
+//!
+//! let mut film = Film::new(2, 1, 32);
+//! film.tiles[0].add(1, [1.0, 0.25, 0.0]);
+//! assert_eq!(film.mean(1, 0), [1.0, 0.25, 0.0]);
+//! assert!(png_bytes(&film, Curve::Srgb)?.starts_with(b"\x89PNG"));
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 mod accumulate;
 mod checkpoint;
@@ -18,15 +28,29 @@ mod png;
 mod splats;
 mod whole_file;
 
+#[doc(hidden)]
 pub use crate::extract::linear_from_srgb;
+#[doc(hidden)]
 pub use accumulate::{add_to_film, film_stage};
+#[doc(hidden)]
 pub use checkpoint::{read_checkpoint, write_checkpoint};
-pub use develop::{Curve, byte_from_linear, srgb_from_linear};
+pub use develop::Curve;
+#[doc(hidden)]
+pub use develop::{byte_from_linear, srgb_from_linear};
 pub use exr::write_exr;
-pub use film_tile::{FIRST_SAMPLE_STEPS, Film, FilmTile, Rejected};
+pub use film_tile::Film;
+#[doc(hidden)]
+pub use film_tile::{FIRST_SAMPLE_STEPS, FilmTile, Rejected};
+#[doc(hidden)]
 pub use layered_exr::{ENTITY_NAMES, write_layered_exr};
+#[doc(hidden)]
 pub use layers::{FilmLayers, add_to_layers, column_of_layer, layers_stage};
+#[doc(hidden)]
 pub use moments::{FilmMoments, add_to_moments, moments_stage, variance_evidence};
-pub use png::{png_bytes, png_bytes_by, write_png};
+pub use png::write_png;
+#[doc(hidden)]
+pub use png::{png_bytes, png_bytes_by};
+#[doc(hidden)]
 pub use splats::{FilmSplats, SplatFilter};
+#[doc(hidden)]
 pub use whole_file::{check_place, write_whole, writes_in_progress};

@@ -7,6 +7,14 @@
 //!
 //! A later bounce runs the same stages as the first, from intersection to shading, on the rays that are left; none of
 //! these stages knows of bounces, and a row is a ray, not a pixel.
+//!
+//! ```
+//! use pinhole::follow::fresnel;
+//!
+//! // Glass reflects 4 % of the light at normal incidence and all of it at grazing incidence.
+//! assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-15);
+//! assert_eq!(fresnel(0.0, 1.5), 1.0);
+//! ```
 
 mod beer;
 mod caustic_paths;

@@ -2,6 +2,19 @@
 //!
 //! Reads: any column, through the registry ([`ColumnKind`](crate::plan::ColumnKind)); the camera, for [`convention`].
 //! Writes: text, and for a view the picture; it changes no value of the render.
+//!
+//! ```
+//! use pinhole::prelude::*;
+//!
+//! let mut scene = World::new();
+//! scene.spawn((PerspectiveCamera::default(), Resolution { width: 9, height: 9 }));
+//! scene.spawn((Name::new("moon"), Sphere::default(), Placement::at(0.0, 0.0, -5.0), Matte::default()));
+//! let chapter = Chapter::new("moon", "a sphere", |_| ()).offer(pinhole::stages::all());
+//! // What every stage wrote for the pixel in the middle.
+//! let trace = pinhole::look::trace(&scene, &chapter.stages(), TracePixel { x: 4, y: 4 })?;
+//! assert!(trace.to_string().contains("Intersect spheres"));
+//! # Ok::<(), pinhole::Error>(())
+//! ```
 
 pub mod convention;
 
@@ -15,11 +28,20 @@ mod trace;
 mod unseen;
 mod view;
 
+#[doc(hidden)]
 pub use mistake::{MISTAKES, Mistake};
+#[doc(hidden)]
 pub use pilot::{Pilot, pilot};
+#[doc(hidden)]
 pub use preflight::{Preflight, preflight};
+#[doc(hidden)]
 pub use slow::{Effort, slow};
+#[doc(hidden)]
 pub use stats::{RenderStats, StageStats};
-pub use trace::{Recorded, Trace, trace, trace_sample};
+#[doc(hidden)]
+pub use trace::{Recorded, trace_sample};
+pub use trace::{Trace, trace};
+#[doc(hidden)]
 pub use unseen::unseen;
+#[doc(hidden)]
 pub use view::{ViewTable, paths, view_stage};

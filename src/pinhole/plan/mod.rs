@@ -6,6 +6,19 @@
 //!
 //! A stage is kept when the scene needs it *and* a kept stage, or a request, reads what it writes.
 //! A dropped stage is never built, so it costs nothing.
+//!
+//! ```
+//! use pinhole::plan::plan;
+//! use pinhole::prelude::*;
+//!
+//! let mut scene = World::new();
+//! scene.spawn((Name::new("camera"), PerspectiveCamera::default()));
+//! scene.spawn((Name::new("moon"), Sphere::default(), Matte::default()));
+//! let plan = plan(&Census::of(&scene), &pinhole::stages::all())?;
+//! let row = |stage| plan.rows.iter().find(|row| row.stage == stage).map(|row| (row.kept, row.reason.as_str()));
+//! assert_eq!(row("Intersect disks"), Some((false, "0 disks")));
+//! # Ok::<(), pinhole::plan::PlanError>(())
+//! ```
 
 mod access;
 mod census;
@@ -17,13 +30,24 @@ mod stage;
 mod systems;
 mod table;
 
-pub use census::{Census, entities};
-pub use column::{
-    Column, ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, Lifetime, column,
-    column_component,
-};
-pub use decide::{Pass, Plan, PlanError, PlanRow, plan, view_names};
-pub use evidence::{ComponentKind, Evidence, counted};
-pub use stage::{Slot, Stage, StageKind};
-pub use systems::{Bounce, RowKind, Sample, TileSystems};
-pub use table::{ExtractedTable, Shared, Table, TableKind};
+pub use census::Census;
+#[doc(hidden)]
+pub use census::entities;
+pub use column::{Column, Lifetime, column};
+#[doc(hidden)]
+pub use column::{ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column_component};
+#[doc(hidden)]
+pub use decide::view_names;
+pub use decide::{Pass, Plan, PlanError, PlanRow, plan};
+pub use evidence::Evidence;
+#[doc(hidden)]
+pub use evidence::{ComponentKind, counted};
+#[doc(hidden)]
+pub use stage::Slot;
+pub use stage::{Stage, StageKind};
+#[doc(hidden)]
+pub use systems::{Bounce, Sample};
+pub use systems::{RowKind, TileSystems};
+#[doc(hidden)]
+pub use table::{ExtractedTable, TableKind};
+pub use table::{Shared, Table};

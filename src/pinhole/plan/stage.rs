@@ -22,6 +22,36 @@ pub enum StageKind {
 pub struct Slot(pub usize);
 
 /// A stage on offer: its name, the columns that it reads and writes, when a scene needs it, and the system that runs.
+///
+/// ```
+/// use pinhole::intersect::{Hits, shape_evidence};
+/// use pinhole::prelude::*;
+///
+/// column! {
+///     /// How near each hit is.
+///     pub struct Nearness("nearness", "none, a ratio", "1", Ray) {
+///         /// 1 at the eye, 0 at infinity.
+///         value: f32,
+///     }
+/// }
+///
+/// impl Nearness {
+///     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
+///         [self.value[row]; 3]
+///     }
+/// }
+///
+/// fn fill_nearness(mut tiles: Query<(&Hits, &mut Nearness)>) {
+///     for (hits, mut nearness) in &mut tiles {
+///         let values = nearness.slices_mut(hits.t.len());
+///         values.iter_mut().zip(&hits.t).for_each(|(value, t)| *value = (1.0 / (1.0 + t)) as f32);
+///     }
+/// }
+///
+/// // The plan finds out by itself that the stage reads `Hits` and writes `Nearness`.
+/// let stage = Stage::new("Compute nearness", TileSystems::Shade, fill_nearness).when(shape_evidence);
+/// assert_eq!((stage.reads[0].name, stage.writes[0].name), ("hit", "nearness"));
+/// ```
 #[derive(Clone)]
 pub struct Stage {
     /// The type of its system, which identifies the stage.

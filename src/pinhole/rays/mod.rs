@@ -3,6 +3,19 @@
 //! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
 //! Each file holds a pure function for one row, and the system that fills a column with it.
+//!
+//! ```
+//! use pinhole::prelude::*;
+//! use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
+//!
+//! // The centre of an image of 480 × 270 pixels, through all spaces up to the camera's.
+//! let raster = raster_from_pixel(240, 135) - DVec2::splat(0.5);
+//! let ndc = ndc_from_raster(raster, DVec2::new(480.0, 270.0));
+//! assert_eq!(ndc, DVec2::splat(0.5));
+//! let screen = screen_from_ndc(ndc, 480.0 / 270.0);
+//! assert_eq!(screen, DVec2::ZERO);
+//! assert_eq!(camera_ray_perspective(screen, 0.5), DVec3::NEG_Z);
+//! ```
 
 mod camera;
 mod depth;
@@ -20,28 +33,47 @@ mod screen;
 mod times;
 mod world;
 
+pub use camera::CameraRays;
+#[doc(hidden)]
 pub use camera::{
-    CameraRays, camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective,
-    orthographic_stage, perspective_stage,
+    camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective, orthographic_stage,
+    perspective_stage,
 };
+#[doc(hidden)]
 pub use depth::{Depth, pixel_of_row};
+#[doc(hidden)]
 pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two};
+#[doc(hidden)]
 pub use equirectangular::{
     camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
 };
+#[doc(hidden)]
 pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
+#[doc(hidden)]
 pub use lens::{
     LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage,
     lens_stage, polygon_point,
 };
-pub use ndc::{NdcPoints, fill_ndc, ndc_from_raster, ndc_stage};
+pub use ndc::NdcPoints;
+#[doc(hidden)]
+pub use ndc::{fill_ndc, ndc_from_raster, ndc_stage};
+#[doc(hidden)]
 pub use paths::{PathLight, Paths};
+#[doc(hidden)]
 pub use place_samples::{
     ActivePixels, PixelSamples, SampleNumber, SampleSigns, place_samples, place_samples_stage, sampling_evidence,
     signed_evidence,
 };
+#[doc(hidden)]
 pub use project::{CameraJoin, join_camera, raster_from_camera};
-pub use raster::{RasterPoints, Tile, fill_raster, raster_from_pixel, raster_stage};
-pub use screen::{ScreenPoints, fill_screen, screen_from_ndc, screen_stage};
+pub use raster::RasterPoints;
+#[doc(hidden)]
+pub use raster::{Tile, fill_raster, raster_from_pixel, raster_stage};
+pub use screen::ScreenPoints;
+#[doc(hidden)]
+pub use screen::{fill_screen, screen_from_ndc, screen_stage};
+#[doc(hidden)]
 pub use times::{RayTimes, draw_times, time_stage};
-pub use world::{WorldRays, fill_world, world_stage};
+pub use world::WorldRays;
+#[doc(hidden)]
+pub use world::{fill_world, world_stage};

@@ -3,6 +3,25 @@
 //! Reads: a scene, the stages on offer, and how to execute them.
 //! Writes: the [`Film`](crate::film::Film), and which stages ran and how long they took.
 //! No other module of the renderer uses `rayon`; no stage knows of threads.
+//!
+//! ```
+//! use pinhole::prelude::*;
+//! use pinhole::render::RenderInProgress;
+//!
+//! let mut scene = World::new();
+//! let sampling = Sampling { samples: 16, ..Sampling::default() };
+//! scene.spawn((PerspectiveCamera::default(), Resolution { width: 8, height: 8 }, sampling));
+//! scene.spawn(Gradient::default());
+//! let chapter = Chapter::new("sky", "a gradient", |_| ()).offer(pinhole::stages::all());
+//! // A render can be looked at after any step, and brought on.
+//! let census = Census::of(&scene);
+//! let mut render = RenderInProgress::begin(&census, &chapter.stages(), &Execution::default())?;
+//! render.advance(1, &())?;
+//! let early = render.film.mean(4, 4);
+//! render.advance(render.steps(), &())?;
+//! assert!((render.film.mean(4, 4)[2] - early[2]).abs() < 0.2);
+//! # Ok::<(), pinhole::Error>(())
+//! ```
 
 mod adaptive;
 mod clock;
@@ -20,17 +39,27 @@ mod tile_side;
 mod whole;
 mod workers;
 
+#[doc(hidden)]
 pub use adaptive::{Achieved, achieved, planned_samples, samples_for};
+#[doc(hidden)]
 pub use clock::{Lap, StageClock};
-pub use execution::{Execution, Watch, Worlds};
+#[doc(hidden)]
+pub use execution::Worlds;
+pub use execution::{Execution, Watch};
 pub use in_progress::RenderInProgress;
+#[doc(hidden)]
 pub use inspect::{
     Inspection, first_bounce_only, inspect, inspect_pixel, inspect_stages, probe_tiles, usual_tile_side,
 };
+#[doc(hidden)]
 pub use key::film_key;
+#[doc(hidden)]
 pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
+#[doc(hidden)]
 pub use passes::{Limits, Outcome, render_in_passes};
+#[doc(hidden)]
 pub use render_world::{Hook, RenderWorld, prepare};
 pub use rendered::Rendered;
+#[doc(hidden)]
 pub use steps::{LATTICES, Run, WHOLE, runs, samples_after, steps_of};
 pub use whole::render;

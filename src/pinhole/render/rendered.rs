@@ -1,6 +1,8 @@
 use super::clock::Lap;
-use crate::film::{Curve, Film};
+use crate::Result;
+use crate::film::{Curve, Film, write_exr, write_png};
 use crate::plan::Plan;
+use std::path::Path;
 use std::time::Duration;
 
 /// The result of a render.
@@ -20,6 +22,27 @@ pub struct Rendered {
 }
 
 impl Rendered {
+    /// Writes the picture: a PNG by the sRGB curve for a name that ends in `.png`, linear OpenEXR for every other.
+    ///
+    /// Errors: the path and what the system said; no part of a file is left behind.
+    ///
+    /// ```
+    /// use pinhole::prelude::*;
+    ///
+    /// let mut scene = World::new();
+    /// scene.spawn((PerspectiveCamera::default(), Resolution { width: 8, height: 8 }));
+    /// scene.spawn(Background { colour: Rgb::grey(0.5) });
+    /// let folder = tempfile::tempdir()?;
+    /// let file = folder.path().join("grey.png");
+    /// render_scene(&scene)?.save(&file)?;
+    /// assert!(file.exists());
+    /// # Ok::<(), pinhole::Error>(())
+    /// ```
+    pub fn save(&self, path: &Path) -> Result {
+        let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        if is_png { write_png(&self.film, self.curve(), path) } else { write_exr(&self.film, path) }
+    }
+
     /// The curve that turns the film into a picture: sRGB for radiance, the identity for a view's values.
     pub fn curve(&self) -> Curve {
         if self.plan.view.is_some() { Curve::Straight } else { Curve::Srgb }

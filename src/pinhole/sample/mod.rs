@@ -7,6 +7,14 @@
 //! in pixels, distributed as the reconstruction filter.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
 //! decided outside the loop over pixels.
+//!
+//! ```
+//! use pinhole::sample::{sobol_bits, unit};
+//!
+//! // The first points of Sobol's sequence in its first dimension: halves, then quarters.
+//! let points: Vec<f64> = (0..4).map(|number| unit(sobol_bits(number, 0))).collect();
+//! assert_eq!(points, [0.0, 0.5, 0.75, 0.25]);
+//! ```
 
 mod filter;
 mod hash;

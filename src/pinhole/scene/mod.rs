@@ -6,6 +6,16 @@
 //!
 //! Spaces: right-handed, y up; a camera looks down its own −z with +x to the right of the image.
 //! Units: lengths in scene units, angles in [`Degrees`], colours in linear Rec. 709.
+//!
+//! ```
+//! use pinhole::prelude::*;
+//!
+//! let mut scene = World::new();
+//! let room = scene.spawn((Name::new("room"), Placement::at(0.0, 0.0, -10.0))).id();
+//! scene.spawn((Sphere { radius: 2.0 }, Glass::default(), ChildOf(room)));
+//! scene.spawn((PerspectiveCamera { fov: Degrees(60.0), ..PerspectiveCamera::default() }, Sampling::default()));
+//! assert_eq!(scene.query::<&Sphere>().iter(&scene).count(), 1);
+//! ```
 
 mod adaptive;
 mod angle;
@@ -54,7 +64,9 @@ mod stripes;
 mod texture;
 mod triangle;
 
-pub use adaptive::{Adaptive, OPEN_END};
+pub use adaptive::Adaptive;
+#[doc(hidden)]
+pub use adaptive::OPEN_END;
 pub use angle::Degrees;
 pub use background::Background;
 pub use bevy_ecs::entity_disabling::Disabled;
@@ -70,32 +82,45 @@ pub use disk::Disk;
 pub use emissive::{Emissive, Sides};
 pub use environment::Environment;
 pub use equirectangular::EquirectangularCamera;
-pub use file::{FNV_BASIS, FileProblem, PlaceInFile, SceneFile, fingerprint, fnv, scene_text, words};
+#[doc(hidden)]
+pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, scene_text, words};
+pub use file::{FileProblem, SceneFile};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
+#[doc(hidden)]
 pub use folder::{EmbeddedFiles, SceneFolder};
 pub use glam::DQuat;
 pub use glass::Glass;
 pub use gradient::Gradient;
-pub use image_texture::{IMAGE_FILE, ImageTexture};
+#[doc(hidden)]
+pub use image_texture::IMAGE_FILE;
+pub use image_texture::ImageTexture;
 pub use integrator::{Integrator, LightStrategy};
 pub use layers::{LayerKind, Layers};
 pub use lens::{Aperture, Lens};
 pub use light_tracing::LightTracing;
-pub use matte::{Matte, UsedByShapes, UsesMaterial};
+#[doc(hidden)]
+pub use matte::UsedByShapes;
+pub use matte::{Matte, UsesMaterial};
+#[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, in_words};
 pub use metal::Metal;
 pub use mirror::Mirror;
 pub use motion::{Motion, Shutter};
+#[doc(hidden)]
 pub use name::{called, some_of};
+#[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 pub use phong::Phong;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
+#[doc(hidden)]
 pub use printable::{is_invisible, printable, printable_message, printable_path};
 pub use rectangle::Rectangle;
-pub use request::{Statistics, TracePixel, View};
+#[doc(hidden)]
+pub use request::Statistics;
+pub use request::{TracePixel, View};
 pub use resolution::Resolution;
 pub use sampling::{Sampler, Sampling};
 pub use scene_error::SceneError;

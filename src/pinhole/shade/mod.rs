@@ -4,6 +4,15 @@
 //! lights.
 //! Writes: [`LightRays`] towards lights, [`ShadowHits`] along them, [`Radiance`] in linear Rec. 709.
 //! Space: render space.
+//!
+//! ```
+//! use pinhole::shade::matte_radiance;
+//! use std::f64::consts::PI;
+//!
+//! // A diffuse surface of albedo 0.5 under irradiance π reflects radiance 0.5 in every direction.
+//! let radiance = matte_radiance([0.5; 3], [PI; 3]);
+//! assert!(radiance.iter().all(|part| (part - 0.5).abs() < 1e-15));
+//! ```
 
 mod area_light;
 mod background;
@@ -34,44 +43,72 @@ mod unintersected;
 mod unlit;
 mod view;
 
+#[doc(hidden)]
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
+#[doc(hidden)]
 pub use background::{add_background, background_stage};
+#[doc(hidden)]
 pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_vector_cosine};
+#[doc(hidden)]
 pub use camera_join::{
     JoinPoints, camera_join_stage, connect_to_camera, join_cosine, join_point_stage, sample_join_points,
 };
+#[doc(hidden)]
 pub use checker::{
     box_width, checker_fraction, checker_stage, evaluate_checkers, evaluate_stripes, stripes_fraction, stripes_stage,
     wave, wave_mean,
 };
+#[doc(hidden)]
 pub use colour::SurfaceColours;
+#[doc(hidden)]
 pub use directional_light::{directional_light_stage, irradiance_from_direction, sample_directional_lights};
+#[doc(hidden)]
 pub use emissive::{add_emission, emissive_stage};
+#[doc(hidden)]
 pub use environment::{
     add_environment, around, direction_of, environment_radiance, environment_stage, equirectangular, texel_solid_angle,
 };
+#[doc(hidden)]
 pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
+#[doc(hidden)]
 pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
+#[doc(hidden)]
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
+#[doc(hidden)]
 pub use highlight::highlight;
+#[doc(hidden)]
 pub use image_circle::{image_circle_stage, in_image_circle, mask_image_circle};
+#[doc(hidden)]
 pub use image_texture::{evaluate_images, image_stage};
+#[doc(hidden)]
 pub use light::{
     LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_t_max,
     start_light, start_light_stage,
 };
+#[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
+#[doc(hidden)]
 pub use phong::{add_phong, mirror_cosine, phong_stage};
+#[doc(hidden)]
 pub use point_light::{irradiance_from_point, point_light_stage, sample_point_lights};
-pub use radiance::{Radiance, start_radiance, start_stage};
+pub use radiance::Radiance;
+#[doc(hidden)]
+pub use radiance::{start_radiance, start_stage};
+#[doc(hidden)]
 pub use shadow::{
     ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
     plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
     triangle_shadow_stage,
 };
+#[doc(hidden)]
 pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};
+#[doc(hidden)]
 pub use surface_colour::{colour_stage, colour_surfaces};
+#[doc(hidden)]
 pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+#[doc(hidden)]
 pub use unintersected::check_shapes_are_intersected;
+#[doc(hidden)]
 pub use unlit::{shade_unlit, shown_evidence, unlit_stage};
+#[doc(hidden)]
 pub use view::{LightSamplingView, LightSamplingViewItem, ReflectionView, ReflectionViewItem};
