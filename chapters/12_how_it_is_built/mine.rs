@@ -8,7 +8,10 @@ use pinhole_lab::exercise::{Ask, Setting, StandIn};
 
 /// The chapter's stages in words, the painting of its view and the film among them, and those of them that are kept.
 pub fn mine(ask: Ask<Input, Vec<String>>, setting: &Setting<'_>) -> StandIn {
-    let words: Vec<StageWords> = setting.chapter.stages().iter().map(|stage| words(stage, setting)).collect();
+    let mut stages = setting.chapter.stages();
+    // A chapter's own stage stands last in its list; its set says when it runs.
+    stages.sort_by_key(|stage| stage.set);
+    let words: Vec<StageWords> = stages.iter().map(|stage| words(stage, setting)).collect();
     let kept = ask.once((words.clone(), FilmTile::NAME.into())).unwrap_or_default();
     if let Some(unknown) = kept.iter().find(|name| words.iter().all(|stage| stage.name != **name)) {
         ask.complain(format!("kept named \"{unknown}\", which is none of the stages that it was given"));

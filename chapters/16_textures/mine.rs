@@ -6,8 +6,11 @@ use pinhole::extract::{CheckerTable, NO_TEXTURE};
 use pinhole::intersect::{MaterialRows, Surfaces};
 use pinhole::plan::Shared;
 use pinhole::shade;
-use pinhole::shade::{SurfaceColours, TexturePoints, box_width};
+use pinhole::shade::{SurfaceColours, TexturePoints, box_width, wave_mean};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
+
+/// A width that rounding makes of none, in stripes.
+const LEAST: f64 = 1e-6;
 
 /// Colours of checkers: a checker is the product of stripes along its three axes.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
@@ -26,8 +29,13 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let at = if checkers.0.filter[texture] { points.get(row) } else { points.get(row).alone() };
                     let [right, down] = at.steps;
                     let mean = |axis: usize| {
-                        let asked = (at.point[axis], box_width(right[axis], down[axis]));
-                        ask.at(place, row, asked).unwrap_or_default()
+                        let (x, width) = (at.point[axis], box_width(right[axis], down[axis]));
+                        // Along the floor's normal a pixel covers nothing but rounding, which no mean can be taken over.
+                        if width < LEAST {
+                            wave_mean(x, width)
+                        } else {
+                            ask.at(place, row, (x, width)).unwrap_or_default()
+                        }
                     };
                     let first = 0.5 + 0.5 * mean(0) * mean(1) * mean(2);
                     let (one, other) = (checkers.0.first[texture], checkers.0.second[texture]);
