@@ -7,19 +7,36 @@
 //!
 //! let mut scene = World::new();
 //! scene.spawn((
-//!     PerspectiveCamera { fov: Degrees(40.0), axis: FovAxis::Vertical },
+//!     PerspectiveCamera { fov: Degrees(28.0), axis: FovAxis::Vertical },
 //!     LookAt { eye: [0.0, 1.6, 6.0].into(), target: [0.0, 0.9, 0.0].into(), ..LookAt::default() },
 //!     Resolution { width: 56, height: 16 },
 //! ));
 //! scene.spawn((Sphere { radius: 1.0 }, Placement::at(0.0, 1.0, 0.0), Matte { colour: Rgb::grey(0.9) }));
 //! scene.spawn((Plane::default(), Matte { colour: Rgb::grey(0.35) }));
-//! let light = PointLight { intensity: Rgb::grey(160.0), ..PointLight::default() };
+//! let light = PointLight { intensity: Rgb::grey(120.0), ..PointLight::default() };
 //! scene.spawn((light, Placement::at(-4.0, 5.0, 3.0)));
 //!
 //! let film = render_scene(&scene)?.film;
 //! let letter = |x, y| b" .:-=+*#%@"[(film.mean(x, y)[0] * 9.0).min(9.0) as usize] as char;
 //! let picture: Vec<String> = (0..16).map(|y| (0..56).map(|x| letter(x, y)).collect()).collect();
-//! PICTURE
+//! assert_eq!(picture, [
+//!     "                                                        ",
+//!     "                                                        ",
+//!     "                          %#+-                          ",
+//!     "                        @@%#+=:                         ",
+//!     "                       @@@%*+=:                         ",
+//!     "                       @@%#*=-:                         ",
+//!     "                       %%#*+-:.                         ",
+//!     "                       #**+=:.                          ",
+//!     "                       ++=-:.                           ",
+//!     "            ......     ---:.                            ",
+//!     "........................:..                             ",
+//!     ".::::::::::::::::::.....                                ",
+//!     "::::::::::::::::::::::::.                               ",
+//!     "---------------:::::::::::..      .......               ",
+//!     "------------------::::::::::................            ",
+//!     "========-----------:::::::::::................          ",
+//! ]);
 //! # Ok::<(), pinhole::Error>(())
 //! ```
 //!

@@ -9,7 +9,7 @@
 //! assert_eq!(scene.get::<Placement>(ball).map(|placement| placement.position.y), Some(0.5));
 //! ```
 
-pub use crate::plan::{Census, Column, Evidence, Lifetime, Plan, Shared, Stage, StageKind, Table, TileSystems, column};
+pub use crate::plan::{Census, Column, Evidence, Lifetime, Plan, Shared, Stage, StageKind, Table, TileSystems};
 pub use crate::render::{Execution, Rendered};
 pub use crate::scene::*;
 pub use crate::{Chapter, Overrides, render_scene};

@@ -10,8 +10,9 @@
 //! scene.spawn((PerspectiveCamera::default(), Resolution { width: 9, height: 9 }));
 //! scene.spawn((Name::new("moon"), Sphere::default(), Placement::at(0.0, 0.0, -5.0), Matte::default()));
 //! let chapter = Chapter::new("moon", "a sphere", |_| ()).offer(pinhole::stages::all());
+//! scene.spawn(PointLight::default());
 //! // What every stage wrote for the pixel in the middle.
-//! let trace = pinhole::look::trace(&scene, &chapter.stages(), TracePixel { x: 4, y: 4 })?;
+//! let trace = pinhole::look::trace(&Census::of(&scene), &chapter.stages(), TracePixel { x: 4, y: 4 })?;
 //! assert!(trace.to_string().contains("Intersect spheres"));
 //! # Ok::<(), pinhole::Error>(())
 //! ```

@@ -25,6 +25,7 @@ pub struct Slot(pub usize);
 ///
 /// ```
 /// use pinhole::intersect::{Hits, shape_evidence};
+/// use pinhole::plan::column;
 /// use pinhole::prelude::*;
 ///
 /// column! {

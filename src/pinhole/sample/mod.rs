@@ -9,11 +9,13 @@
 //! decided outside the loop over pixels.
 //!
 //! ```
-//! use pinhole::sample::{sobol_bits, unit};
+//! use pinhole::sample::{Purpose, uniform};
 //!
-//! // The first points of Sobol's sequence in its first dimension: halves, then quarters.
-//! let points: Vec<f64> = (0..4).map(|number| unit(sobol_bits(number, 0))).collect();
-//! assert_eq!(points, [0.0, 0.5, 0.75, 0.25]);
+//! // A random number is a function of seed, pixel, sample and purpose: no generator is carried along.
+//! let number = |sample| uniform(7, [3, 4], sample, Purpose::Roulette);
+//! assert_eq!(number(0), number(0));
+//! let mean = (0..4096).map(number).sum::<f64>() / 4096.0;
+//! assert!((mean - 0.5).abs() < 0.02);
 //! ```
 
 mod filter;
