@@ -180,13 +180,19 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Film, film::film_stage),
 ];
 
+/// The stages of some groups, each with its place in the list.
+fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
+    let places = LIST.iter().enumerate().filter(|(_, (group, _))| wanted(*group));
+    places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
+}
+
 fn of(group: Group) -> Vec<Stage> {
-    LIST.iter().filter(|(own, _)| *own == group).map(|(_, stage)| stage()).collect()
+    listed(|own| own == group)
 }
 
 /// All stages, as offered for scene files, except for the painting of a view, which depends on what else is on offer.
 pub fn all() -> Vec<Stage> {
-    LIST.iter().map(|(_, stage)| stage()).collect()
+    listed(|_| true)
 }
 
 /// Sorts stages into the order of the list; those that are not in it follow in their given order.
@@ -194,7 +200,10 @@ pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places =
         PLACES.get_or_init(|| LIST.iter().enumerate().map(|(place, (_, stage))| (stage().id, place)).collect());
-    offer.sort_by_key(|stage| places.get(&stage.id).copied().unwrap_or(LIST.len()));
+    for stage in offer.iter_mut() {
+        stage.place = places.get(&stage.id).copied().unwrap_or(LIST.len());
+    }
+    offer.sort_by_key(|stage| stage.place);
 }
 
 /// A ray through the centre of each pixel: raster, NDC, screen, camera and world space; perspective and orthographic

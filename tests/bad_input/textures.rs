@@ -31,7 +31,7 @@ pub const TEXTURES: &[Case] = &[
         w.spawn((Name::new("cloth"), Checker::default()));
     }),
     ("a checker on a lamp", &["checker \"lamp\"", "material"], |w| put(w, "lamp", Checker::default())),
-    ("a checker on glass", &["checker \"pane\"", "material is glass", "equally in all directions", "a Matte"], |w| {
+    ("a checker on glass", &["checker \"pane\"", "material is glass", "diffuse reflection", "a Matte"], |w| {
         w.spawn((Name::new("pane"), Glass::default(), Checker::default()));
     }),
     ("stripes on a mirror", &["stripes \"silver\"", "material is a mirror", "a Matte"], |w| {

@@ -13,7 +13,7 @@
 //! scene.spawn(PointLight::default());
 //! // What every stage wrote for the pixel in the middle.
 //! let trace = pinhole::look::trace(&Census::of(&scene), &chapter.stages(), TracePixel { x: 4, y: 4 })?;
-//! assert!(trace.to_string().contains("Intersect spheres"));
+//! assert!(trace.to_string().contains("along the ray"));
 //! # Ok::<(), pinhole::Error>(())
 //! ```
 

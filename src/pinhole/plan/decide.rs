@@ -100,10 +100,10 @@ impl Plan {
 /// Decides which of the stages on offer a scene needs.
 ///
 /// Deterministic and without side effects: the same scene and offer give the same plan.
-/// Stages of one set keep the order in which they are offered.
+/// Stages of one set run in the order of their places, whichever was offered first.
 pub fn plan(scene: &Census<'_>, offer: &[Stage]) -> Result<Plan, PlanError> {
     let mut offer: Vec<&Stage> = offer.iter().collect();
-    offer.sort_by_key(|stage| stage.set);
+    offer.sort_by_key(|stage| (stage.set, if stage.set.order_free() { 0 } else { stage.place }));
     let view = requested::<View>(scene).map(|view| find_view(&offer, &view.column)).transpose()?;
     let painters = offer.iter().filter(|stage| stage.reads_view);
     let over: Vec<ColumnKind> = painters.flat_map(|stage| &stage.writes).copied().collect();

@@ -61,6 +61,8 @@ pub struct Stage {
     pub name: &'static str,
     /// The set that it runs in.
     pub set: TileSystems,
+    /// Its place among the stages of its set, where their order decides the last bits of a sum.
+    pub place: usize,
     /// What dropping it means.
     pub kind: StageKind,
     /// Columns that it cannot run without.
@@ -111,6 +113,7 @@ impl Stage {
             id,
             name,
             set,
+            place: usize::MAX,
             kind: StageKind::Exact,
             reads: access.reads.iter().chain(&changed).copied().collect(),
             reads_if: access.reads_if.clone(),
