@@ -36,11 +36,12 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 5] = [
+const REEXPORTED: [(&str, &str); 6] = [
     ("Chapter", "chapter"),
-    ("Asked", "chapter"),
+    ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
+    ("column", "plan"),
     ("run", "example"),
 ];
 

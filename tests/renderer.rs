@@ -13,5 +13,6 @@ mod order;
 mod plan;
 mod sampling;
 mod scenes;
+mod stages;
 mod textures;
 mod words;

@@ -180,17 +180,17 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Film, film::film_stage),
 ];
 
+fn of(group: Group) -> Vec<Stage> {
+    listed(|own| own == group)
+}
+
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
     let places = LIST.iter().enumerate().filter(|(_, (group, _))| wanted(*group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }
 
-fn of(group: Group) -> Vec<Stage> {
-    listed(|own| own == group)
-}
-
-/// All stages, as offered for scene files, except for the painting of a view, which depends on what else is on offer.
+/// All stages but the painting of a view, which depends on what else is on offer.
 pub fn all() -> Vec<Stage> {
     listed(|_| true)
 }
@@ -198,8 +198,7 @@ pub fn all() -> Vec<Stage> {
 /// Sorts stages into the order of the list; those that are not in it follow in their given order.
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
-    let places =
-        PLACES.get_or_init(|| LIST.iter().enumerate().map(|(place, (_, stage))| (stage().id, place)).collect());
+    let places = PLACES.get_or_init(|| all().iter().map(|stage| (stage.id, stage.place)).collect());
     for stage in offer.iter_mut() {
         stage.place = places.get(&stage.id).copied().unwrap_or(LIST.len());
     }
@@ -331,28 +330,4 @@ pub fn light_tracing() -> Vec<Stage> {
 /// The film: sums of samples, and the layers of each pixel.
 pub fn film() -> Vec<Stage> {
     of(Film)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn every_stage_stands_in_the_list_once_and_the_list_follows_the_sets() {
-        let all = all();
-        let ids: BTreeSet<TypeId> = all.iter().map(|stage| stage.id).collect();
-        let names: BTreeSet<&str> = all.iter().map(|stage| stage.name).collect();
-        assert_eq!((ids.len(), names.len()), (all.len(), all.len()));
-        for pair in all.windows(2) {
-            assert!(pair[0].set <= pair[1].set, "\"{}\" stands before \"{}\"", pair[0].name, pair[1].name);
-        }
-    }
-
-    #[test]
-    fn the_order_of_the_offer_does_not_matter() {
-        let mut reversed: Vec<Stage> = all().into_iter().rev().collect();
-        sort(&mut reversed);
-        assert_eq!(reversed, all());
-    }
 }
