@@ -2,6 +2,7 @@
 
 use pinhole::plan::Stage;
 use pinhole::stages::{all, sort};
+use std::any::TypeId;
 use std::collections::BTreeSet;
 
 #[test]
