@@ -38,10 +38,9 @@ fn question() -> Question<Input, Pixel> {
                 let inside = |n: f64, size: u32| ((n * f64::from(size)) as u32).min(size - 1);
                 Some([inside(x, w), inside(y, h)])
             }),
-            Mistake::new(
-                "nothing is outside: a cast to u32 turns what is below 0 or NaN into 0",
-                |&([x, y], w, h)| Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32]),
-            ),
+            Mistake::new("nothing is outside: a cast to u32 turns what is below 0 or NaN into 0", |&([x, y], w, h)| {
+                Some([(x * f64::from(w)) as u32, (y * f64::from(h)) as u32])
+            }),
             Mistake::new("1 counts as inside, and gives a pixel that the image does not have", |&([x, y], w, h)| {
                 let pixel = |n: f64, size| (0.0..=1.0).contains(&n).then(|| (n * f64::from(size)) as u32);
                 Some([pixel(x, w)?, pixel(y, h)?])

@@ -88,10 +88,8 @@ fn asked() -> Vec<Probe<Input>> {
     asked.extend(probes("twice as large", [tilted, tipped].map(|n| (stretched(2.0, 2.0, 2.0), n))));
     asked.extend(probes("stretched unevenly", [tilted, tipped].map(|n| (stretched(2.0, 1.0, 1.0), n))));
     asked.extend(probes("stretched unevenly and turned", some(902, |draws| turned(draws) * scaled(draws, 1.0))));
-    asked.extend(probes(
-        "sheared",
-        [tilted, tipped].map(|n| ([[1.0, 0.0, 0.0], [0.75, 1.0, 0.0], [0.0, 0.0, 1.0]], n)),
-    ));
+    asked
+        .extend(probes("sheared", [tilted, tipped].map(|n| ([[1.0, 0.0, 0.0], [0.75, 1.0, 0.0], [0.0, 0.0, 1.0]], n))));
     asked.extend(probes(
         "turned, stretched, turned again: sheared",
         some(903, |draws| turned(draws) * scaled(draws, 0.5) * turned(draws)),
