@@ -73,6 +73,7 @@ pub mod rays;
 
 pub mod intersect;
 
+#[doc(hidden)]
 pub mod shade;
 
 #[doc(hidden)]
@@ -92,8 +93,11 @@ mod chapter;
 mod error;
 mod example;
 
-pub use chapter::{Chapter, Overrides, SamplingOverrides, Size, render_scene};
+pub use chapter::{Chapter, Overrides, render_scene};
+#[doc(hidden)]
+pub use chapter::{SamplingOverrides, Size};
 pub use error::{Error, Result};
+#[doc(hidden)]
 pub use example::run;
 
 // The unit tests include files of the laboratory, which name this crate from outside.

@@ -13,6 +13,9 @@ pub use crate::plan::{Census, Column, Evidence, Lifetime, Plan, Shared, Stage, S
 pub use crate::render::{Execution, Rendered};
 pub use crate::scene::*;
 pub use crate::{Chapter, Overrides, render_scene};
+#[doc(no_inline)]
 pub use bevy_ecs::prelude::*;
+#[doc(no_inline)]
 pub use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec3};
+#[doc(no_inline)]
 pub use {bevy_ecs, glam};

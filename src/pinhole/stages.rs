@@ -196,6 +196,7 @@ pub fn all() -> Vec<Stage> {
 }
 
 /// Sorts stages into the order of the list; those that are not in it follow in their given order.
+#[doc(hidden)]
 pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places = PLACES.get_or_init(|| all().iter().map(|stage| (stage.id, stage.place)).collect());

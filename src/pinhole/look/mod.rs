@@ -17,6 +17,7 @@
 //! # Ok::<(), pinhole::Error>(())
 //! ```
 
+#[doc(hidden)]
 pub mod convention;
 
 mod inside;

@@ -69,8 +69,11 @@ pub use adaptive::Adaptive;
 pub use adaptive::OPEN_END;
 pub use angle::Degrees;
 pub use background::Background;
+#[doc(no_inline)]
 pub use bevy_ecs::entity_disabling::Disabled;
+#[doc(no_inline)]
 pub use bevy_ecs::hierarchy::ChildOf;
+#[doc(no_inline)]
 pub use bevy_ecs::name::Name;
 pub use blinn_phong::BlinnPhong;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
@@ -83,12 +86,15 @@ pub use emissive::{Emissive, Sides};
 pub use environment::Environment;
 pub use equirectangular::EquirectangularCamera;
 #[doc(hidden)]
+pub use file::FileProblem;
+pub use file::SceneFile;
+#[doc(hidden)]
 pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, scene_text, words};
-pub use file::{FileProblem, SceneFile};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
 #[doc(hidden)]
 pub use folder::{EmbeddedFiles, SceneFolder};
+#[doc(no_inline)]
 pub use glam::DQuat;
 pub use glass::Glass;
 pub use gradient::Gradient;
