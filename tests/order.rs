@@ -36,12 +36,14 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 6] = [
+const REEXPORTED: [(&str, &str); 8] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("column", "plan"),
+    ("column_component", "plan"),
+    ("render_scene", "chapter"),
     ("run", "example"),
 ];
 

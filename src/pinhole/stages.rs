@@ -1,6 +1,6 @@
 //! What the renderer does, from top to bottom: every stage once, in the order of the data flow.
 //!
-//! Reads: nothing. Writes: lists of stages for [`Chapter::offer`](crate::Chapter::offer).
+//! Reads: nothing. Writes: lists of stages for `Chapter::offer`.
 //! Each stage belongs to a group that a chapter can offer, such as [`camera_rays`] or [`glass`]; [`all`] is everything.
 //! Stages of one set run in the order of this list, whichever group was offered first.
 //!
