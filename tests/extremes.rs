@@ -197,7 +197,8 @@ fn chapter(name: &str) -> Chapter {
 
 #[test]
 fn sweeps_of_chapters_hold() {
-    for name in ["10_light_and_shadow", "02_ray", "03_hit", "04_orthographic", "05_pinhole"] {
+    let drawn = ["23_depth_of_field", "26_choosing_samples"];
+    for name in ["10_light_and_shadow", "02_ray", "03_hit", "04_orthographic", "05_pinhole"].into_iter().chain(drawn) {
         let chapter = chapter(name);
         let lines = sweep(&|| chapter.world(&Overrides::default()), &chapter.stages(), &()).expect("sweeps");
         for line in &lines {

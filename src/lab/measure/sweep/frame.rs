@@ -12,7 +12,7 @@ use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, NO_SHAPE, face_of_point};
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::{Tile, WorldRays};
-use pinhole::render::inspect;
+use pinhole::render::{first_bounce_only, inspect};
 use serde::Serialize;
 
 /// The side of a tile.
@@ -29,7 +29,7 @@ pub struct PixelHit {
     pub cosine: f64,
 }
 
-/// A frame as its stages left it.
+/// A frame as its stages left it at the first bounce.
 pub struct Frame {
     /// The film.
     pub film: FilmBits,
@@ -42,11 +42,11 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Runs the stages over a scene.
+    /// Runs the stages over a scene, up to the first bounce.
     ///
     /// Errors: what a render would be refused for.
     pub fn of(scene: &World, offer: &[Stage]) -> Result<Self> {
-        let frame = inspect(scene, offer, SIDE)?;
+        let frame = inspect(scene, &first_bounce_only(offer), SIDE)?;
         let tiles = || frame.tiles.iter().map(|&tile| frame.world.entity(tile));
         let (width, height) = (frame.image.width, frame.image.height);
         let shapes = Shapes::of(scene)?;
