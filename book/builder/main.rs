@@ -55,11 +55,12 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     std::env::set_current_dir(&book.repository)
         .map_err(|error| format!("{} cannot be entered: {error}.", book.repository.display()))?;
     let out = &mut std::io::stdout();
+    let program = program::Program::shared(&book.repository)?;
     if arguments.serve {
-        return serve::serve(&book, &program::Program::shared(), arguments.port, out);
+        return serve::serve(&book, &program, arguments.port, out);
     }
     let start = Instant::now();
-    build::build(&book, &program::Program::shared())?;
+    build::build(&book, &program)?;
     let index = book.out.join("index.html");
     say(out, &format!("{} (in {:.1} s)", index.display(), start.elapsed().as_secs_f64()));
     Ok(())

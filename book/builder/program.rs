@@ -1,38 +1,48 @@
-//! pinhole's program inside the builder: runs command lines and keeps what they answer.
+//! pinhole's program as the reader has it: built for release, asked by command lines, its answers kept.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::rc::Rc;
 
 /// Runs one command line and writes what a reader would see; the error is one sentence.
 type Run = dyn Fn(&[String], &mut dyn Write) -> Result<(), String>;
 
+/// Brings the program up to date with its sources; the error is one sentence.
+type Make = dyn Fn() -> Result<(), String>;
+
 /// Answers commands, each only once however many pages ask.
 pub struct Program {
     run: Box<Run>,
+    make: Box<Make>,
     answers: HashMap<(String, Option<&'static str>), Result<Rc<[u8]>, String>>,
 }
 
 impl Program {
     /// The program of this repository, to be shared by the pages of one build.
-    pub fn shared() -> Rc<RefCell<Self>> {
-        let chapters = chapters::all();
-        Self::with(move |arguments, out| {
-            // What is to be known before a render is for whoever waits for it; the pages show what comes of it.
-            pinhole_cli::command::run_with_notes(&chapters, arguments, out, &mut std::io::sink())
-                .map_err(|error| error.to_string())
-        })
+    ///
+    /// Errors: cargo's, where the program cannot be compiled.
+    pub fn shared(repository: &Path) -> Result<Rc<RefCell<Self>>, String> {
+        let top = repository.to_path_buf();
+        let place = compiled(&top)?;
+        let program = Self::with(move |words, out| ask(&place, words, out));
+        program.borrow_mut().make = Box::new(move || compiled(&top).map(|_| ()));
+        Ok(program)
     }
 
     /// A program that answers as the function does.
     pub fn with(run: impl Fn(&[String], &mut dyn Write) -> Result<(), String> + 'static) -> Rc<RefCell<Self>> {
-        Rc::new(RefCell::new(Self { run: Box::new(run), answers: HashMap::new() }))
+        Rc::new(RefCell::new(Self { run: Box::new(run), make: Box::new(|| Ok(())), answers: HashMap::new() }))
     }
 
-    /// Forgets every answer, so that the next build asks again.
-    pub fn forget(&mut self) {
+    /// Forgets every answer and compiles what has changed, so that the next build asks again.
+    ///
+    /// Errors: cargo's, where the program cannot be compiled; the one of before is asked then.
+    pub fn renew(&mut self) -> Result<(), String> {
         self.answers.clear();
+        (self.make)()
     }
 
     /// What the command prints.
@@ -80,6 +90,39 @@ impl Program {
     }
 }
 
+/// Compiles the program, as `cargo run --release` does, and says where it is.
+fn compiled(repository: &Path) -> Result<PathBuf, String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let build = ["build", "--release", "--quiet", "--bin", "pinhole", "--message-format", "json-render-diagnostics"];
+    let told = Command::new(&cargo)
+        .args(build)
+        .current_dir(repository)
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("{} cannot be started: {error}.", Path::new(&cargo).display()))?;
+    let place = String::from_utf8_lossy(&told.stdout).lines().rev().find_map(executable);
+    let place = place.filter(|_| told.status.success());
+    place.ok_or_else(|| "pinhole cannot be compiled: `cargo build --release` says why.".to_owned())
+}
+
+/// The program that a line of cargo's messages tells of.
+fn executable(message: &str) -> Option<PathBuf> {
+    let message: serde_json::Value = serde_json::from_str(message).ok()?;
+    message["executable"].as_str().map(PathBuf::from)
+}
+
+/// One command line, as a reader types it; what is to be known before a render is for whoever waits for it.
+fn ask(program: &Path, words: &[String], out: &mut dyn Write) -> Result<(), String> {
+    let lost = |error: std::io::Error| format!("{} cannot be started: {error}.", program.display());
+    let answer = Command::new(program).args(words).stdin(Stdio::null()).output().map_err(lost)?;
+    if !answer.status.success() {
+        let said = String::from_utf8_lossy(&answer.stderr);
+        let last = said.trim_end().lines().last().unwrap_or("it ended without a word.");
+        return Err(last.trim_start_matches("pinhole: ").to_owned());
+    }
+    out.write_all(&answer.stdout).map_err(|error| error.to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,9 +140,31 @@ mod tests {
         assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
         assert_eq!(program.text("plan  05"), Ok("plan+05".to_owned()));
         assert_eq!(count.get(), 1);
-        program.forget();
+        assert_eq!(program.renew(), Ok(()));
         assert_eq!(program.text("plan 05"), Ok("plan+05".to_owned()));
         assert_eq!(count.get(), 2);
+    }
+
+    #[test]
+    fn the_program_is_where_cargo_says() {
+        let place = |line| executable(line).map(|path| path.display().to_string());
+        assert_eq!(place(r#"{"reason":"compiler-artifact","executable":"/a/pinhole"}"#), Some("/a/pinhole".to_owned()));
+        assert_eq!(place(r#"{"reason":"compiler-artifact","executable":null}"#), None);
+        assert_eq!(place("no message"), None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_process_answers_or_says_in_one_sentence_why_not() {
+        let asked = |program: &str, words: &[&str]| {
+            let mut out = Vec::new();
+            let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+            ask(Path::new(program), &words, &mut out).map(|()| String::from_utf8_lossy(&out).into_owned())
+        };
+        assert_eq!(asked("echo", &["a", "b"]), Ok("a b\n".to_owned()));
+        let refused = ["-c", "echo 'a note' >&2; echo 'pinhole: there is no chapter 99.' >&2; exit 2"];
+        assert_eq!(asked("sh", &refused), Err("there is no chapter 99.".to_owned()));
+        assert!(asked("/no/such/program", &[]).is_err_and(|said| said.starts_with("/no/such/program cannot be")));
     }
 
     #[test]

@@ -53,14 +53,12 @@ fn listen(port: u16) -> Result<TcpListener, String> {
 /// Only a change outside the pages can change what pinhole answers.
 fn follow(book: &Book, program: &Rc<RefCell<Program>>, shown: &Shown, changed: &[PathBuf], out: &mut dyn Write) {
     if changed.iter().any(|path| !path.starts_with(&book.pages)) {
-        program.borrow_mut().forget();
-    }
-    let is_source = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
-    if changed.iter().any(is_source) {
-        say(
-            out,
-            "source changed: listings follow; figures and output stay the compiled program's until you start again.",
-        );
+        say(out, "more than pages changed: the program is compiled where need be, and every page made again.");
+        if let Err(error) = program.borrow_mut().renew() {
+            say(out, &error);
+            shown.replace(shown.now().stopped(error));
+            return;
+        }
     }
     rebuild(book, program, shown, out);
 }
