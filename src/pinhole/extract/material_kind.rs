@@ -2,7 +2,7 @@
 
 use super::check::kind_and_name;
 use super::shape_kind::shape_entities;
-use crate::plan::{Census, Evidence};
+use crate::plan::{Census, Evidence, united};
 use crate::scene::{BlinnPhong, Disabled, Glass, Matte, Metal, Mirror, Phong, SceneError, UsesMaterial};
 use bevy_ecs::prelude::*;
 use std::collections::HashSet;
@@ -81,13 +81,7 @@ const WRITTEN: &[Written] = &[
 
 /// The enabled entities that carry a material, in spawn order, one for each row of the table.
 pub fn material_entities(scene: &Census<'_>) -> Arc<[Entity]> {
-    scene.once(|scene| {
-        let lists: Vec<Arc<[Entity]>> = WRITTEN.iter().map(|written| (written.entities)(scene)).collect();
-        let mut materials: Vec<Entity> = lists.iter().flat_map(|list| list.iter().copied()).collect();
-        materials.sort_by_key(|material| material.index());
-        materials.dedup();
-        materials.into()
-    })
+    scene.once(|scene| united(&mut WRITTEN.iter().map(|written| (written.entities)(scene))).into())
 }
 
 /// The kind of an entity's material; none where it has none.

@@ -3,7 +3,7 @@
 use super::check::kind_and_name;
 use super::pose::unevenly_scaled;
 use super::velocity::moves_while_open;
-use crate::plan::Census;
+use crate::plan::{Census, united};
 use crate::scene::{Cuboid, Disk, Plane, Rectangle, SceneError, Sphere, Triangle};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
@@ -70,13 +70,7 @@ const WRITTEN: &[Written] = &[
 
 /// The enabled entities that are a shape, in spawn order; the place of one is its number.
 pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
-    scene.once(|scene| {
-        let lists: Vec<Arc<[Entity]>> = WRITTEN.iter().map(|written| (written.entities)(scene)).collect();
-        let mut shapes: Vec<Entity> = lists.iter().flat_map(|list| list.iter().copied()).collect();
-        shapes.sort_by_key(|shape| shape.index());
-        shapes.dedup();
-        shapes.into()
-    })
+    scene.once(|scene| united(&mut WRITTEN.iter().map(|written| (written.entities)(scene))).into())
 }
 
 /// The shapes that carry a component, with their numbers.

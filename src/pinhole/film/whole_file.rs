@@ -4,10 +4,9 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use tempfile::{Builder, NamedTempFile};
 
 const PREFIX: &str = ".pinhole-";
 const SUFFIX: &str = ".part";
@@ -66,16 +65,16 @@ pub fn check_place(path: &Path) -> Result {
 fn write_beside(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
     let path = resolved(path)?;
     let temporary = place_beside(&path)?;
-    let mut buffered = BufWriter::new(temporary.as_file());
+    let mut buffered = BufWriter::new(&temporary.file);
     write(&mut buffered)?;
     buffered.flush()?;
     drop(buffered);
     #[cfg(unix)]
     if let Ok(before) = fs::metadata(&path) {
-        temporary.as_file().set_permissions(before.permissions())?;
+        temporary.file.set_permissions(before.permissions())?;
     }
-    temporary.as_file().sync_all()?;
-    temporary.persist(&path).map_err(|failed| failed.error)?;
+    temporary.file.sync_all()?;
+    fs::rename(&temporary.path, &path)?;
     // The name is stored in the folder; some file systems cannot flush one, and the file is intact without that.
     #[cfg(unix)]
     let _ = File::open(folder_of(&path)).and_then(|folder| folder.sync_all());
@@ -98,8 +97,36 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// A file that is removed when it is dropped, unless it has got its final name by then.
+struct Temporary {
+    file: File,
+    path: PathBuf,
+}
+
+impl Temporary {
+    /// A new file with the usual permissions, under a name that no other process and no other thread has.
+    fn in_folder(folder: &Path) -> io::Result<Self> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let path = folder.join(format!("{PREFIX}{}-{number}{SUFFIX}", std::process::id()));
+            match File::create_new(&path) {
+                // A killed process of the same number has left it.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                file => return Ok(Self { file: file?, path }),
+            }
+        }
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
 /// A temporary file in the folder of the file to be written.
-fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
+fn place_beside(path: &Path) -> io::Result<Temporary> {
     if path.is_dir() {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder of that name is in the way"));
     }
@@ -113,25 +140,7 @@ fn place_beside(path: &Path) -> io::Result<NamedTempFile> {
     }
     fs::create_dir_all(folder)?;
     sweep(folder);
-    temporary_in(folder).map_err(without_path)
-}
-
-/// A temporary file with the usual permissions of new files, subject to the umask.
-fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(PREFIX).suffix(SUFFIX);
-    #[cfg(unix)]
-    let permissions: fs::Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-    #[cfg(unix)]
-    builder.permissions(permissions);
-    builder.tempfile_in(folder)
-}
-
-/// The error of the operating system, without the name of the temporary file, which would confuse the reader.
-fn without_path(error: io::Error) -> io::Error {
-    let said = error.to_string();
-    let said = said.rsplit_once(" at path ").map_or(said.as_str(), |(said, _)| said);
-    io::Error::new(error.kind(), said.to_string())
+    Temporary::in_folder(folder)
 }
 
 /// Removes what interrupted writes have left in a folder, the first time that something is written there.

@@ -1,5 +1,6 @@
 //! The columns and tables that a system reads and writes, from bevy's access of the system's parameters.
 
+use super::stage::Configs;
 use super::{ColumnKind, Lifetime, Shared, Table, TableKind};
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::*;
@@ -36,7 +37,7 @@ pub(super) struct Access {
 
 impl Access {
     /// The access of the systems in this configuration, where `system` is the type that it is made of.
-    pub fn of(system: TypeId, configs: impl FnOnce() -> ScheduleConfigs<ScheduleSystem>) -> Arc<Self> {
+    pub fn of(system: TypeId, configs: &Configs) -> Arc<Self> {
         if let Some(known) = SYSTEMS.read().unwrap_or_else(PoisonError::into_inner).get(&system) {
             return Arc::clone(known);
         }

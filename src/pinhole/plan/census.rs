@@ -1,12 +1,15 @@
 use super::Table;
 use crate::scene::SceneError;
-use bevy_ecs::entity_disabling::Disabled;
+use bevy_ecs::archetype::{Archetype, ArchetypeEntity};
+use bevy_ecs::component::ComponentId;
+use bevy_ecs::entity_disabling::DefaultQueryFilters;
 use bevy_ecs::prelude::*;
-use bevy_ecs::query::{Allow, QueryFilter};
+use bevy_ecs::query::ArchetypeFilter;
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Deref;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// A scene that is read once: what predicates and tables need of it is computed when it is first needed, and kept.
@@ -16,7 +19,7 @@ use std::sync::Arc;
 pub struct Census<'w> {
     scene: &'w World,
     /// Results by the types of the functions that computed them.
-    known: RefCell<HashMap<TypeId, Box<dyn Any>>>,
+    known: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
     extractions: RefCell<BTreeMap<&'static str, usize>>,
 }
 
@@ -46,24 +49,28 @@ impl<'w> Census<'w> {
     /// The result is kept by the type of the function, which must be a closure or a function item that captures nothing.
     pub fn once<A: Clone + 'static, F: Fn(&Census<'_>) -> A + 'static>(&self, find_out: F) -> A {
         const { assert!(size_of::<F>() == 0, "what a function captures is not part of its type") };
-        let question = TypeId::of::<F>();
-        let known = self.known.borrow().get(&question).and_then(|answer| answer.downcast_ref::<A>()).cloned();
+        let answer = self.answer(TypeId::of::<F>(), &|| Rc::new(find_out(self)));
+        answer.downcast_ref::<A>().cloned().unwrap_or_else(|| find_out(self))
+    }
+
+    fn answer(&self, question: TypeId, find_out: &dyn Fn() -> Rc<dyn Any>) -> Rc<dyn Any> {
+        let known = self.known.borrow().get(&question).cloned();
         // The map is not borrowed during the call, since that may need further results.
         known.unwrap_or_else(|| {
-            let answer = find_out(self);
-            self.known.borrow_mut().insert(question, Box::new(answer.clone()));
+            let answer = find_out();
+            self.known.borrow_mut().insert(question, Rc::clone(&answer));
             answer
         })
     }
 
     /// The enabled entities that pass a filter, in spawn order.
-    pub fn entities<F: QueryFilter + 'static>(&self) -> Arc<[Entity]> {
+    pub fn entities<F: ArchetypeFilter + 'static>(&self) -> Arc<[Entity]> {
         self.once(|census| entities::<F>(census).into())
     }
 
     /// The entities that pass a filter, the disabled ones among them.
-    pub fn declared<F: QueryFilter + 'static>(&self) -> Arc<[Entity]> {
-        self.once(|census| entities::<(F, Allow<Disabled>)>(census).into())
+    pub fn declared<F: ArchetypeFilter + 'static>(&self) -> Arc<[Entity]> {
+        self.once(|census| found::<F>(census, &[]).into())
     }
 }
 
@@ -76,10 +83,38 @@ impl Deref for Census<'_> {
 }
 
 /// Enabled entities that pass the filter, in spawn order.
-pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
-    let found = scene.try_query_filtered::<Entity, F>().map(|mut query| query.iter(scene).collect());
-    let mut entities: Vec<Entity> = found.unwrap_or_default();
+pub fn entities<F: ArchetypeFilter>(scene: &World) -> Vec<Entity> {
+    let disabling = scene.get_resource::<DefaultQueryFilters>();
+    let disabling: Vec<ComponentId> = disabling.into_iter().flat_map(DefaultQueryFilters::disabling_ids).collect();
+    found::<F>(scene, &disabling)
+}
+
+/// Entities that pass the filter and have none of the disabling components.
+fn found<F: ArchetypeFilter>(scene: &World, disabling: &[ComponentId]) -> Vec<Entity> {
+    let Some(state) = F::get_state(scene.components()) else { return Vec::new() };
+    in_spawn_order(scene, disabling, &|archetype| F::matches_component_set(&state, &|id| archetype.contains(id)))
+}
+
+/// All entities of these lists, each once, in spawn order.
+pub fn united(lists: &mut dyn Iterator<Item = Arc<[Entity]>>) -> Vec<Entity> {
+    let mut entities = Vec::new();
+    lists.for_each(|list| entities.extend_from_slice(&list));
+    sort(&mut entities);
+    entities.dedup();
+    entities
+}
+
+fn sort(entities: &mut [Entity]) {
     entities.sort_by_key(|entity| entity.index());
+}
+
+/// A query's loop and a sort would be compiled for every filter; this is compiled once.
+fn in_spawn_order(scene: &World, disabling: &[ComponentId], matches: &dyn Fn(&Archetype) -> bool) -> Vec<Entity> {
+    let enabled = |archetype: &&Archetype| !disabling.iter().any(|component| archetype.contains(*component));
+    let archetypes = scene.archetypes().iter().filter(|archetype| matches(archetype)).filter(enabled);
+    let mut entities: Vec<Entity> =
+        archetypes.flat_map(|archetype| archetype.entities().iter().map(ArchetypeEntity::id)).collect();
+    sort(&mut entities);
     entities
 }
 
@@ -87,6 +122,7 @@ pub fn entities<F: QueryFilter>(scene: &World) -> Vec<Entity> {
 mod tests {
     use super::*;
     use crate::scene::Sphere;
+    use bevy_ecs::entity_disabling::Disabled;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     static ASKED: AtomicUsize = AtomicUsize::new(0);

@@ -1,7 +1,8 @@
 use super::Census;
+use super::census::united;
 use crate::scene::called;
 use bevy_ecs::prelude::*;
-use bevy_ecs::query::QueryFilter;
+use bevy_ecs::query::ArchetypeFilter;
 use std::sync::Arc;
 
 /// Whether the scene needs a stage, and what in the scene requires it.
@@ -28,14 +29,12 @@ impl Evidence {
     }
 
     /// Needed if any enabled entity passes the filter and is in use.
-    pub fn among<F: QueryFilter + 'static>(
+    pub fn among<F: ArchetypeFilter + 'static>(
         scene: &Census<'_>,
         noun: &str,
         in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
-        let enabled = scene.entities::<F>();
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
-        Self::found_among(scene, noun, &found, &enabled, &scene.declared::<F>())
+        Self::in_use(scene, noun, &in_use, &scene.entities::<F>(), &scene.declared::<F>())
     }
 
     /// Needed if any enabled entity has one of these components and is in use.
@@ -47,20 +46,13 @@ impl Evidence {
         any: &[ComponentKind],
         in_use: impl Fn(EntityRef<'_>) -> bool,
     ) -> Self {
-        let all = |find: fn(&ComponentKind) -> Find| {
-            let lists: Vec<Arc<[Entity]>> = any.iter().map(|carried| find(carried)(scene)).collect();
-            let mut found: Vec<Entity> = lists.iter().flat_map(|list| list.iter().copied()).collect();
-            found.sort_by_key(|entity| entity.index());
-            found.dedup();
-            found
-        };
-        let enabled = all(|component| component.enabled);
-        let found: Vec<Entity> = enabled.iter().copied().filter(|&e| in_use(scene.entity(e))).collect();
-        Self::found_among(scene, noun, &found, &enabled, &all(|carried| carried.declared))
+        let enabled = united(&mut any.iter().map(|component| (component.enabled)(scene)));
+        let declared = united(&mut any.iter().map(|component| (component.declared)(scene)));
+        Self::in_use(scene, noun, &in_use, &enabled, &declared)
     }
 
     /// Needed if any enabled entity that passes the filter is of a kind; other entities are not even mentioned.
-    pub fn of_kind<F: QueryFilter + 'static>(
+    pub fn of_kind<F: ArchetypeFilter + 'static>(
         scene: &Census<'_>,
         noun: &str,
         is_of_kind: impl Fn(Entity) -> bool,
@@ -68,6 +60,17 @@ impl Evidence {
         let of_kind = |all: Arc<[Entity]>| all.iter().copied().filter(|&entity| is_of_kind(entity)).collect::<Vec<_>>();
         let (found, declared) = (of_kind(scene.entities::<F>()), of_kind(scene.declared::<F>()));
         Self::found_among(scene, noun, &found, &found, &declared)
+    }
+
+    fn in_use(
+        scene: &World,
+        noun: &str,
+        in_use: &dyn Fn(EntityRef<'_>) -> bool,
+        enabled: &[Entity],
+        declared: &[Entity],
+    ) -> Self {
+        let found: Vec<Entity> = enabled.iter().copied().filter(|&entity| in_use(scene.entity(entity))).collect();
+        Self::found_among(scene, noun, &found, enabled, declared)
     }
 
     fn found_among(scene: &World, noun: &str, found: &[Entity], enabled: &[Entity], declared: &[Entity]) -> Self {
@@ -83,10 +86,10 @@ impl Evidence {
 
     /// Needed if both are; the second is not evaluated where the first is not needed.
     pub fn and(self, other: impl FnOnce() -> Self) -> Self {
-        if !self.needed {
-            return self;
-        }
-        let other = other();
+        if self.needed { self.with(other()) } else { self }
+    }
+
+    fn with(self, other: Self) -> Self {
         if !other.needed {
             return other;
         }

@@ -33,6 +33,7 @@ mod table;
 pub use census::Census;
 #[doc(hidden)]
 pub use census::entities;
+pub(crate) use census::united;
 pub use column::{Column, Lifetime, column};
 #[doc(hidden)]
 pub use column::{ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column_component};

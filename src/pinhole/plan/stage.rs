@@ -17,6 +17,9 @@ pub enum StageKind {
     Alternative,
 }
 
+/// What makes the configuration of a stage's system.
+pub type Configs = dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync;
+
 /// The position of a stage in the plan's list; systems are ordered by it where a hook follows each stage.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Slot(pub usize);
@@ -90,7 +93,7 @@ pub struct Stage {
     /// Whether a scene needs it.
     pub when: fn(&Census<'_>) -> Evidence,
     /// The system's configuration, made anew for each schedule.
-    pub system: Arc<dyn Fn() -> ScheduleConfigs<ScheduleSystem> + Send + Sync>,
+    pub system: Arc<Configs>,
 }
 
 impl Stage {
@@ -104,9 +107,13 @@ impl Stage {
     where
         S: IntoScheduleConfigs<ScheduleSystem, Marker> + Clone + Send + Sync + 'static,
     {
-        let id = TypeId::of::<S>();
-        let made = system.clone();
-        let access = Access::of(id, || made.into_configs());
+        let configs = move || system.clone().into_configs();
+        Self::made(TypeId::of::<S>(), name, set, Arc::new(configs))
+    }
+
+    /// This is compiled once; what stands in `new`, for every system.
+    fn made(id: TypeId, name: &'static str, set: TileSystems, system: Arc<Configs>) -> Self {
+        let access = Access::of(id, &*system);
         let changed = |column: &&ColumnKind| column.begun.is_some_and(|begun| begun < set);
         let changed: Vec<ColumnKind> = access.needs.iter().filter(changed).copied().collect();
         Self {
@@ -127,7 +134,7 @@ impl Stage {
             tables_with: Vec::new(),
             reads_view: false,
             when: |_| Evidence::always("every picture needs it"),
-            system: Arc::new(move || system.clone().into_configs()),
+            system,
         }
     }
 
@@ -166,8 +173,11 @@ impl Stage {
     }
 
     /// Adds a column that it reads where it exists, and requests only where the scene gives a reason.
-    pub fn reads_where<C: Column>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
-        let column = ColumnKind::of::<C>();
+    pub fn reads_where<C: Column>(self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
+        self.reads_kind_where(ColumnKind::of::<C>(), predicate)
+    }
+
+    fn reads_kind_where(mut self, column: ColumnKind, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.reads.retain(|own| *own != column);
         self.reads_if.retain(|own| *own != column);
         self.reads_where.push((column, predicate));
@@ -198,8 +208,11 @@ impl Stage {
     }
 
     /// Adds a table that it reads where the scene gives a reason.
-    pub fn table_where<T: Table>(mut self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
-        let table = TableKind::of::<T>();
+    pub fn table_where<T: Table>(self, predicate: fn(&Census<'_>) -> Evidence) -> Self {
+        self.table_kind_where(TableKind::of::<T>(), predicate)
+    }
+
+    fn table_kind_where(mut self, table: TableKind, predicate: fn(&Census<'_>) -> Evidence) -> Self {
         self.tables.retain(|own| *own != table);
         self.tables_where.push((table, predicate));
         self

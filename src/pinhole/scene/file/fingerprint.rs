@@ -1,10 +1,10 @@
 use super::word::Word;
+use super::write::spawned;
 use crate::scene::{
     ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, Name, Sampler, Sampling, SceneFolder,
     Statistics, UsesMaterial, read_file,
 };
 use bevy_ecs::prelude::*;
-use bevy_ecs::resource::IsResource;
 use std::any::TypeId;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -16,14 +16,7 @@ use std::path::PathBuf;
 /// not been checked and may be anything.
 /// Statistics are left out, and so is the number of samples: a render that is continued may take more.
 pub fn fingerprint(scene: &World) -> String {
-    let mut entities: Vec<EntityRef<'_>> = scene
-        .archetypes()
-        .iter()
-        .flat_map(|archetype| archetype.entities())
-        .filter_map(|entity| scene.get_entity(entity.id()).ok())
-        .filter(|entity| !entity.contains::<IsResource>())
-        .collect();
-    entities.sort_by_key(|entity| entity.id().index());
+    let entities = spawned(scene);
     let places: HashMap<Entity, usize> = entities.iter().enumerate().map(|(at, entity)| (entity.id(), at)).collect();
     let place = |other: Entity| places.get(&other);
     let mut images: HashMap<PathBuf, Option<u64>> = HashMap::new();

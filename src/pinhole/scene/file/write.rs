@@ -17,14 +17,7 @@ const WIDTH: usize = 120;
 /// Errors: something that a file cannot express: a component without a word, a name that is not one line of text, or a
 /// parent or material without a unique name.
 pub fn scene_text(scene: &World) -> Result<String, SceneError> {
-    let mut entities: Vec<EntityRef<'_>> = scene
-        .archetypes()
-        .iter()
-        .flat_map(|archetype| archetype.entities())
-        .filter_map(|entity| scene.get_entity(entity.id()).ok())
-        .filter(|entity| !entity.contains::<IsResource>())
-        .collect();
-    entities.sort_by_key(|entity| entity.id().index());
+    let entities = spawned(scene);
     let mut carriers: HashMap<&str, usize> = HashMap::new();
     for name in entities.iter().filter_map(|entity| entity.get::<Name>()) {
         *carriers.entry(name.as_str()).or_default() += 1;
@@ -41,6 +34,19 @@ pub fn scene_text(scene: &World) -> Result<String, SceneError> {
     }
     text.push_str("]\n");
     Ok(text)
+}
+
+/// Every entity of a scene but resources, in spawn order.
+pub(super) fn spawned(scene: &World) -> Vec<EntityRef<'_>> {
+    let mut entities: Vec<EntityRef<'_>> = scene
+        .archetypes()
+        .iter()
+        .flat_map(|archetype| archetype.entities())
+        .filter_map(|entity| scene.get_entity(entity.id()).ok())
+        .filter(|entity| !entity.contains::<IsResource>())
+        .collect();
+    entities.sort_by_key(|entity| entity.id().index());
+    entities
 }
 
 /// An entity's words with their values.
