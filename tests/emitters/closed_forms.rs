@@ -88,7 +88,7 @@ fn rectangles_and_triangles_shine_as_lambert_says() {
     assert!(widest <= 1.0);
 }
 
-/// By points spread evenly over the area, as lights far away are aimed at; near ones too are right, with more spread.
+/// By points spread evenly over the area, as lights far away are sampled; near ones too are right, with more spread.
 #[test]
 fn areas_shine_as_lambert_says() {
     let (mut cases, mut worst) = (0, 0.0_f64);

@@ -149,7 +149,7 @@ fn a_floor_under_an_image_of_the_sky() {
     }
 }
 
-/// What shines and cannot be aimed at is said; what is dark is no light.
+/// What shines and cannot be sampled as a light is said; what is dark is no light.
 #[test]
 fn the_plan_tells_which_lights_are_sampled() {
     let mut world = floor(Sampler::Sobol);

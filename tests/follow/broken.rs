@@ -44,8 +44,8 @@ fn mistakes_are_noticed_where_theory_knows_the_answer() {
     let mistakes: Vec<(&str, &str, Vec<Stage>)> = vec![
         ("19, the wrong pdf", "rough metal, α = 1, seen along its normal", instead(metal_counted_as_matte())),
         ("20, beams kept narrow", "light through a pane, normal incidence", instead(glass_that_keeps_beams_narrow())),
-        ("21, the light's cosine", "square light overhead, aimed at", instead(light_without_cosine())),
-        ("21, the Jacobian", "square light overhead, aimed at", instead(light_without_jacobian())),
+        ("21, the light's cosine", "square light overhead, light sampling", instead(light_without_cosine())),
+        ("21, the Jacobian", "square light overhead, light sampling", instead(light_without_jacobian())),
         ("22, the missing cosine", "sky past a ball overhead", instead(sky_in_all_directions_alike())),
         (
             "23, a random radius",

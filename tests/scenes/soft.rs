@@ -4,7 +4,7 @@ use glam::DVec3;
 use pinhole::scene::*;
 
 /// A floor and a ball under an evening sky, a lamp that shines on one side and one that shines all round, all of them
-/// aimed at.
+/// sampled.
 ///
 /// All places lie on the grid of [`full`](super::full), and nothing but the view is turned.
 pub fn soft(setup: Setup) -> World {

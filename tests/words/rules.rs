@@ -78,7 +78,8 @@ pub const RULES: &[Rule] = &[
               aimed at the lights|aiming at lights|aiming at a light|aiming at the light|\
               aiming at the lights|not aimed at|light aimed|aimed light|nobody aimed|aimed at from|\
               aim at the environment|aimed at the environment|aim at the sky|aim at each light|\
-              aimed at each light|aimed at it|aimed or|or aimed", "sample a light (next-event estimation), light sampling"),
+              aimed at each light|aimed at it|aimed or|or aimed|was aimed at|are aimed at by|been aimed at",
+              "sample a light (next-event estimation), light sampling"),
     Rule::new("weigh|weighs|weighed|weighing", "weight (verb), weighted; MIS"),
     Rule::new("matter", "material")
         .but("no matter|not matter|a matter of|the matter of|subject matter|matter of fact|matter more|\

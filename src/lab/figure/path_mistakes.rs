@@ -75,6 +75,6 @@ pub fn draw_sky(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
 
 /// Two ways to find a light, both counted.
 pub fn draw_weights(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
-    let lines = ["no weight on what was aimed at", "found twice, counted twice"];
+    let lines = ["light samples without a weight", "found twice, counted twice"];
     replaced(chapter, figure, 8, light_samples_counted_in_full(), lines)
 }

@@ -21,7 +21,7 @@ macro_rules! by_three_strategies {
                 scene: |world| lit(world, LightStrategy::Bsdf, $light),
             },
             ClosedForm {
-                name: concat!($name, ", aimed at"),
+                name: concat!($name, ", light sampling"),
                 formula: $formula,
                 truth: $truth,
                 few: $few,
@@ -58,7 +58,7 @@ pub(super) const LIGHTS: &[ClosedForm] = by_three_strategies![
     };
 ];
 
-/// From nearer than this, lights are aimed at by the solid angle that they fill.
+/// From nearer than this, lights are sampled by the solid angle that they subtend.
 pub(super) const FAR_LIGHTS: &[ClosedForm] = &[
     ClosedForm {
         name: "small square light, light sampling by area",

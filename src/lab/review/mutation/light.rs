@@ -29,7 +29,7 @@ pub fn background_everywhere(background: Res<Shared<BackgroundTable>>, mut tiles
     }
 }
 
-/// A row of light rays is there before any light has been aimed at.
+/// A row of light rays is there before any light has been sampled.
 pub fn light_left_over(mut tiles: Query<&mut LightRays>) {
     for mut rays in &mut tiles {
         rays.clear();
