@@ -1,22 +1,21 @@
 //! What a feature costs a scene that does not use it, in instructions a ray and in bytes, counted by valgrind.
 //!
-//! `cargo bench --bench instructions` renders each scene with the full pinhole (the program `pinhole`, every stage on offer)
-//! and with a program that offers only what the scene needs (this one: nothing else of pinhole's stages is linked into
-//! it), at two sizes each; the slopes between the sizes leave out all that a program does once.
+//! `cargo bench --bench instructions` renders each scene with every stage on offer and with those that it needs, at two
+//! sizes each; the slopes between the sizes leave out all that a program does once.
 //! Instructions are counted by callgrind, bytes allocated by dhat, on one thread; images are compared byte by byte.
-//! valgrind shows its guests no AVX-512, so both programs run the kernels for AVX2.
+//! valgrind shows its guests no AVX-512, so the kernels for AVX2 run.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
 use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
-use pinhole::{follow, intersect, rays, shade};
+use pinhole::{follow, intersect, rays, shade, stages};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The most that the full pinhole may take, as a multiple of the program with only what is needed.
+/// The most that a render with every stage on offer may take, as a multiple of one with only those needed.
 const MOST: f64 = 1.005;
 
 /// A scene, and the stages that it needs.
@@ -160,8 +159,10 @@ fn followed() -> Vec<Stage> {
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
-    if let Some(at) = words.iter().position(|word| word == "--only") {
-        return render_only(&words[at + 1..]);
+    for (flag, offers_all) in [("--only", false), ("--all", true)] {
+        if let Some(at) = words.iter().position(|word| word == flag) {
+            return render_case(&words[at + 1..], offers_all);
+        }
     }
     if Command::new("valgrind").arg("--version").output().is_err() {
         println!("instructions: valgrind is not installed here; nothing was counted");
@@ -171,18 +172,19 @@ fn main() {
     assert!(most <= MOST, "a scene pays for what it does not use: {most:.4} times the instructions, at most {MOST}");
 }
 
-/// The other program: renders a case at a size by the stages that it needs, and none besides is on offer.
-fn render_only(words: &[String]) {
-    let [case, width, height, output] = words else { panic!("--only takes a case, a width, a height and a file") };
+/// Renders a case at a size by the stages that it needs, with the others on offer or without them.
+fn render_case(words: &[String], offers_all: bool) {
+    let [case, width, height, output] = words else { panic!("a case, a width, a height and a file are needed") };
     let case = &CASES[case.parse::<usize>().expect("a case's number")];
     let (width, height) = (width.parse().expect("pixels"), height.parse().expect("pixels"));
     let mut world = SceneFile::parse(Path::new("case.ron"), case.scene.into()).expect("a scene").world();
     let camera = pinhole::extract::camera_entity(&world).expect("a camera");
     world.entity_mut(camera).insert(Resolution { width, height });
-    let offer = (case.stages)();
+    let offer = if offers_all { stages::all() } else { (case.stages)() };
     let census = &Census::of(&world);
     let kept = plan(census, &offer).expect("a plan");
-    assert!(kept.rows.iter().all(|row| row.kept), "a stage is offered that the scene does not need:\n{kept}");
+    let all_kept = kept.rows.iter().all(|row| row.kept);
+    assert!(all_kept != offers_all, "only the stages that the scene needs, or others too:\n{kept}");
     let execution = Execution { threads: Some(1), ..Execution::default() };
     let mut in_progress = RenderInProgress::begin(census, &offer, &execution).expect("a plan");
     if in_progress.is_sampled() {
@@ -198,30 +200,18 @@ fn render_only(words: &[String]) {
 /// Prints a case's slopes, and gives the ratio of instructions.
 fn compare(case: &Case) -> f64 {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = folder.path().join("scene.ron");
-    fs::write(&file, case.scene).expect("a scene file");
     let number = CASES.iter().position(|other| other.name == case.name).expect("a case").to_string();
     let mut counted = Vec::new();
     for (width, height) in SIZES {
         let (full_exr, only_exr) = (folder.path().join("full.exr"), folder.path().join("only.exr"));
-        let full = |mut tool: Command| {
-            let size = format!("{width}x{height}");
-            tool.arg(env!("CARGO_BIN_EXE_pinhole")).arg("render").arg(&file).args(["--threads", "1", "--quiet"]);
-            if case.samples > 1 {
-                // How often a picture is written on the way would depend on the clock; at the end both keep a checkpoint.
-                tool.args(["--write-every", "1h"]);
-            }
-            tool.args(["--size", &size, "-o"]).arg(&full_exr);
-            tool
-        };
-        let only = |mut tool: Command| {
+        let render = |mut tool: Command, flag: &str, exr: &Path| {
             let (width, height) = (width.to_string(), height.to_string());
-            tool.arg(std::env::current_exe().expect("this program")).args(["--only", &number, &width, &height]);
-            tool.arg(&only_exr);
+            tool.arg(std::env::current_exe().expect("this program")).args([flag, &number, &width, &height]).arg(exr);
             tool
         };
-        let instructions = [full(callgrind()), only(callgrind())].map(|tool| count(tool, "Collected :"));
-        let bytes = [full(dhat()), only(dhat())].map(|tool| count(tool, "Total:"));
+        let both = |tool: fn() -> Command| [render(tool(), "--all", &full_exr), render(tool(), "--only", &only_exr)];
+        let instructions = both(callgrind).map(|tool| count(tool, "Collected :"));
+        let bytes = both(dhat).map(|tool| count(tool, "Total:"));
         let images = [&full_exr, &only_exr].map(|file| fs::read(file).expect("an image"));
         assert!(images[0] == images[1], "{}: the images differ", case.name);
         counted.push((f64::from(width * height * case.samples), instructions, bytes));
