@@ -6,6 +6,8 @@ mod broken;
 mod caustics;
 #[path = "follow/long_paths.rs"]
 mod long_paths;
+#[path = "follow/materials.rs"]
+mod materials;
 #[path = "follow/nested.rs"]
 mod nested;
 #[path = "follow/numerics.rs"]

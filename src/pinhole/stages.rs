@@ -143,6 +143,8 @@ const LIST: &[(Group, fn() -> Stage)] = &[
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
     (Mis, follow::mis_matte_stage),
+    (Mis, follow::mis_phong_stage),
+    (Mis, follow::mis_blinn_phong_stage),
     (Mis, follow::mis_metal_stage),
     (Highlights, shade::blinn_phong_stage),
     (Highlights, shade::phong_stage),
@@ -162,6 +164,8 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (LightTracing, follow::glass_light_stage),
     (LightTracing, follow::matte_light_stage),
     (PathContinuation, follow::matte_stage),
+    (PathContinuation, follow::phong_sample_stage),
+    (PathContinuation, follow::blinn_phong_sample_stage),
     (RoughMetal, follow::metal_stage),
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),

@@ -1,7 +1,7 @@
 use super::frame::{cosine_direction, frame_of};
 use super::view::{BsdfView, BsdfViewItem};
 use super::{Scattered, ScatteredRay};
-use crate::extract::{MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
+use crate::extract::{MaterialKind, MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, offset_origin};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_two};
@@ -45,7 +45,9 @@ pub fn sample_matte<const FROM_LIGHT: bool>(
             let direction = frame_of(normal) * local;
             let material = surface.material as usize;
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
-            let leaves = direction.dot(true_normal) > 0.0 && local.z > 0.0;
+            // Other materials of the list are sampled by their own stages.
+            let is_matte = materials.kind[material] == MaterialKind::Matte;
+            let leaves = is_matte && direction.dot(true_normal) > 0.0 && local.z > 0.0;
             let mut throughput = if leaves { paths.throughput(row) } else { [0.0; 3] };
             if FROM_LIGHT && shading.is_some() {
                 let falls = falls_by_shading(true_normal, by_shading, -rays.direction_of(row));

@@ -20,8 +20,7 @@ pub fn mis_matte(
         for ray in 0..rays.rows() {
             let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
             let surface = surfaces.get(row);
-            let scatters = !matches!(materials.kind[surface.material as usize], MaterialKind::Metal);
-            if by_light == 0.0 || !scatters {
+            if by_light == 0.0 || materials.kind[surface.material as usize] != MaterialKind::Matte {
                 continue;
             }
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));

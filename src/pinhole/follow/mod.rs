@@ -26,8 +26,10 @@ mod frame;
 mod fresnel;
 mod ggx;
 mod glass;
+mod highlight;
 mod last_bounce;
 mod light_start;
+mod lobe;
 mod matte;
 mod media;
 mod medium_stack;
@@ -61,10 +63,15 @@ pub use glass::{
     GlassSample, glass_event, glass_light_stage, glass_sample_stage, glass_samples, glass_stage, sample_glass,
     split_rays_at_glass,
 };
+pub use highlight::{
+    LightWeightView, blinn_phong_sample_stage, mis_blinn_phong_stage, mis_highlight, mis_phong_stage,
+    phong_sample_stage, sample_highlight,
+};
 pub use last_bounce::{end_at_max_depth, max_depth_stage};
 pub use light_start::{
     LIGHT_PATHS, LightPower, LightStart, StartDraws, light_start, light_start_stage, start_on_lights,
 };
+pub use lobe::{Highlight, Lobe};
 pub use matte::{matte_light_stage, matte_stage, sample_matte};
 pub use media::{
     Media, absorb_in_glass, absorb_stage, carry_media, carry_media_stage, media_evidence, start_media,

@@ -21,7 +21,7 @@ pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: D
 }
 // ANCHOR_END: shading_adjoint
 
-/// Applies that factor to the rays from lights that mirrors, glass and metal scatter.
+/// Applies that factor to the rays from lights that materials other than matte scatter.
 ///
 /// The stage of matte surfaces applies its own.
 pub fn correct_for_shading_normals(
@@ -36,8 +36,8 @@ pub fn correct_for_shading_normals(
             let own = surface.normal.as_dvec3();
             let by = match materials.kind[surface.material as usize] {
                 MaterialKind::Mirror | MaterialKind::Glass => mirroring_normal(Some(shading), row, own, direction),
-                MaterialKind::Metal => shading.get(row),
-                MaterialKind::Matte | MaterialKind::Phong | MaterialKind::BlinnPhong => continue,
+                MaterialKind::Metal | MaterialKind::Phong | MaterialKind::BlinnPhong => shading.get(row),
+                MaterialKind::Matte => continue,
             };
             let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
             let more = shading_adjoint(own, by, -direction, DVec3::from(onward));

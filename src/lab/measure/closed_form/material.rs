@@ -5,8 +5,8 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::follow::fresnel;
 use pinhole::scene::{
-    Background, Cuboid, Glass, Integrator, LightStrategy, LookAt, Metal, Mirror, OrthographicCamera, PerspectiveCamera,
-    Placement, Plane, Rgb, Sphere,
+    Background, BlinnPhong, Cuboid, Glass, Integrator, LightStrategy, LookAt, Metal, Mirror, OrthographicCamera,
+    PerspectiveCamera, Phong, Placement, Plane, Rgb, Sphere,
 };
 use std::f64::consts::{FRAC_PI_3, LN_2};
 
@@ -20,6 +20,30 @@ const BRIGHT: Metal = Metal { colour: Rgb::grey(1.0), roughness: 0.0, multiple_s
 const NORMAL_INCIDENCE: f64 = 0.04;
 
 pub(super) const FORMS: &[ClosedForm] = &[
+    ClosedForm {
+        name: "a Phong surface in an even sky, from above",
+        formula: "colour + specular",
+        truth: || 0.7,
+        few: 1 << 13,
+        component: GREEN,
+        scene: |world| {
+            view(world, 20.0 * DVec3::Z, 0.1);
+            let phong = Phong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 };
+            world.spawn((Plane { normal: DVec3::Z }, phong));
+        },
+    },
+    ClosedForm {
+        name: "a Blinn–Phong surface in an even sky, from above",
+        formula: "colour + specular",
+        truth: || 0.7,
+        few: 1 << 13,
+        component: GREEN,
+        scene: |world| {
+            view(world, 20.0 * DVec3::Z, 0.1);
+            let blinn_phong = BlinnPhong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 };
+            world.spawn((Plane { normal: DVec3::Z }, blinn_phong));
+        },
+    },
     ClosedForm {
         name: "two mirrors in a row, 0.9 and 0.8",
         formula: "c₁ c₂",
