@@ -1,11 +1,12 @@
+use super::mis::weight_by_bsdf;
 use super::view::{BsdfView, BsdfViewItem};
-use super::{Highlight, Lobe, Scattered, ScatteredRay, frame_of, power_heuristic};
+use super::{Highlight, Lobe, Scattered, ScatteredRay};
 use crate::extract::{
     BlinnPhongTable, MaterialTable, PhongTable, SamplingTable, area_light_evidence, environment_light_evidence,
     material_kind_evidence, mis_evidence, needed_if,
 };
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, offset_origin};
-use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
+use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
 use crate::scene::{BlinnPhong, Integrator, Phong};
@@ -28,25 +29,12 @@ pub fn sample_highlight<L: Lobe>(
         draws_of_two(&draws, Purpose::Direction, &list, &mut points);
         draws_of_one(&draws, Purpose::MaterialChoice, &list, &mut choices);
         scattered.append(&list, |number, row| {
-            let surface = surfaces.get(row);
-            let own = surface.normal.as_dvec3();
-            let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
-            let to_eye = world_from_local.transpose() * -rays.direction_of(row);
-            let material = surface.material as usize;
-            let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
-            let surface_material = Highlight::new(&**lobes, materials.row[material] as usize, colour);
-            let Some((to_light, pdf, weights)) = surface_material.sample(to_eye, points[number], choices[number])
-            else {
-                return ScatteredRay::default();
-            };
-            let direction = world_from_local * to_light;
-            let throughput = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
-            ScatteredRay {
-                origin: offset_origin(surface.position, surface.normal, surface.bound),
-                direction,
-                throughput: [0, 1, 2].map(|part| throughput[part] * weights[part]),
-                pdf,
-            }
+            ScatteredRay::leaving(row, (rays, paths), (surfaces, shading), |surface, to_eye| {
+                let material = surface.material as usize;
+                let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
+                let highlight = Highlight::new(&**lobes, materials.row[material] as usize, colour);
+                highlight.sample(to_eye, points[number], choices[number])
+            })
         });
     }
 }
@@ -75,21 +63,11 @@ pub fn mis_highlight<L: Lobe>(
     mut tiles: Query<LightWeightView>,
 ) {
     for LightWeightViewItem { eye, surfaces, shading, colours, pdfs, mut rays } in &mut tiles {
-        for ray in 0..rays.rows() {
-            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
-            let surface = surfaces.get(row);
-            let material = surface.material as usize;
-            if by_light == 0.0 || materials.kind[material] != L::KIND {
-                continue;
-            }
-            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
-            let local_from_world = frame_of(normal).transpose();
-            let [to_light, to_eye] =
-                [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+        weight_by_bsdf(&mut rays, (eye, surfaces, shading, pdfs), |row, material, to_light, to_eye| {
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(row));
-            let by_bsdf = Highlight::new(&**lobes, materials.row[material] as usize, colour).pdf(to_light, to_eye);
-            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
-        }
+            let highlight = || Highlight::new(&**lobes, materials.row[material] as usize, colour);
+            (materials.kind[material] == L::KIND).then(|| highlight().pdf(to_light, to_eye))
+        });
     }
 }
 

@@ -1,12 +1,12 @@
 use super::frame::{cosine_direction, frame_of};
 use super::view::{BsdfView, BsdfViewItem};
 use super::{Scattered, ScatteredRay};
-use crate::extract::{MaterialKind, MaterialTable, SamplingTable, material_evidence, needed_if, traced_evidence};
+use crate::extract::{MaterialKind, MaterialTable, SamplingTable, material_kind_evidence, needed_if, traced_evidence};
 use crate::intersect::{MaterialRows, offset_origin};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_two};
 use crate::sample::Purpose;
-use crate::scene::Integrator;
+use crate::scene::{Integrator, Matte};
 use crate::shade::SurfaceColours;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -84,5 +84,6 @@ fn reading(stage: Stage) -> Stage {
 
 /// Evidence that light is scattered from matte surfaces to others.
 pub(super) fn scattered_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })).and(|| material_evidence(scene))
+    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. }))
+        .and(|| material_kind_evidence::<Matte>(scene, "matte surface"))
 }

@@ -6,7 +6,7 @@ use super::{
 use crate::extract::{
     MaterialKind, MaterialTable, MetalTable, SamplingTable, metal_evidence, multiple_scattering_evidence, needed_if,
 };
-use crate::intersect::{NO_SHAPE, offset_origin};
+use crate::intersect::NO_SHAPE;
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
@@ -86,22 +86,10 @@ pub fn sample_metal(
             draws_of_one(&draws, Purpose::MaterialChoice, &list.row, &mut choices);
         }
         scattered.append(&list.row, |number, row| {
-            let (surface, metal) = (surfaces.get(row), list.of[number] as usize);
-            let own = surface.normal.as_dvec3();
-            let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
-            let to_eye = world_from_local.transpose() * -rays.direction_of(row);
-            let choice = choices.get(number).copied().unwrap_or_default();
-            let Some((to_light, pdf, weights)) = rough.sample(metal, to_eye, points[number], choice) else {
-                return ScatteredRay::default();
-            };
-            let direction = world_from_local * to_light;
-            let throughput = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
-            ScatteredRay {
-                origin: offset_origin(surface.position, surface.normal, surface.bound),
-                direction,
-                throughput: [0, 1, 2].map(|part| throughput[part] * weights[part]),
-                pdf,
-            }
+            let (metal, choice) = (list.of[number] as usize, choices.get(number).copied().unwrap_or_default());
+            ScatteredRay::leaving(row, (rays, paths), (surfaces, shading), |_, to_eye| {
+                rough.sample(metal, to_eye, points[number], choice)
+            })
         });
     }
 }

@@ -1,13 +1,15 @@
 use super::{MultipleScatteringTable, RoughMetals, frame_of, power_heuristic};
 use crate::extract::{
-    MaterialKind, MaterialTable, MetalTable, area_light_evidence, environment_light_evidence, material_evidence,
+    MaterialKind, MaterialTable, MetalTable, area_light_evidence, environment_light_evidence, material_kind_evidence,
     metal_evidence, mis_evidence, multiple_scattering_evidence,
 };
 use crate::intersect::{ShadingNormals, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
+use crate::scene::Matte;
 use crate::shade::{LightPdfs, LightRays};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
 
 // ANCHOR: mis_matte
@@ -38,9 +40,38 @@ fn light_rays_evidence(scene: &Census<'_>) -> Evidence {
 
 /// The stage that runs [`mis_matte`].
 pub fn mis_matte_stage() -> Stage {
-    Stage::new("Compute MIS weights: matte", TileSystems::MisWeights, mis_matte)
-        .kind(StageKind::Alternative)
-        .when(|scene| light_rays_evidence(scene).and(|| mis_evidence(scene)).and(|| material_evidence(scene)))
+    Stage::new("Compute MIS weights: matte", TileSystems::MisWeights, mis_matte).kind(StageKind::Alternative).when(
+        |scene| {
+            light_rays_evidence(scene)
+                .and(|| mis_evidence(scene))
+                .and(|| material_kind_evidence::<Matte>(scene, "matte surface"))
+        },
+    )
+}
+
+/// Weights the light samples for which there is a pdf of BSDF sampling.
+///
+/// `pdf` gets the row, its material, and the directions to light and eye in the frame of the shading normal.
+#[inline(always)]
+pub(super) fn weight_by_bsdf(
+    rays: &mut LightRays,
+    (eye, surfaces, shading, pdfs): (&WorldRays, &Surfaces, Option<&ShadingNormals>, &LightPdfs),
+    pdf: impl Fn(usize, usize, DVec3, DVec3) -> Option<f64>,
+) {
+    for ray in 0..rays.rows() {
+        let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
+        if by_light == 0.0 {
+            continue;
+        }
+        let surface = surfaces.get(row);
+        let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
+        let local_from_world = frame_of(normal).transpose();
+        let [to_light, to_eye] =
+            [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+        if let Some(by_bsdf) = pdf(row, surface.material as usize, to_light, to_eye) {
+            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
+        }
+    }
 }
 
 /// Weights every light sample against BSDF sampling at rough metal, by visible microfacet normals.
@@ -51,20 +82,10 @@ pub fn mis_metal(
 ) {
     let rough = RoughMetals { metals: &metals, several: several.as_deref().map(|several| &**several) };
     for (eye, surfaces, shading, pdfs, mut rays) in &mut tiles {
-        for ray in 0..rays.rows() {
-            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
-            let surface = surfaces.get(row);
-            let material = surface.material as usize;
-            if by_light == 0.0 || materials.kind[material] != MaterialKind::Metal {
-                continue;
-            }
-            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
-            let local_from_world = frame_of(normal).transpose();
-            let [to_light, to_eye] =
-                [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
-            let by_bsdf = rough.pdf(materials.row[material] as usize, to_light, to_eye);
-            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
-        }
+        weight_by_bsdf(&mut rays, (eye, surfaces, shading, pdfs), |_, material, to_light, to_eye| {
+            let metal = materials.row[material] as usize;
+            (materials.kind[material] == MaterialKind::Metal).then(|| rough.pdf(metal, to_light, to_eye))
+        });
     }
 }
 

@@ -1,5 +1,8 @@
+use super::frame_of;
 use crate::extract::followed_evidence;
+use crate::intersect::{ShadingNormals, Surface, Surfaces, offset_origin};
 use crate::plan::{Stage, TileSystems, column};
+use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
@@ -42,6 +45,35 @@ pub struct ScatteredRay {
     pub throughput: [f64; 3],
     /// The pdf of its direction under BSDF sampling, in 1/sr; infinite after a specular bounce.
     pub pdf: f64,
+}
+
+impl ScatteredRay {
+    /// The ray that a BSDF scatters from a surface hit by `rays`; of throughput 0 where it gives none, or one below the
+    /// geometric surface.
+    ///
+    /// `sample` gets the direction to the eye in the frame of the shading normal, and answers with a direction in that
+    /// frame, its pdf, and BSDF · cosine / pdf.
+    #[inline(always)]
+    pub(super) fn leaving(
+        row: usize,
+        (rays, paths): (&WorldRays, &Paths),
+        (surfaces, shading): (&Surfaces, Option<&ShadingNormals>),
+        sample: impl FnOnce(&Surface, DVec3) -> Option<(DVec3, f64, [f64; 3])>,
+    ) -> Self {
+        let surface = surfaces.get(row);
+        let own = surface.normal.as_dvec3();
+        let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
+        let to_eye = world_from_local.transpose() * -rays.direction_of(row);
+        let Some((to_light, pdf, weights)) = sample(&surface, to_eye) else { return Self::default() };
+        let direction = world_from_local * to_light;
+        let throughput = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
+        Self {
+            origin: offset_origin(surface.position, surface.normal, surface.bound),
+            direction,
+            throughput: [0, 1, 2].map(|part| throughput[part] * weights[part]),
+            pdf,
+        }
+    }
 }
 
 impl Scattered {

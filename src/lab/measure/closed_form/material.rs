@@ -27,9 +27,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         few: 1 << 13,
         component: GREEN,
         scene: |world| {
-            view(world, 20.0 * DVec3::Z, 0.1);
-            let phong = Phong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 };
-            world.spawn((Plane { normal: DVec3::Z }, phong));
+            from_above(world, Phong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 });
         },
     },
     ClosedForm {
@@ -39,9 +37,7 @@ pub(super) const FORMS: &[ClosedForm] = &[
         few: 1 << 13,
         component: GREEN,
         scene: |world| {
-            view(world, 20.0 * DVec3::Z, 0.1);
-            let blinn_phong = BlinnPhong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 };
-            world.spawn((Plane { normal: DVec3::Z }, blinn_phong));
+            from_above(world, BlinnPhong { colour: Rgb::grey(0.4), specular: Rgb::grey(0.3), exponent: 40.0 });
         },
     },
     ClosedForm {
@@ -176,6 +172,12 @@ fn view(world: &mut World, eye: DVec3, view_height: f64) {
     let look = LookAt { eye, target: DVec3::ZERO, ..LookAt::default() };
     world.spawn((OrthographicCamera { view_height }, look, PATHS));
     world.spawn(Background { colour: Rgb::grey(1.0) });
+}
+
+/// A plane of a material, seen along its normal.
+fn from_above(world: &mut World, material: impl Component) {
+    view(world, 20.0 * DVec3::Z, 0.1);
+    world.spawn((Plane { normal: DVec3::Z }, material));
 }
 
 /// A wide pane of glass across the view, from one z to another.
