@@ -1,8 +1,8 @@
 use super::check::{kind_and_name, light_colour, number};
 use super::material_kind::{material_kind_evidence, used_material};
-use super::shape_kind::numbered;
+use super::shape_kind::{one_shape, shape_entities};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
+use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// The least accepted index of refraction, and the reciprocal of the greatest.
@@ -53,17 +53,17 @@ pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, 
 
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
-    let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
-    let mut open: Vec<(Entity, &str)> = of("disk", numbered::<Disk>(scene)).collect();
-    open.extend(of("rectangle", numbered::<Rectangle>(scene)));
-    open.sort_by_key(|(shape, _)| shape.index());
-    for (shape, kind) in open {
+    for &shape in shape_entities(scene).iter() {
+        let listed = one_shape(scene, shape)?;
+        if listed.has_inside {
+            continue;
+        }
         let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
         let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
-        return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
+        return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     Ok(())
 }

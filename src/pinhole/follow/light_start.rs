@@ -1,14 +1,12 @@
 use super::{cosine_direction, frame_of};
 use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
-use crate::intersect::{offset_bound, offset_origin};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};
 use crate::scene::Sampler;
-use crate::shade::emitter::{
-    MAX_TARGETS_SOLID_ANGLE, cone_direction, direction_to_targets, leaving_point, sphere_direction,
-};
-use crate::shade::{Radiance, spot_falloff, versine};
+use crate::shade::{MAX_TARGETS_SOLID_ANGLE, Radiance, direction_to_targets, spot_falloff, versine};
+use crate::shapes::emitter::{cone_direction, sphere_direction};
+use crate::shapes::{leaving_point, offset_bound, offset_origin};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};

@@ -1,13 +1,13 @@
 use super::LightRays;
-use super::emitter::{distance_to, pdf_towards, point_on};
 use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_sampled, cosine_of, shadow_t_max};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
-use crate::intersect::{Surface, offset_origin};
+use crate::intersect::Surface;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, DrawsViewItem, Paths, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
 use crate::scene::Sampler;
+use crate::shapes::{distance_to, offset_origin, pdf_towards, point_on};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

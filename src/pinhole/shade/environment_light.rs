@@ -5,11 +5,12 @@ use crate::extract::{
     EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
     material_evidence,
 };
-use crate::intersect::{Surface, offset_origin};
+use crate::intersect::Surface;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, DrawsViewItem, Paths, pixel_of_row};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
 use crate::scene::Sampler;
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::TAU;
