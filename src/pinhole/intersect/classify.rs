@@ -41,8 +41,8 @@ with_shapes!(shape_lists);
 /// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
 /// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
-pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(HitListsView, ShapeListsView)>) {
-    for (HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }, lists) in &mut tiles {
+pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeListsView, HitListsView)>) {
+    for (lists, HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }) in &mut tiles {
         list_shapes(hits, &shapes, lists);
         if let Some(mut list) = materials {
             list_rows(hits, &mut list.row, |shape| shapes.non_specular[shape]);
