@@ -14,6 +14,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "scene",
             "plan",
             "shapes",
+            "lights",
             "extract",
             "sample",
             "rays",

@@ -5,6 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{MaterialTable, PointLightTable};
 use pinhole::intersect::{NO_SHAPE, Surfaces};
+use pinhole::lights::PlacedPointLight;
 use pinhole::plan::{Column, Shared};
 use pinhole::shade;
 use pinhole::shade::{LightRays, Radiance, ShadowHits};
@@ -22,12 +23,12 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                     let row = rays.path[ray] as usize;
                     let surface = surfaces.get(row);
                     let (position, normal) = (surface.position.as_dvec3(), surface.normal.as_dvec3());
-                    let Some(light) = in_direction(&lights.position, position, rays.direction_of(ray)) else {
+                    let Some(light) = in_direction(&lights.row, position, rays.direction_of(ray)) else {
                         continue;
                     };
                     let colour = materials.colour[surface.material as usize];
                     let light_of = |part: usize| {
-                        let (intensity, light) = (lights.intensity[light][part], lights.position[light].into());
+                        let (intensity, light) = (lights.row[light].intensity[part], lights.row[light].position.into());
                         let asked = (colour[part], intensity, position.into(), normal.into(), light);
                         ask.at(place, row, asked).unwrap_or_default() as f32
                     };
@@ -42,7 +43,7 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
 }
 
 /// The light that a direction leads to.
-fn in_direction(lights: &[DVec3], from: DVec3, direction: DVec3) -> Option<usize> {
-    let along = |light: &DVec3| (*light - from).normalize_or_zero().dot(direction);
+fn in_direction(lights: &[PlacedPointLight], from: DVec3, direction: DVec3) -> Option<usize> {
+    let along = |light: &PlacedPointLight| (light.position - from).normalize_or_zero().dot(direction);
     (0..lights.len()).max_by(|&a, &b| along(&lights[a]).total_cmp(&along(&lights[b])))
 }

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::shade;
+use pinhole::{lights, shade};
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -32,7 +32,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/shade/point_light.rs", "irradiance_from_point"),
+        pinhole_has: ("src/pinhole/lights/point.rs", "irradiance_from_point"),
         probes: asked(),
         tell: |(colour, intensity, position, normal, light)| {
             let [position, normal, light] = [position, normal, light].map(Shown::shown);
@@ -141,6 +141,6 @@ fn radiance(input: &Input, cosine: f64) -> f64 {
 }
 
 fn sent(&(colour, intensity, ..): &Input, cosine: f64, distance_squared: f64) -> f64 {
-    let irradiance = shade::irradiance_from_point([intensity; 3], cosine, distance_squared);
+    let irradiance = lights::irradiance_from_point([intensity; 3], cosine, distance_squared);
     shade::matte_radiance([colour; 3], irradiance)[0]
 }

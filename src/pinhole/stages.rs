@@ -53,7 +53,7 @@ use Group::*;
 /// A stage on offer, and the group that it belongs to.
 type Grouped = (Group, fn() -> Stage);
 
-/// Stages in order, and then those of every registered shape.
+/// Stages in order, and then those of every registered shape or light.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
@@ -69,6 +69,11 @@ fn intersections() -> Vec<Grouped> {
 fn surface_points() -> Vec<Grouped> {
     let stages = intersect::shape_stages().into_iter();
     stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+}
+
+fn light_samples() -> Vec<Grouped> {
+    let stages = shade::light_sampling_stages().into_iter();
+    stages.map(|(is_first, stage)| (if is_first { DirectLight } else { Lights }, stage)).collect()
 }
 
 fn shadow_rays() -> Vec<Grouped> {
@@ -130,16 +135,15 @@ const LIST: &[Part] = &[Part(&[
     (Environment, shade::environment_stage),
     (AreaLights, follow::mis_environment_stage),
     (Environment, shade::gradient_stage),
+    (LightTracing, follow::sky_caustics_stage),
 
     // Layers of the film are recorded.
     (Film, film::layers_stage),
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
-    (Lights, shade::directional_light_stage),
     (AreaLights, shade::area_light_stage),
-    (DirectLight, shade::point_light_stage),
-    (Lights, shade::spot_light_stage),
+], light_samples), Part(&[
     (LightTracing, shade::camera_join_stage),
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),
@@ -198,7 +202,7 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let all = LIST.iter().flat_map(|Part(stages, of_shapes)| stages.iter().copied().chain(of_shapes()));
+    let all = LIST.iter().flat_map(|Part(stages, registered)| stages.iter().copied().chain(registered()));
     let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }

@@ -13,13 +13,14 @@ use pinhole::extract::{
 };
 use pinhole::film::{Film, FilmTile};
 use pinhole::intersect::{NO_SHAPE, Surface};
+use pinhole::lights::irradiance_from_point;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
     Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler,
 };
 use pinhole::scene::{Filter, SceneError};
-use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
+use pinhole::shade::{matte_radiance, shadow_t_max};
 use pinhole::shapes::{PlacedSphere, RayHit, ShapeKind, l1_norm, nearness, offset_origin, plane_t, sphere_t};
 use std::sync::{Mutex, PoisonError};
 
@@ -82,7 +83,7 @@ impl Scene {
         let materials: MaterialTable = Table::extract(census)?;
         assert!(materials.kind.iter().all(|&kind| kind == MaterialKind::Matte), "they hold matte things");
         let (directional, spot) = (DirectionalLightTable::extract(census)?, SpotLightTable::extract(census)?);
-        assert!(directional.to_light.is_empty() && spot.position.is_empty(), "and point lights");
+        assert!(directional.row.is_empty() && spot.row.is_empty(), "and point lights");
         Ok(Self {
             image: Table::extract(census)?,
             lens: Table::extract(census)?,
@@ -194,14 +195,14 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
 fn light(scene: &Scene, surface: &Surface) -> [f32; 3] {
     let mut radiance = [0.0_f32; 3];
     let origin: Vec3 = offset_origin(surface.position, surface.normal, surface.bound);
-    for (light, &position) in scene.lights.position.iter().enumerate() {
-        let to_light = position - origin.as_dvec3();
+    for (light, row) in scene.lights.row.iter().enumerate() {
+        let to_light = row.position - origin.as_dvec3();
         let distance = to_light.length();
         let direction = (to_light * (1.0 / distance)).as_vec3().as_dvec3();
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !blocked(scene, light, origin, direction, distance) {
             let colour = scene.materials.colour[surface.material as usize];
-            let irradiance = irradiance_from_point(scene.lights.intensity[light], cosine, distance * distance);
+            let irradiance = irradiance_from_point(row.intensity, cosine, distance * distance);
             // Pinhole keeps irradiance in a column of f32.
             let brings = matte_radiance(colour, irradiance.map(|part| f64::from(part as f32)));
             for (sum, brings) in radiance.iter_mut().zip(brings) {

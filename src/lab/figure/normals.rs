@@ -12,11 +12,12 @@ use pinhole::Result;
 use pinhole::extract::{EllipsoidTable, MaterialTable, PointLightTable};
 use pinhole::film::FilmTile;
 use pinhole::intersect::{Hits, Surface, Surfaces};
+use pinhole::lights::irradiance_from_point;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
-use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
+use pinhole::shade::{matte_radiance, shadow_t_max};
 use pinhole::shapes::{normal_world_from_object, offset_origin};
 use pinhole::{Chapter, Overrides};
 
@@ -100,14 +101,14 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
 fn lit(surface: &Surface, lights: &PointLightTable, materials: &MaterialTable, occluders: &Occluders) -> [f32; 3] {
     let origin = offset_origin(surface.position, surface.normal, surface.bound).as_dvec3();
     let mut sum = [0.0_f32; 3];
-    for (&light, &intensity) in lights.position.iter().zip(&lights.intensity) {
-        let to_light = light - origin;
+    for light in &lights.row {
+        let to_light = light.position - origin;
         let distance = to_light.length();
         let direction = to_light / distance;
         let cosine = surface.normal.as_dvec3().dot(direction);
         if cosine > 0.0 && !occluders.block(origin, direction, f64::from(shadow_t_max(distance))) {
             let colour = materials.colour.get(surface.material as usize).copied().unwrap_or_default();
-            let irradiance = irradiance_from_point(intensity, cosine, distance * distance);
+            let irradiance = irradiance_from_point(light.intensity, cosine, distance * distance);
             let brings = matte_radiance(colour, irradiance);
             sum.iter_mut().zip(brings).for_each(|(sum, part)| *sum += part as f32);
         }

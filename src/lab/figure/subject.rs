@@ -80,7 +80,7 @@ impl Subject {
         let scene = picture.world(&asked);
         let inspection = inspected(&picture, &scene, width.max(height))?;
         let census = &Census::of(&scene);
-        let lights = PointLightTable::extract(census)?.position;
+        let lights = PointLightTable::extract(census)?.row.iter().map(|light| light.position).collect::<Vec<_>>();
         Ok(Self {
             chapter: chapter.name,
             image: inspection.image,

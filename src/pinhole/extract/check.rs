@@ -1,18 +1,13 @@
 //! Checks that several components have in common; each gives the one sentence of an error message.
 
 use crate::plan::Census;
-use crate::scene::{Rgb, SceneError, called, some_of};
-pub(super) use crate::scene::{finite_point, number, positive_length, triple};
+use crate::scene::{Rgb, SceneError, called, colour_within, some_of};
+pub(super) use crate::scene::{finite_point, light_colour, number, positive_length, triple};
 use bevy_ecs::prelude::*;
 
 /// The name of an entity in messages: its kind and its own name.
 pub fn kind_and_name(scene: &World, kind: &str, entity: Entity) -> String {
     format!("{kind} {}", called(scene, entity))
-}
-
-/// Checks a colour of light: each component finite and at least 0.
-pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
-    colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
 }
 
 /// Checks a reflectance or albedo: each component from 0 to 1.
@@ -24,14 +19,6 @@ pub fn reflectance(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, S
         1.0,
         "each part must lie from 0 to 1, for a surface gives back no more than it gets",
     )
-}
-
-fn colour_within(who: &str, field: &'static str, colour: Rgb, most: f64, accepted: &str) -> Result<Rgb, SceneError> {
-    if colour.to_array().iter().all(|part| (0.0..=most).contains(part)) {
-        Ok(colour)
-    } else {
-        Err(SceneError::new(who, field, triple(colour.to_vec()), accepted))
-    }
 }
 
 /// The one entity that carries a component that a scene may have once, or none.

@@ -1,10 +1,10 @@
 use super::camera_entity::camera_of;
 use super::emissive::emissive_evidence;
+use super::lights_of::light_kinds;
 use super::material::material_evidence;
 use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Census, Evidence};
-use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
-use bevy_ecs::prelude::*;
+use crate::scene::{Integrator, LightStrategy, called};
 
 /// The integrator of a scene, and the reason for it.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,9 +50,7 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
 
 /// Whether there is a light without an area.
 fn has_points(scene: &Census<'_>) -> bool {
-    !scene.entities::<With<PointLight>>().is_empty()
-        || !scene.entities::<With<DirectionalLight>>().is_empty()
-        || !scene.entities::<With<SpotLight>>().is_empty()
+    light_kinds().iter().any(|kind| !(kind.entities)(scene).is_empty())
 }
 
 /// Evidence that rays are traced beyond the first surface.

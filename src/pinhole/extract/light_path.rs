@@ -1,22 +1,22 @@
 use super::area_light::light_distribution;
-use super::shape_kind::listed_kind;
+use super::camera::eye;
+use super::lights_of::{light_kinds, shadowed_evidence};
+use super::shape_kind::{listed_kind, one_shape, shape_entities};
+use super::sky::sky_evidence;
 use super::{
-    AreaLightTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeTable, SpotLightTable, luminance,
+    AreaLightTable, BackgroundTable, EnvironmentLightTable, EnvironmentTable, GradientTable, MaterialKind,
+    MaterialTable, NO_ROW, ShapeTable, luminance,
 };
-use crate::plan::{Census, Table};
-use crate::scene::SceneError;
+use crate::lights::{AnyLight, MOST_TARGETS, Target, Targets};
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{Background, Environment, Gradient, SceneError};
 use crate::shapes::{Bounds, Emitter};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
 use std::f64::consts::PI;
-
-/// With more specular shapes than this, one sphere bounds them all.
-pub const MOST_TARGETS: usize = 16;
-/// The factor by which a bounding sphere is enlarged, so that no rounding of a ray leads past it.
-const MARGIN: f64 = 1.0 + 1e-5;
+use std::sync::Arc;
 
 /// A light from which light paths start, in render space.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum LightSource {
     /// A shape that emits.
     Area {
@@ -27,37 +27,69 @@ pub enum LightSource {
         /// Whether it is emitted only on the side of the shape's own normal.
         one_sided: bool,
     },
-    /// A point light, or a spot light.
-    Point {
-        /// Relative to the eye.
-        position: DVec3,
-        /// Radiant intensity, along the axis for a spot light.
-        intensity: [f64; 3],
-        /// The axis of a spot light and 1 − cos of its inner and outer half angles; none for a point light.
-        cone: Option<(DVec3, [f64; 2])>,
-    },
+    /// A light without an area.
+    Delta(AnyLight),
+    /// What surrounds the scene.
+    Sky(Sky),
 }
 
-/// A bounding sphere of mirrors or glass, towards which light paths start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
-    /// Relative to the eye.
-    pub centre: DVec3,
-    /// In scene units.
-    pub radius: f64,
+/// What surrounds a scene, as a light from which light paths start.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sky {
+    /// The same radiance everywhere.
+    Even([f64; 3]),
+    /// A radiance that changes with elevation.
+    Gradient(GradientTable),
+    /// An image, and how directions to it are sampled.
+    Image(Arc<EnvironmentTable>, Arc<EnvironmentLightTable>),
+}
+
+impl Sky {
+    /// The sky of a scene; none where it is black.
+    fn of(scene: &Census<'_>) -> Result<Option<Self>, SceneError> {
+        if !sky_evidence(scene).needed {
+            return Ok(None);
+        }
+        if !scene.entities::<With<Gradient>>().is_empty() {
+            return Ok(Some(Self::Gradient(*scene.table::<GradientTable>()?)));
+        }
+        if !scene.entities::<With<Environment>>().is_empty() {
+            return Ok(Some(Self::Image(scene.table()?, scene.table()?)));
+        }
+        debug_assert!(!scene.entities::<With<Background>>().is_empty(), "a fourth kind of sky");
+        Ok(Some(Self::Even(scene.table::<BackgroundTable>()?.radiance.map(f64::from))))
+    }
+
+    /// The luminance of the irradiance that it sends from all directions together through an area at right angles to
+    /// each of them.
+    fn strength(&self) -> f64 {
+        let mean = match self {
+            Self::Even(radiance) => luminance(*radiance),
+            Self::Gradient(GradientTable { bottom, top }) => 0.5 * (luminance(*bottom) + luminance(*top)),
+            Self::Image(environment, _) => {
+                let image = &environment.image;
+                let row_weight = |row: usize| libm::sin(PI * (row as f64 + 0.5) / image.height as f64);
+                let rows = image.rgb.chunks(image.width).enumerate();
+                let sum = |row: &[[f32; 3]]| row.iter().map(|texel| luminance(texel.map(f64::from))).sum::<f64>();
+                let weighted: f64 = rows.map(|(at, row)| sum(row) * row_weight(at)).sum();
+                weighted / (image.width as f64 * (0..image.height).map(row_weight).sum::<f64>())
+            }
+        };
+        4.0 * PI * mean
+    }
 }
 
 /// The lights from which light paths start, and their targets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightPathTable {
-    /// The lights: area lights, then point lights, then spot lights, each in spawn order.
+    /// The lights: area lights, then those without an area, kind after kind, each in spawn order, then the sky.
     pub light: Vec<LightSource>,
     /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
     /// The probability of choosing each light: half in proportion to its power, half uniform.
     pub probability: Vec<f64>,
-    /// Spheres that together bound all mirrors and glass; none where one of these is infinite.
-    pub target: Vec<Target>,
+    /// The mirrors and the glass, towards which they start.
+    pub targets: Targets,
 }
 
 impl LightPathTable {
@@ -80,61 +112,76 @@ impl Table for LightPathTable {
             powers.push(luminance(radiance) * emitter.area() * PI * sides);
             light.push(LightSource::Area { emitter: *emitter, radiance, one_sided });
         }
-        // The light of a light without shadows passes through everything, so glass does not bend its rays.
-        let points = scene.table::<PointLightTable>()?;
-        for number in (0..points.position.len()).filter(|&number| points.casts_shadows[number]) {
-            let (position, intensity) = (points.position[number], points.intensity[number]);
-            powers.push(luminance(intensity) * 4.0 * PI);
-            light.push(LightSource::Point { position, intensity, cone: None });
+        let targets = targets(scene)?;
+        let across = targets.across();
+        let is_started = |is_distant: bool| !is_distant || !targets.sphere.is_empty();
+        for kind in light_kinds().iter().filter(|kind| is_started(kind.is_distant)) {
+            for source in (kind.sources)(scene)? {
+                powers.push(luminance(source.power(across)));
+                light.push(LightSource::Delta(source));
+            }
         }
-        let spots = scene.table::<SpotLightTable>()?;
-        for number in (0..spots.position.len()).filter(|&number| spots.casts_shadows[number]) {
-            let (position, intensity) = (spots.position[number], spots.intensity[number]);
-            let edges = [spots.inner[number], spots.outer[number]];
-            powers.push(luminance(intensity) * PI * (edges[0] + edges[1]));
-            light.push(LightSource::Point { position, intensity, cone: Some((spots.axis[number], edges)) });
+        if let Some(sky) = Sky::of(scene)?.filter(|_| is_started(true)) {
+            powers.push(sky.strength() * across);
+            light.push(LightSource::Sky(sky));
         }
         let (until, probability) = light_distribution(&powers);
-        Ok(Self { light, until, probability, target: targets(scene)? })
+        Ok(Self { light, until, probability, targets: Targets::clone(&targets) })
     }
 
     fn bytes(&self) -> usize {
-        self.light.len() * (size_of::<LightSource>() + 16) + size_of_val(&self.target[..])
+        self.light.len() * (size_of::<LightSource>() + 16) + size_of_val(&self.targets.sphere[..])
     }
 }
 
-/// Bounding spheres of all mirrors and glass; none where one of these is infinite.
-fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
+/// The mirrors and the glass of a scene, and what else light paths from outside need to know of its shapes.
+fn targets(scene: &Census<'_>) -> Result<Arc<Targets>, SceneError> {
+    scene.once(|scene| find_targets(scene).map(Arc::new))
+}
+
+fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
-    let is_specular = |shape: &usize| match shapes.material[*shape] {
+    let is_specular = |shape: usize| match shapes.material[shape] {
         NO_ROW => false,
         material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
     };
-    let mut found = Vec::new();
-    for shape in (0..shapes.kind.len()).filter(is_specular) {
+    let (eye, entities) = (eye(scene)?, shape_entities(scene));
+    let (mut found, mut infinite, mut all) = (Vec::new(), Vec::new(), None::<Bounds>);
+    let mut bounded = true;
+    for shape in 0..shapes.kind.len() {
+        // What moves is none of the listed kinds, and may go anywhere.
+        let listed = listed_kind(shapes.kind[shape]);
         let row = shapes.row[shape] as usize;
-        let around = listed_kind(shapes.kind[shape]).map(|listed| (listed.bounding_sphere)(scene, row)).transpose()?;
-        // A plane is infinite, and a moving shape may go anywhere.
-        let Some((centre, radius)) = around.flatten() else { return Ok(Vec::new()) };
-        found.push(Target::new(centre, radius));
+        if is_specular(shape) {
+            let around = listed.map(|listed| (listed.bounding_sphere)(scene, row)).transpose()?.flatten();
+            bounded &= around.is_some();
+            found.extend(around.map(Target::around));
+        }
+        match listed.map(|listed| (listed.bounds)(scene, row)).transpose()?.flatten() {
+            Some(own) => {
+                let least = all.map_or(own.least, |all| all.least.min(own.least));
+                all = Some(Bounds { least, most: all.map_or(own.most, |all| all.most.max(own.most)) });
+            }
+            None => infinite.push((one_shape(scene, entities[shape])?.body)(scene, entities[shape], eye)?),
+        }
+    }
+    if !bounded {
+        found.clear();
     }
     if found.len() > MOST_TARGETS {
-        let ends = |target: &Target| {
-            let radius = DVec3::splat(target.radius);
-            (target.centre - radius, target.centre + radius)
-        };
-        let (least, most) = found
-            .iter()
-            .map(ends)
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
-        let (centre, radius) = Bounds { least, most }.sphere_around();
-        found = vec![Target::new(centre, radius)];
+        found = vec![Target::around_all(&found)];
     }
-    Ok(found)
+    let scene = all.map_or_else(Target::default, |all| Target::around(all.sphere_around()));
+    Ok(Targets { sphere: found, scene, infinite })
 }
 
-impl Target {
-    fn new(centre: DVec3, radius: f64) -> Self {
-        Self { centre, radius: radius * MARGIN }
-    }
+/// Evidence of a light from which light paths start outside the scene: one without a position, or the sky.
+///
+/// Where a mirror or glass is infinite, no area across such a light holds all that it sends there, and none starts.
+pub fn distant_start_evidence(scene: &Census<'_>) -> Evidence {
+    let distant = shadowed_evidence(scene, true).or(sky_evidence(scene));
+    distant.and(|| match targets(scene) {
+        Ok(targets) if !targets.sphere.is_empty() => Evidence::always("every mirror and glass is bounded"),
+        _ => Evidence { needed: false, reason: "a mirror or glass is infinite".into(), count: 0 },
+    })
 }

@@ -1,11 +1,14 @@
 use super::camera_entity::camera_of;
 use super::check::{at_most_one, kind_and_name, number};
+use super::light_path::distant_start_evidence;
+use super::lights_of::shadowed_evidence;
+use super::sky::sky_evidence;
 use super::{
     ImageFrame, adaptive_of, area_light_evidence, glass_evidence, integrator_of, material_evidence, mirror_evidence,
     motion_evidence,
 };
-use crate::plan::{Census, ComponentKind, Evidence, Table};
-use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
+use crate::plan::{Census, Evidence, Table};
+use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The greatest number of light paths per camera path.
@@ -78,14 +81,20 @@ pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence of a light on which light paths can start.
 pub fn started_on_evidence(scene: &Census<'_>) -> Evidence {
-    area_light_evidence(scene).or(shadowed_point_evidence(scene))
+    area_light_evidence(scene).or(shadowed_point_evidence(scene)).or(distant_start_evidence(scene))
 }
 
-/// Evidence of a point or spot light that casts shadows.
+/// Evidence of a light with a position and no area that casts shadows.
 pub fn shadowed_point_evidence(scene: &Census<'_>) -> Evidence {
-    const POINTS: [ComponentKind; 2] = [ComponentKind::of::<PointLight>(), ComponentKind::of::<SpotLight>()];
-    Evidence::among_any(scene, "point or spot light", &POINTS, |light| {
-        light.get::<PointLight>().is_none_or(|light| light.casts_shadows)
-            && light.get::<SpotLight>().is_none_or(|light| light.casts_shadows)
-    })
+    shadowed_evidence(scene, false)
+}
+
+/// Evidence of a light without a position that casts shadows.
+pub fn shadowed_distant_evidence(scene: &Census<'_>) -> Evidence {
+    shadowed_evidence(scene, true)
+}
+
+/// Evidence that light paths start on the sky, so that the camera's paths must not find the same light.
+pub fn sky_traced_evidence(scene: &Census<'_>) -> Evidence {
+    traced_evidence(scene).and(|| sky_evidence(scene)).and(|| distant_start_evidence(scene))
 }

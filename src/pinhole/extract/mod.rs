@@ -28,7 +28,6 @@ mod camera;
 mod camera_entity;
 mod camera_join;
 mod check;
-mod directional_light;
 mod emissive;
 mod environment;
 mod environment_light;
@@ -47,6 +46,7 @@ mod layers;
 mod lens;
 mod light_path;
 mod light_tracing;
+mod lights_of;
 mod material;
 mod material_kind;
 mod metal;
@@ -55,14 +55,13 @@ mod motion;
 mod moving;
 mod phong;
 mod pixel_steps;
-mod point_light;
 mod pose;
 mod pyramid;
 mod sampling;
 mod shape;
 mod shape_kind;
 mod shapes_of;
-mod spot_light;
+mod sky;
 mod srgb;
 mod texture;
 mod two_colours;
@@ -80,7 +79,6 @@ pub use camera::{
 };
 pub use camera_entity::camera_entity;
 pub use camera_join::CameraJoinTable;
-pub use directional_light::DirectionalLightTable;
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
@@ -99,8 +97,15 @@ pub use integrator::{
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, lens_evidence};
-pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
-pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
+pub use light_path::{LightPathTable, LightSource, Sky, distant_start_evidence};
+pub use light_tracing::{
+    LightTracingTable, shadowed_distant_evidence, shadowed_point_evidence, sky_traced_evidence, started_on_evidence,
+    traced_evidence,
+};
+pub use lights_of::{
+    DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence, light_kinds,
+    point_evidence,
+};
 pub use material::{MaterialTable, material_evidence, matte_evidence};
 pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
 pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
@@ -109,7 +114,6 @@ pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_ev
 pub use moving::{MovingTable, shape_bodies};
 pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
-pub use point_light::PointLightTable;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
@@ -121,7 +125,7 @@ pub use shapes_of::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapesOf, SphereTable, TriangleTable,
     VertexNormalTable,
 };
-pub use spot_light::{SpotLightTable, versine_of_half};
+pub use sky::sky_evidence;
 pub use srgb::linear_from_srgb;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
@@ -157,9 +161,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<EmissiveTable>,
     |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
-    answer::<PointLightTable>,
-    answer::<DirectionalLightTable>,
-    answer::<SpotLightTable>,
+    |scene| light_kinds().iter().try_for_each(|kind| (kind.check)(scene)),
     answer::<TextureMaps>,
     answer::<CheckerTable>,
     answer::<StripesTable>,

@@ -1,14 +1,15 @@
 use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
 use super::integrator::light_sampling_evidence;
+use super::lights_of::light_kinds;
 use super::pose::unevenly_scaled;
 use super::shape_kind::moving_shapes;
 use super::texture::texture_evidence;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
-    Checker, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError, Shutter,
-    Sphere, SpotLight, Stripes, UsesMaterial, called,
+    Checker, Disk, Emissive, ImageTexture, Motion, Rectangle, SceneError, Shutter, Sphere, Stripes, UsesMaterial,
+    called,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -106,18 +107,12 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
     let refused = |entity: Entity, kind: &str, value: &str, accepted: &str| {
         Err(SceneError::new(kind_and_name(scene, kind, entity), "motion", value, accepted))
     };
-    let lights = [
-        scene.entities::<With<PointLight>>(),
-        scene.entities::<With<DirectionalLight>>(),
-        scene.entities::<With<SpotLight>>(),
-    ];
-    if let Some(&light) = lights.iter().flat_map(|lights| lights.iter()).find(|&&light| moves(light)) {
-        return refused(
-            light,
-            "light",
-            "given",
-            "while the shutter is open only shapes and the camera may move, no light",
-        );
+    for kind in light_kinds() {
+        let lights = (kind.entities)(scene);
+        if let Some(&light) = lights.iter().find(|&&light| moves(light)) {
+            let accepted = "while the shutter is open only shapes and the camera may move, no light";
+            return refused(light, "light", "given", accepted);
+        }
     }
     let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
     for &(_, shape) in moving_shapes(scene).iter() {

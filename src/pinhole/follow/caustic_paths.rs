@@ -1,8 +1,10 @@
-use crate::extract::traced_evidence;
-use crate::intersect::MaterialRows;
+use crate::extract::{sky_traced_evidence, traced_evidence};
+use crate::intersect::{Hits, MaterialRows, NO_SHAPE};
 use crate::plan::{Stage, StageKind, TileSystems, column};
-use crate::rays::WorldRays;
+use crate::rays::{Depth, Paths, WorldRays};
+use crate::shade::Radiance;
 use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
 
 column! {
     /// Whether the caustics on a camera path's first surface are computed from the lights; exists where light tracing
@@ -37,4 +39,45 @@ pub fn caustic_paths_stage() -> Stage {
         .on_first_bounce()
         .kind(StageKind::Alternative)
         .when(traced_evidence)
+}
+
+/// The paths that hit nothing, and the radiance of the sky that they found.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct SkyCausticsView {
+    depth: &'static Depth,
+    paths: &'static Paths,
+    caustic: &'static CausticPaths,
+    hits: Option<&'static Hits>,
+    radiance: &'static mut Radiance,
+}
+
+// ANCHOR: leave_sky_caustics
+/// Leaves the sky's light that the camera's paths find behind mirrors or glass to light tracing, which finds the same
+/// light from the sky.
+///
+/// As with emission, that is so where the first surface is not specular and the last one is.
+pub fn leave_sky_caustics(mut tiles: Query<SkyCausticsView>) {
+    for SkyCausticsViewItem { depth, paths, caustic, hits, mut radiance } in &mut tiles {
+        if depth.0 == 0 {
+            continue;
+        }
+        let radiance = &mut *radiance;
+        for row in 0..radiance.r.len() {
+            let missed = hits.is_none_or(|hits| hits.shape[row] == NO_SHAPE);
+            let by_mirror = paths.pdf[row] == f64::INFINITY;
+            if missed && by_mirror && caustic.spread[paths.first[row] as usize] != 0 {
+                (radiance.r[row], radiance.g[row], radiance.b[row]) = (0.0, 0.0, 0.0);
+            }
+        }
+    }
+}
+// ANCHOR_END: leave_sky_caustics
+
+/// The stage that runs [`leave_sky_caustics`].
+pub fn sky_caustics_stage() -> Stage {
+    Stage::new("Leave the sky's caustics to light tracing", TileSystems::Background, leave_sky_caustics)
+        .on_camera_paths()
+        .kind(StageKind::Alternative)
+        .when(sky_traced_evidence)
 }

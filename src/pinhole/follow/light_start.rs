@@ -1,15 +1,16 @@
 use super::{cosine_direction, frame_of};
-use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
+use crate::extract::{GradientTable, LightPathTable, LightSource, SamplingTable, Sky, luminance, traced_evidence};
+use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
-use crate::shade::{MAX_TARGETS_SOLID_ANGLE, Radiance, direction_to_targets, spot_falloff, versine};
-use crate::shapes::emitter::{cone_direction, sphere_direction};
+use crate::shade::{Radiance, environment_direction, environment_radiance, gradient_radiance};
+use crate::shapes::emitter::sphere_direction;
 use crate::shapes::{leaving_point, offset_bound, offset_origin};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
-use glam::{DVec3, Vec3};
-use std::f64::consts::PI;
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
 
 /// The number of light paths in a batch.
 pub const LIGHT_PATHS: u32 = 1024;
@@ -33,51 +34,25 @@ impl LightPower {
     }
 }
 
-/// A ray sampled on a light, and its power.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LightStart {
-    /// The origin, moved off the light by its error bound.
-    pub origin: Vec3,
-    /// A unit vector.
-    pub direction: DVec3,
-    /// Power over the pdf of this ray; a ray of power 0 is left out.
-    pub power: [f64; 3],
-}
-
-/// The random numbers that start a light path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartDraws {
-    /// Selects the light.
-    pub light: u32,
-    /// Selects the point on it.
-    pub point: [f64; 2],
-    /// Selects the direction.
-    pub direction: [f64; 2],
-    /// Selects one of the specular targets.
-    pub target: f64,
-    /// Selects the side of the light.
-    pub side: f64,
-}
-
 // ANCHOR: light_start
 /// Samples a ray that leaves a light, towards mirrors and glass where these subtend a small solid angle.
 ///
-/// An area light emits L cos θ per unit area and steradian, a point light I per steradian; divided by the pdfs of point
-/// and direction, that is the ray's power.
+/// An area light emits L cos θ per unit area and steradian, a point light I per steradian, the sky L per steradian
+/// through each unit of area across it; divided by the pdfs of point and direction, that is the ray's power.
 /// No caustic is missed, since the first surface of a caustic path is a mirror or glass.
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
     let light = table.chosen(draws.light);
     let chosen = 1.0 / table.probability[light];
-    let to_targets =
-        |from: DVec3, limit: f64| direction_to_targets(&table.target, from, limit, draws.target, draws.direction);
-    match table.light[light] {
+    match &table.light[light] {
         LightSource::Area { emitter, radiance, one_sided } => {
-            let point = leaving_point(&emitter, one_sided, draws.point, draws.side);
-            let (direction, weight) = match to_targets(point.position, MAX_TARGETS_SOLID_ANGLE) {
-                Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
-                None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
-            };
+            let point = leaving_point(emitter, *one_sided, draws.point, draws.side);
+            let (targets, limit) = (&table.targets.sphere, MAX_TARGETS_SOLID_ANGLE);
+            let (direction, weight) =
+                match direction_to_targets(targets, point.position, limit, draws.target, draws.direction) {
+                    Some((direction, weight)) => (direction, direction.dot(point.normal).max(0.0) * weight),
+                    None => (frame_of(point.normal) * cosine_direction(draws.direction), PI),
+                };
             let bound = offset_bound(point.position, DVec3::ZERO, point.size);
             LightStart {
                 origin: offset_origin(point.position.as_vec3(), point.normal.as_vec3(), bound),
@@ -85,22 +60,52 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
                 power: radiance.map(|part| part * point.area * weight * chosen),
             }
         }
-        LightSource::Point { position, intensity, cone: None } => {
-            let (direction, weight) =
-                to_targets(position, 2.0 * PI).unwrap_or_else(|| (sphere_direction(draws.direction), 4.0 * PI));
-            let power = intensity.map(|part| part * weight * chosen);
-            LightStart { origin: position.as_vec3(), direction, power }
-        }
-        LightSource::Point { position, intensity, cone: Some((axis, [inner, outer])) } => {
-            let whole = 2.0 * PI * outer;
-            let (direction, weight) =
-                to_targets(position, whole).unwrap_or_else(|| (cone_direction(axis, outer, draws.direction), whole));
-            let weight = spot_falloff(versine(direction, axis), inner, outer) * weight * chosen;
-            LightStart { origin: position.as_vec3(), direction, power: intensity.map(|part| part * weight) }
+        LightSource::Delta(light) => times(light.start(&table.targets, draws), chosen),
+        LightSource::Sky(sky) => {
+            let (to_sky, radiance, pdf) = sky_direction(sky, draws.direction);
+            let irradiance = radiance.map(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
+            times(table.targets.parallel_start(-to_sky, irradiance, draws), chosen)
         }
     }
 }
 // ANCHOR_END: light_start
+
+/// The same ray where the light was chosen with a probability of 1 over `weight`.
+#[inline(always)]
+fn times(start: LightStart, weight: f64) -> LightStart {
+    LightStart { power: start.power.map(|part| part * weight), ..start }
+}
+
+/// A direction to the sky, sampled by its luminance, its radiance there, and its pdf, in 1/sr.
+#[inline(always)]
+fn sky_direction(sky: &Sky, u: [f64; 2]) -> (DVec3, [f64; 3], f64) {
+    const EVEN: f64 = 1.0 / (4.0 * PI);
+    match sky {
+        Sky::Even(radiance) => (sphere_direction(u), *radiance, EVEN),
+        Sky::Gradient(GradientTable { bottom, top }) => {
+            let (y, pdf) = elevation(luminance(*bottom), luminance(*top), u[0]);
+            let (level, (sine, cosine)) = ((1.0 - y * y).max(0.0).sqrt(), libm::sincos(TAU * u[1]));
+            (DVec3::new(level * cosine, y, level * sine), gradient_radiance(*bottom, *top, y), pdf * EVEN)
+        }
+        Sky::Image(environment, light) => {
+            let (direction, pdf) = environment_direction(light, environment.turn, u);
+            (direction, environment_radiance(environment, direction), pdf)
+        }
+    }
+}
+
+/// y in [−1, 1], sampled in proportion to a value that rises linearly from `bottom` to `top`, and the ratio of its pdf
+/// to that of uniform directions.
+///
+/// The fraction of all light below t = (y + 1) / 2 is (bottom t + (top − bottom) t² / 2) over the mean, a quadratic;
+/// this root of it loses no digits where bottom and top are nearly equal.
+#[inline(always)]
+fn elevation(bottom: f64, top: f64, u: f64) -> (f64, f64) {
+    let (mean, rise) = (0.5 * (bottom + top), top - bottom);
+    let root = (bottom * bottom + 2.0 * rise * mean * u).max(0.0).sqrt();
+    let t = if root + bottom > 0.0 { (2.0 * mean * u / (bottom + root)).clamp(0.0, 1.0) } else { 0.5 };
+    (2.0 * t - 1.0, (bottom + rise * t) / mean)
+}
 
 /// A tile of paths from lights, and what each of them starts with.
 #[derive(QueryData)]

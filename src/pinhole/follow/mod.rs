@@ -48,7 +48,9 @@ mod unsampled;
 mod view;
 
 pub use beer::{absorbed, transmittance};
-pub use caustic_paths::{CausticPaths, caustic_paths_stage, mark_caustic_paths};
+pub use caustic_paths::{
+    CausticPaths, caustic_paths_stage, leave_sky_caustics, mark_caustic_paths, sky_caustics_stage,
+};
 pub use classify::{GlassRows, MetalRows, MirrorRows, classify_materials, classify_materials_stage};
 pub use deeper_media::{DeeperMedia, deeper_media_evidence};
 pub use depth::{
@@ -68,9 +70,7 @@ pub use highlight::{
     phong_sample_stage, sample_highlight,
 };
 pub use last_bounce::{end_at_max_depth, max_depth_stage};
-pub use light_start::{
-    LIGHT_PATHS, LightPower, LightStart, StartDraws, light_start, light_start_stage, start_on_lights,
-};
+pub use light_start::{LIGHT_PATHS, LightPower, light_start, light_start_stage, start_on_lights};
 pub use lobe::{Highlight, Lobe};
 pub use matte::{matte_light_stage, matte_stage, sample_matte};
 pub use media::{

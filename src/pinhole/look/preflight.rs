@@ -3,13 +3,12 @@ use super::pilot::{Pilot, pilot};
 use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
-    ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, shape_name,
-    traced_evidence,
+    ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, distant_start_evidence,
+    emissive_evidence, followed_evidence, glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence,
+    point_evidence, shadowed_distant_evidence, shadowed_point_evidence, shape_name, traced_evidence,
 };
 use crate::plan::{Census, Evidence, ExtractedTable, Plan};
-use crate::scene::{DirectionalLight, Environment, Integrator};
-use crate::shade::point_evidence;
+use crate::scene::{Environment, Integrator};
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
 
@@ -158,20 +157,23 @@ fn missing_paths(scene: &Census<'_>) -> Vec<String> {
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }
-    let directional = Evidence::of::<DirectionalLight>(scene, "directional light");
-    let placed = shadowed_point_evidence(scene);
+    let distant = shadowed_distant_evidence(scene);
+    let starts_outside = !distant.needed || distant_start_evidence(scene).needed;
+    let started = shadowed_point_evidence(scene);
+    let started = if distant.needed && starts_outside { started.or(distant.clone()) } else { started };
     let mut warnings = Vec::new();
-    if placed.needed && !traced_evidence(scene).needed {
+    if started.needed && !traced_evidence(scene).needed {
         warnings.push(format!(
             "light that arrives through mirrors or glass ({}) from a light without an area ({}) is missing on matte \
              surfaces, since no sampled ray can hit a point; LightTracing on the camera, beside paths, finds it from the light",
-            bends.reason, placed.reason
+            bends.reason, started.reason
         ));
     }
-    if directional.needed {
+    if !starts_outside {
         warnings.push(format!(
-            "no paths start on lights without a position ({}): their light through mirrors or glass is missing",
-            directional.reason
+            "no paths start on lights without a position ({}) where a mirror or glass is infinite: their light through \
+             it is missing; a disk, a rectangle or a cuboid in its place is not",
+            distant.reason
         ));
     }
     warnings

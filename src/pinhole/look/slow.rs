@@ -1,6 +1,6 @@
 use super::pilot::Pilot;
+use crate::extract::point_evidence;
 use crate::plan::Census;
-use crate::shade::point_evidence;
 
 /// A warning about time is given from this many seconds on.
 const LONG: f64 = 600.0;

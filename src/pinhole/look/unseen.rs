@@ -1,11 +1,10 @@
 //! Light and materials that the camera's integrator leaves out, and the integrator that includes them.
 
 use crate::extract::{
-    emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence,
+    emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence, point_evidence,
 };
 use crate::plan::Census;
 use crate::scene::Integrator;
-use crate::shade::point_evidence;
 
 /// A sentence for each kind of light or material in the scene that its integrator does not render.
 pub fn unseen(scene: &Census<'_>) -> Vec<String> {

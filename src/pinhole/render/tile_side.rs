@@ -1,6 +1,6 @@
-use crate::extract::shape_entities;
+use crate::extract::{point_evidence, shape_entities};
 use crate::plan::{Census, ColumnKind, Plan};
-use crate::shade::{LightPdfs, LightRays, ShadowHits, point_evidence};
+use crate::shade::{LightPdfs, LightRays, ShadowHits};
 
 /// The greatest memory for the shadow rays of a worker's tile, in bytes, without the spare capacity of the lists.
 const MOST_BYTES: f64 = (16_u32 << 20) as f64;

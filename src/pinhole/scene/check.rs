@@ -1,6 +1,6 @@
 //! Checks of the numbers that components have in common; each gives the one sentence of an error message.
 
-use super::SceneError;
+use super::{Rgb, SceneError};
 use glam::DVec3;
 
 /// Lengths beyond this leave no room for squares and sums in f32.
@@ -27,6 +27,26 @@ pub fn positive_length(who: &str, field: &'static str, length: f64) -> Result<f6
     } else {
         let accepted = format!("it must be a length from {:e} to {LARGEST_LENGTH:e}", 1.0 / LARGEST_LENGTH);
         Err(SceneError::new(who, field, number(length), accepted))
+    }
+}
+
+/// Checks a colour of light: each component finite and at least 0.
+pub fn light_colour(who: &str, field: &'static str, colour: Rgb) -> Result<Rgb, SceneError> {
+    colour_within(who, field, colour, f64::from(f32::MAX), "each part must be a finite number from 0 to 3.4e38")
+}
+
+/// Checks that each component of a colour lies from 0 to `most`.
+pub fn colour_within(
+    who: &str,
+    field: &'static str,
+    colour: Rgb,
+    most: f64,
+    accepted: &str,
+) -> Result<Rgb, SceneError> {
+    if colour.to_array().iter().all(|part| (0.0..=most).contains(part)) {
+        Ok(colour)
+    } else {
+        Err(SceneError::new(who, field, triple(colour.to_vec()), accepted))
     }
 }
 

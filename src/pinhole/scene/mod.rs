@@ -78,7 +78,7 @@ pub use bevy_ecs::hierarchy::ChildOf;
 pub use bevy_ecs::name::Name;
 pub use blinn_phong::BlinnPhong;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
-pub(crate) use check::{finite_point, number, positive_length, triple};
+pub(crate) use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use checker::Checker;
 pub use colour::Rgb;
 pub use cuboid::Cuboid;

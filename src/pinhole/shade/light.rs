@@ -1,12 +1,11 @@
 use super::{Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
-    MaterialTable, area_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
-    occlusion_evidence, traced_evidence, unless_occlusion,
+    MaterialTable, area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence,
+    material_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{NO_SHAPE, RayColumn, ShadingNormals, Surface, Surfaces, falling_cosine};
-use crate::plan::{Census, Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::scene::{DirectionalLight, PointLight, SpotLight};
-use crate::shapes::{RaySlices, offset_origin};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
+use crate::shapes::RaySlices;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 
@@ -104,7 +103,6 @@ pub fn matte_radiance(colour: [f64; 3], irradiance: [f64; 3]) -> [f64; 3] {
 }
 // ANCHOR_END: matte_radiance
 
-// ANCHOR: shadow_ray_to
 /// The geometry of a ray from a surface to a light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ShadowRay {
@@ -114,17 +112,6 @@ pub(super) struct ShadowRay {
     /// Cosine of the angle between the shading normal and the direction; at most 0 where the surface faces away.
     pub cosine: f64,
 }
-
-/// The shadow ray to a point; `normal` is the shading normal, which is the geometric one where there is no other.
-#[inline(always)]
-pub(super) fn shadow_ray_to(surface: &Surface, normal: DVec3, light: DVec3) -> ShadowRay {
-    let origin = offset_origin(surface.position, surface.normal, surface.bound);
-    let to_light = light - origin.as_dvec3();
-    let distance = to_light.length();
-    let direction = (to_light * (1.0 / distance)).as_vec3();
-    ShadowRay { origin, direction, distance, cosine: cosine_of(surface, normal, direction) }
-}
-// ANCHOR_END: shadow_ray_to
 
 /// The cosine by the shading normal, or 0 where the light is behind the geometric surface.
 #[inline(always)]
@@ -302,13 +289,8 @@ pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that there is a light of any kind to which shadow rays are traced.
 pub(super) fn light_evidence(scene: &Census<'_>) -> Evidence {
-    let sampled = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
+    let sampled = unless_occlusion(scene, or_light(scene, delta_light_evidence(scene, "light", |_| true)));
     either(sampled, traced_evidence(scene))
-}
-
-/// Evidence that there is a light without an area.
-pub fn point_evidence(scene: &Census<'_>) -> Evidence {
-    Evidence::among_any(scene, "light without an area", &LIGHTS, |_| true)
 }
 
 /// The evidence of lights without an area, or else that there are others and they are sampled.
@@ -317,7 +299,3 @@ pub(super) fn or_light(scene: &Census<'_>, points: Evidence) -> Evidence {
         area_light_evidence(scene).or(environment_light_evidence(scene)).and(|| light_sampling_evidence(scene));
     if others.needed { points.or(others) } else { points }
 }
-
-/// The components that are lights without an area; a new one is added here.
-pub(super) const LIGHTS: [ComponentKind; 3] =
-    [ComponentKind::of::<PointLight>(), ComponentKind::of::<DirectionalLight>(), ComponentKind::of::<SpotLight>()];

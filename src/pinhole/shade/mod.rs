@@ -20,7 +20,7 @@ mod blinn_phong;
 mod camera_join;
 mod checker;
 mod colour;
-mod directional_light;
+mod delta_light;
 mod emissive;
 mod environment;
 mod environment_light;
@@ -30,13 +30,10 @@ mod highlight;
 mod image_circle;
 mod image_texture;
 mod light;
-mod light_targets;
 mod lookup;
 mod phong;
-mod point_light;
 mod radiance;
 mod shadow;
-mod spot_light;
 mod surface_colour;
 mod texture_point;
 mod unintersected;
@@ -61,7 +58,10 @@ pub use checker::{
 #[doc(hidden)]
 pub use colour::SurfaceColours;
 #[doc(hidden)]
-pub use directional_light::{directional_light_stage, irradiance_from_direction, sample_directional_lights};
+pub use delta_light::{
+    directional_light_stage, light_sampling_stage, light_sampling_stages, point_light_stage, sample_lights,
+    spot_light_stage,
+};
 #[doc(hidden)]
 pub use emissive::{add_emission, emissive_stage};
 #[doc(hidden)]
@@ -82,17 +82,13 @@ pub use image_circle::{image_circle_stage, in_image_circle, mask_image_circle};
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
-    LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, point_evidence, shadow_t_max,
-    start_light, start_light_stage,
+    LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_t_max, start_light,
+    start_light_stage,
 };
-#[doc(hidden)]
-pub use light_targets::{MAX_TARGETS_SOLID_ANGLE, direction_to_targets};
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 #[doc(hidden)]
 pub use phong::{add_phong, mirror_cosine, phong_stage};
-#[doc(hidden)]
-pub use point_light::{irradiance_from_point, point_light_stage, sample_point_lights};
 pub use radiance::Radiance;
 #[doc(hidden)]
 pub use radiance::{start_radiance, start_stage};
@@ -101,8 +97,6 @@ pub use shadow::{
     ShadowHits, moving_shadow_stage, plane_shadow_stage, shape_shadow_stage, shape_shadow_stages, sphere_shadow_stage,
     start_shadow_stage, start_shadows,
 };
-#[doc(hidden)]
-pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};
 #[doc(hidden)]
 pub use surface_colour::{colour_stage, colour_surfaces};
 #[doc(hidden)]

@@ -1,11 +1,11 @@
 use super::LightRays;
-use super::light::{LIGHTS, either, or_light};
+use super::light::{either, or_light};
 use crate::extract::{
-    kind_evidence, material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
+    delta_light_evidence, kind_evidence, light_kinds, material_evidence, moving_evidence, occlusion_evidence,
+    traced_evidence, unless_occlusion,
 };
 use crate::intersect::{HitColumn, NO_SHAPE, intersect_moving, intersect_shapes};
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{DirectionalLight, PointLight, SpotLight};
 use crate::shapes::{Listed, PlacedPlane, PlacedSphere, ShapeVisitor, visit_shapes};
 use bevy_ecs::prelude::*;
 
@@ -95,10 +95,8 @@ pub fn moving_shadow_stage() -> Stage {
 
 /// Evidence that a light casts shadows on a material.
 pub fn shadow_evidence(scene: &Census<'_>) -> Evidence {
-    let points = Evidence::among_any(scene, "shadow-casting light", &LIGHTS, |entity| {
-        entity.get::<PointLight>().is_some_and(|light| light.casts_shadows)
-            || entity.get::<DirectionalLight>().is_some_and(|light| light.casts_shadows)
-            || entity.get::<SpotLight>().is_some_and(|light| light.casts_shadows)
+    let points = delta_light_evidence(scene, "shadow-casting light", |entity| {
+        light_kinds().iter().any(|kind| (kind.casts_shadows)(entity))
     });
     let receiving = or_light(scene, points).and(|| material_evidence(scene));
     either(either(unless_occlusion(scene, receiving), traced_evidence(scene)), occlusion_evidence(scene))

@@ -10,11 +10,14 @@ use crate::naive::light::{
 use glam::{DVec3, Vec3};
 use pinhole::extract::{
     BlinnPhongTable, DirectionalLightTable, MaterialKind, MaterialTable, PhongTable, PointLightTable, SpotLightTable,
-    blinn_phong_peak, phong_peak, versine_of_half,
+    blinn_phong_peak, phong_peak,
 };
 use pinhole::intersect::{MaterialRows, Surface, Surfaces};
+use pinhole::lights::{
+    PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, spot_falloff, versine, versine_of_half,
+};
 use pinhole::scene::Degrees;
-use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_falloff, versine};
+use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine};
 use pinhole::shapes::offset_bound;
 use std::ops::Range;
 
@@ -131,11 +134,8 @@ fn check_suns(range: Range<u64>) -> Tally {
             bound: offset_bound(position.as_dvec3(), DVec3::ZERO, 0.0),
             material: 0,
         }));
-        bench.insert(DirectionalLightTable {
-            to_light: vec![to_light],
-            irradiance: vec![[1.0; 3]],
-            casts_shadows: vec![true],
-        });
+        let sun = PlacedDirectionalLight { to_light, irradiance: [1.0; 3] };
+        bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows: vec![true] });
         bench.run();
         let rays = bench.column::<LightRays>();
         let (pinhole, t_max) =
@@ -216,15 +216,12 @@ fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64;
 /// One light of each kind, the spot's edge at the surface.
 fn lights(bench: &mut Bench, position: DVec3, to_light: DVec3, strength: [f64; 3]) {
     let casts_shadows = vec![false];
-    bench.insert(PointLightTable {
-        position: vec![position],
-        intensity: vec![strength],
-        casts_shadows: casts_shadows.clone(),
-    });
-    let (inner, outer) = (vec![0.0], vec![1.0]);
-    let (position, axis, intensity) = (vec![position], vec![-to_light], vec![strength]);
-    bench.insert(SpotLightTable { position, axis, intensity, inner, outer, casts_shadows: casts_shadows.clone() });
-    bench.insert(DirectionalLightTable { to_light: vec![to_light], irradiance: vec![strength], casts_shadows });
+    let point = PlacedPointLight { position, intensity: strength };
+    bench.insert(PointLightTable { row: vec![point], casts_shadows: casts_shadows.clone() });
+    let spot = PlacedSpotLight { position, axis: -to_light, intensity: strength, inner: 0.0, outer: 1.0 };
+    bench.insert(SpotLightTable { row: vec![spot], casts_shadows: casts_shadows.clone() });
+    let sun = PlacedDirectionalLight { to_light, irradiance: strength };
+    bench.insert(DirectionalLightTable { row: vec![sun], casts_shadows });
 }
 
 fn surfaces(surface: Surface) -> Surfaces {

@@ -10,6 +10,7 @@ use pinhole::extract::{
     ShapeTable, TriangleTable,
 };
 use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
+use pinhole::lights::PlacedPointLight;
 use pinhole::plan::{Column, Stage};
 use pinhole::shade::{self, LightRays, ShadowHits};
 use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, ShapeKind, Slabs, TriangleRow};
@@ -159,11 +160,8 @@ impl ShadowStages {
         surfaces.slices_mut(1);
         surfaces.set(0, surface);
         self.to_light.put(surfaces);
-        self.to_light.insert(PointLightTable {
-            position: vec![light],
-            intensity: vec![[1.0; 3]],
-            casts_shadows: vec![true],
-        });
+        let light = PlacedPointLight { position: light, intensity: [1.0; 3] };
+        self.to_light.insert(PointLightTable { row: vec![light], casts_shadows: vec![true] });
         self.to_light.run();
         let (rays, hits) = (self.to_light.column::<LightRays>(), self.to_light.column::<ShadowHits>());
         (rays.rows() == 1).then(|| Shadow {

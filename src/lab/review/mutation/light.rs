@@ -7,8 +7,9 @@ use pinhole::extract::{
 };
 use pinhole::film::{Curve, FilmTile, byte_from_linear, srgb_from_linear};
 use pinhole::intersect::{EmissiveRows, Surfaces};
+use pinhole::lights::irradiance_from_point;
 use pinhole::plan::{Column, Shared};
-use pinhole::shade::{LightRays, Radiance, ShadowHits, irradiance_from_point, matte_radiance};
+use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
 use std::mem::swap;
 
 /// Radiance that does not start at 0.
@@ -44,7 +45,7 @@ pub fn sun_without_cosine(suns: Res<Shared<DirectionalLightTable>>, mut tiles: Q
         let rays = &mut *rays;
         for ray in 0..rays.rows() {
             if rays.t_max[ray] == f32::INFINITY {
-                [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.irradiance[0].map(|part| part as f32);
+                [rays.r[ray], rays.g[ray], rays.b[ray]] = suns.row[0].irradiance.map(|part| part as f32);
             }
         }
     }
@@ -68,13 +69,13 @@ pub fn spot_without_fading(spots: Res<Shared<SpotLightTable>>, mut tiles: Query<
     for (surfaces, mut rays) in &mut tiles {
         for ray in 0..rays.rows() {
             let origin = DVec3::new(f64::from(rays.ox[ray]), f64::from(rays.oy[ray]), f64::from(rays.oz[ray]));
-            let offset = spots.position[0] - origin;
+            let offset = spots.row[0].position - origin;
             let direction = rays.direction_of(ray);
             if offset.normalize().dot(direction) < 1.0 - 1e-9 || rays.t_max[ray] == f32::INFINITY {
                 continue;
             }
             let cosine = surfaces.get(rays.path[ray] as usize).normal.as_dvec3().dot(direction);
-            let whole = irradiance_from_point(spots.intensity[0], cosine, offset.length_squared());
+            let whole = irradiance_from_point(spots.row[0].intensity, cosine, offset.length_squared());
             [rays.r[ray], rays.g[ray], rays.b[ray]] = whole.map(|part| part as f32);
         }
     }

@@ -1,0 +1,90 @@
+//! One stage for each registered light without an area: a shadow ray from each surface to each of its lights.
+
+use super::LightRays;
+use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_rays, cosine_of, shadow_t_max};
+use super::view::{LightSamplingView, LightSamplingViewItem};
+use crate::extract::{LightsOf, material_evidence, unless_occlusion};
+use crate::intersect::Surface;
+use crate::lights::{
+    Light, LightVisitor, ListedLight, PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, SceneLight,
+    visit_lights,
+};
+use crate::plan::{Evidence, Shared, Stage, TileSystems};
+use crate::shapes::offset_origin;
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use multiversion::multiversion;
+use std::any::TypeId;
+
+// ANCHOR: shadow_ray_to
+/// The shadow ray to a light, and the irradiance that it brings if it is not blocked; `normal` is the shading normal,
+/// which is the geometric one where there is no other.
+#[inline(always)]
+fn shadow_ray_to<L: Light>(light: &L, surface: &Surface, normal: DVec3) -> LightRay {
+    let origin = offset_origin(surface.position, surface.normal, surface.bound);
+    let sample = light.sample(origin.as_dvec3());
+    let cosine = cosine_of(surface, normal, sample.direction);
+    let irradiance = L::irradiance(&sample, cosine);
+    let is_lit = sample.strength != [0.0; 3];
+    let ray = ShadowRay {
+        origin,
+        direction: sample.direction,
+        distance: sample.distance,
+        cosine: if is_lit { cosine } else { 0.0 },
+    };
+    LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance }
+}
+// ANCHOR_END: shadow_ray_to
+
+/// Appends shadow rays to all lights of one kind, light after light.
+pub fn sample_lights<L: ListedLight>(lights: Res<Shared<LightsOf<L>>>, mut tiles: Query<LightSamplingView>) {
+    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows { surfaces, shading, rows: &list.row };
+        for (light, &casts_shadows) in lights.row.iter().zip(&lights.casts_shadows) {
+            sample_rows(&receivers, light, casts_shadows, (&mut rays, pdfs.as_deref_mut()));
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sample_rows<L: Light>(receivers: &LightRows<'_>, light: &L, casts_shadows: bool, rays: RayLists<'_>) {
+    let light = light.clone();
+    append_rays(receivers, rays, casts_shadows, |surface, normal| shadow_ray_to(&light, surface, normal));
+}
+
+/// The stage that runs [`sample_lights`].
+pub fn light_sampling_stage<L: ListedLight>() -> Stage {
+    Stage::new(L::NAMES.sample, TileSystems::SampleLights, sample_lights::<L>).appends::<LightRays>().when(|scene| {
+        let found = Evidence::of::<L::Component>(scene, L::Component::WORD);
+        unless_occlusion(scene, found.and(|| material_evidence(scene)))
+    })
+}
+
+/// The stage that samples point lights.
+pub fn point_light_stage() -> Stage {
+    light_sampling_stage::<PlacedPointLight>()
+}
+
+/// The stage that samples directional lights.
+pub fn directional_light_stage() -> Stage {
+    light_sampling_stage::<PlacedDirectionalLight>()
+}
+
+/// The stage that samples spot lights.
+pub fn spot_light_stage() -> Stage {
+    light_sampling_stage::<PlacedSpotLight>()
+}
+
+/// The stages that sample each registered light, and whether it is the point light, with which direct light is
+/// introduced.
+pub fn light_sampling_stages() -> Vec<(bool, fn() -> Stage)> {
+    struct Collected(Vec<(bool, fn() -> Stage)>);
+    impl LightVisitor for Collected {
+        fn visit<L: ListedLight>(&mut self) {
+            self.0.push((TypeId::of::<L>() == TypeId::of::<PlacedPointLight>(), light_sampling_stage::<L>));
+        }
+    }
+    let mut collected = Collected(Vec::new());
+    visit_lights(&mut collected);
+    collected.0
+}
