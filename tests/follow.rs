@@ -4,6 +4,8 @@
 mod broken;
 #[path = "follow/caustics.rs"]
 mod caustics;
+#[path = "follow/distant.rs"]
+mod distant;
 #[path = "follow/long_paths.rs"]
 mod long_paths;
 #[path = "follow/materials.rs"]

@@ -8,6 +8,7 @@ mod film;
 mod follow;
 mod invariance;
 mod lens;
+mod lights;
 mod motion;
 mod order;
 mod plan;

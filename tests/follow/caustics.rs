@@ -14,13 +14,13 @@ use scenes::caustics::{caustics, traced};
 use std::f64::consts::PI;
 
 /// A mean over seeds, and its standard error.
-struct Mean {
-    mean: f64,
-    error: f64,
+pub(super) struct Mean {
+    pub mean: f64,
+    pub error: f64,
 }
 
 /// The mean of green over the image, over renders with seeds of their own.
-fn mean_of(make: &dyn Fn() -> World, offer: &[Stage], samples: u32, seeds: u64) -> Mean {
+pub(super) fn mean_of(make: &dyn Fn() -> World, offer: &[Stage], samples: u32, seeds: u64) -> Mean {
     let means: Vec<f64> = (0..seeds)
         .map(|seed| {
             let mut world = make();
@@ -40,7 +40,7 @@ fn mean_of(make: &dyn Fn() -> World, offer: &[Stage], samples: u32, seeds: u64) 
 }
 
 /// A camera with paths and light tracing that looks from `eye` at a square of the ground or the ceiling this wide.
-fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, perspective: bool, max_depth: u32) {
+pub(super) fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, perspective: bool, max_depth: u32) {
     let look = LookAt { eye, target, up: DVec3::Z };
     let integrator = Integrator::Path { max_depth, lights: LightStrategy::Mis, roulette: 0 };
     let size = Resolution { width: 16, height: 16 };
@@ -91,16 +91,16 @@ fn through_layers(x: f64, layers: &[(f64, f64)]) -> f64 {
 }
 
 /// A scene, its name, and the irradiance over π that a ground of albedo 1 shows.
-struct Form {
-    name: &'static str,
-    truth: f64,
-    make: Box<dyn Fn() -> World>,
-    samples: u32,
+pub(super) struct Form {
+    pub name: &'static str,
+    pub truth: f64,
+    pub make: Box<dyn Fn() -> World>,
+    pub samples: u32,
 }
 
-const WIDTH: f64 = 1.0;
+pub(super) const WIDTH: f64 = 1.0;
 
-fn white() -> Matte {
+pub(super) fn white() -> Matte {
     Matte { colour: Rgb::grey(1.0) }
 }
 
@@ -162,14 +162,16 @@ fn into_water(name: &'static str, lamp: fn(&mut World)) -> Form {
 }
 
 fn forms() -> Vec<Form> {
-    vec![
+    let mut forms = super::distant::forms();
+    forms.extend([
         over_a_mirror(true),
         over_a_mirror(false),
         through_a_pane("point through a pane", |world| _ = world.spawn(point(2.2))),
         through_a_pane("small ball through a pane", |world| _ = world.spawn(ball(2.2))),
         into_water("point over water", |world| _ = world.spawn(point(2.2))),
         into_water("small ball over water", |world| _ = world.spawn(ball(2.2))),
-    ]
+    ]);
+    forms
 }
 
 const SEEDS: u64 = 10;
@@ -202,7 +204,7 @@ fn a_factor_that_is_forgotten_is_found() {
 }
 
 /// Whether light from the lamps brings what the camera's paths alone bring, to every block of pixels.
-fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
+pub(super) fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
     const SETS: u64 = 12;
     let alone = renders(make, LightStrategy::Mis, 6 * samples, 0..SETS);
     for (number, lights) in [LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis].into_iter().enumerate() {
@@ -391,5 +393,9 @@ fn what_only_light_tracing_finds_is_said_before() {
     for world in [&mut plain, &mut asking] {
         world.spawn((Name::new("sun"), DirectionalLight::default()));
     }
+    assert!(told(&plain).contains("directional light: \"sun\") is missing"), "{}", told(&plain));
+    assert!(!told(&asking).contains("missing"), "{}", told(&asking));
+    // Water without an end: no area across the sun holds all that it sends there.
+    asking.spawn((Name::new("sea"), Plane::default(), Placement::at(0.0, -1.0, 0.0), Glass::default()));
     assert!(told(&asking).contains("no paths start on lights without a position (1 directional light: \"sun\")"));
 }

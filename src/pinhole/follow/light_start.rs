@@ -178,3 +178,28 @@ pub fn light_start_stage() -> Stage {
         .kind(StageKind::Alternative)
         .when(traced_evidence)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The number that an elevation was sampled by is the fraction of the light below it, and the pdf its slope.
+    #[test]
+    fn elevations_fall_as_a_gradient_s_light() {
+        let mut tried = 0;
+        for [bottom, top] in [[1.0, 1.0], [0.0, 2.0], [3.0, 0.0], [1.0, 1.0 + 1e-12], [0.2, 50.0], [1e-30, 4e-30]] {
+            let mean = 0.5 * (bottom + top);
+            for step in 0..1000 {
+                let u = (f64::from(step) + 0.5) / 1000.0;
+                let (y, pdf) = elevation(bottom, top, u);
+                let t = 0.5 * (y + 1.0);
+                let below = (bottom * t + 0.5 * (top - bottom) * t * t) / mean;
+                assert!((below - u).abs() < 1e-12, "{bottom} {top}: {below} for {u}");
+                let value = gradient_radiance([bottom; 3], [top; 3], y)[0];
+                assert!((pdf * mean / value - 1.0).abs() < 1e-9, "{bottom} {top} at {y}: {pdf}");
+                tried += 1;
+            }
+        }
+        eprintln!("elevations: {tried}");
+    }
+}
