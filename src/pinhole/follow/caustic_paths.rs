@@ -52,7 +52,6 @@ pub struct SkyCausticsView {
     radiance: &'static mut Radiance,
 }
 
-// ANCHOR: leave_sky_caustics
 /// Leaves the sky's light that the camera's paths find behind mirrors or glass to light tracing, which finds the same
 /// light from the sky.
 ///
@@ -72,7 +71,6 @@ pub fn leave_sky_caustics(mut tiles: Query<SkyCausticsView>) {
         }
     }
 }
-// ANCHOR_END: leave_sky_caustics
 
 /// The stage that runs [`leave_sky_caustics`].
 pub fn sky_caustics_stage() -> Stage {

@@ -32,12 +32,14 @@ impl Light for PlacedPointLight {
         Ok(Self { position, intensity: light_colour(placed.who, "intensity", light.intensity)?.to_array() })
     }
 
+    // ANCHOR: sample_point_light
     #[inline(always)]
     fn sample(&self, from: DVec3) -> LightSample {
         let to_light = self.position - from;
         let distance = to_light.length();
         LightSample { direction: (to_light * (1.0 / distance)).as_vec3(), distance, strength: self.intensity }
     }
+    // ANCHOR_END: sample_point_light
 
     #[inline(always)]
     fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3] {
