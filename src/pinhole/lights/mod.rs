@@ -29,11 +29,13 @@ mod light;
 mod point;
 mod registry;
 mod spot;
+mod start;
 mod targets;
 
 pub use directional::{PlacedDirectionalLight, irradiance_from_direction};
-pub use light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws};
+pub use light::{Light, LightSample, PlacedLight, SceneLight};
 pub use point::{PlacedPointLight, irradiance_from_point};
 pub use registry::{AnyLight, LightNames, LightVisitor, ListedLight, visit_lights};
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
+pub use start::{LightStart, StartDraws};
 pub use targets::{MAX_TARGETS_SOLID_ANGLE, MOST_TARGETS, Target, Targets, direction_to_targets};

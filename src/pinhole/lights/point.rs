@@ -1,4 +1,5 @@
-use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws};
+use super::light::{Light, LightSample, PlacedLight, SceneLight};
+use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{PointLight, SceneError, finite_point, light_colour};
 use crate::shapes::emitter::sphere_direction;

@@ -1,6 +1,7 @@
 //! What is made from the list of lights: where a light may be of any kind, its kind is looked up here and nowhere else.
 
-use super::light::{Light, LightStart, StartDraws};
+use super::light::Light;
+use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 
 /// A light of the list.

@@ -1,5 +1,6 @@
-use super::light::{Light, LightSample, LightStart, PlacedLight, SceneLight, StartDraws};
+use super::light::{Light, LightSample, PlacedLight, SceneLight};
 use super::point::irradiance_from_point;
+use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{Degrees, SceneError, SpotLight, finite_point, light_colour, number};
 use crate::shapes::emitter::cone_direction;
