@@ -10,23 +10,25 @@
 
 /// The registered shapes, one line each; a further shape is added with a line, and everything else is generic over it.
 ///
-/// A line holds its name as a kind, the type that implements [`Shape`](crate::shapes::Shape), its noun for a field, and
+/// A line holds its name as a kind, the type that implements [`Shape`]($crate::shapes::Shape), its noun for a field, and
 /// the noun's plural.
 /// The order is that of the stages; it does not affect any picture.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! with_shapes {
     ($then:ident) => {
         $then! {
-            Sphere(crate::shapes::PlacedSphere) sphere "spheres",
-            Ellipsoid(crate::shapes::Ellipsoid) ellipsoid "ellipsoids",
-            Plane(crate::shapes::PlacedPlane) plane "planes",
-            Disk(crate::shapes::PlacedDisk) disk "disks",
-            Rectangle(crate::shapes::PlacedRectangle) rectangle "rectangles",
-            Cuboid(crate::shapes::Slabs) cuboid "cuboids",
-            Triangle(crate::shapes::TriangleRow) triangle "triangles",
+            Sphere($crate::shapes::PlacedSphere) sphere "spheres",
+            Ellipsoid($crate::shapes::Ellipsoid) ellipsoid "ellipsoids",
+            Plane($crate::shapes::PlacedPlane) plane "planes",
+            Disk($crate::shapes::PlacedDisk) disk "disks",
+            Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
+            Cuboid($crate::shapes::Slabs) cuboid "cuboids",
+            Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
 }
-pub(crate) use with_shapes;
+pub use with_shapes;
 
 mod bounds;
 mod cuboid;

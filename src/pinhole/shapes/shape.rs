@@ -19,6 +19,11 @@ pub trait SceneShape: Component<Mutability = Mutable> + Copy + Default {
 
     /// Multiplies all of its lengths.
     fn scale(&mut self, by: f64);
+
+    /// Components that the tests of all shapes try: the default, and what is harder, such as thin parts.
+    fn examples() -> Vec<Self> {
+        vec![Self::default()]
+    }
 }
 
 /// Where a shape's entity is placed.
