@@ -55,7 +55,7 @@ pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, 
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
         let listed = one_shape(scene, shape)?;
-        if listed.has_inside {
+        if (listed.has_inside)(scene, shape) {
             continue;
         }
         let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
