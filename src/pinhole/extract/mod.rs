@@ -28,6 +28,7 @@ mod camera;
 mod camera_entity;
 mod camera_join;
 mod check;
+mod closed_mesh;
 mod cuboid;
 mod directional_light;
 mod disk;
@@ -70,6 +71,7 @@ mod sampling;
 mod shape;
 mod shape_kind;
 mod sky;
+mod spacing;
 mod sphere;
 mod spot_light;
 mod srgb;
@@ -182,6 +184,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<CuboidTable>,
     answer::<TriangleTable>,
     answer::<MovingTable>,
+    spacing::check_spacing,
     answer::<PointLightTable>,
     answer::<DirectionalLightTable>,
     answer::<SpotLightTable>,

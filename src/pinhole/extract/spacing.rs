@@ -1,0 +1,94 @@
+//! Whether f64 resolves a scene where it lies.
+
+use super::camera::eye;
+use super::camera_entity::named_camera;
+use super::check::{kind_and_name, number, triple};
+use super::pose::{Pose, pose};
+use super::shape_kind::{one_shape, shape_entities};
+use crate::plan::Census;
+use crate::scene::{Cuboid, Disk, LookAt, Plane, Rectangle, SceneError, Sphere, Triangle};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// A length is resolved if it is at least this many times the distance between neighbouring numbers.
+const STEPS: f64 = 1024.0;
+/// A displacement of at most this fraction of the distance from the eye is less than a quarter of the narrowest pixel.
+const UNSEEN: f64 = 1e-6;
+
+/// Checks that rounding the positions of shapes and of the camera to f64 cannot be seen: far from the world's origin
+/// neighbouring numbers are so far apart that a whole scene may collapse onto a few of them.
+///
+/// Errors: the camera, where it looks at a target that is not resolved; the first shape whose size is not resolved at
+/// its position, and which is so near to the eye that its displacement would show.
+pub(super) fn check_spacing(scene: &Census<'_>) -> Result<(), SceneError> {
+    let eye = eye(scene)?;
+    let (who, camera) = named_camera(scene)?;
+    if let Some(look) = scene.get::<LookAt>(camera) {
+        let (ahead, apart) = (look.eye.distance(look.target), spacing(look.eye.abs().max(look.target.abs())));
+        if apart * STEPS > ahead {
+            return Err(unresolved(who, "eye", look.eye, apart, &format!("to look at a point {ahead:.1e} away")));
+        }
+    }
+    for &shape in shape_entities(scene).iter() {
+        let kind = one_shape(scene, shape)?.word;
+        let who = kind_and_name(scene, kind, shape);
+        check_shape(scene, who, shape, eye)?;
+    }
+    Ok(())
+}
+
+fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Result<(), SceneError> {
+    let pose = pose(scene, &who, shape)?;
+    let position = pose.world_from_entity.translation;
+    if let Some(plane) = scene.get::<Plane>(shape) {
+        let normal = (pose.entity_from_world.transpose() * plane.normal).normalize_or_zero();
+        let (away, apart) = ((position - eye).dot(normal).abs(), spacing_along(normal, position, eye));
+        if away > 0.0 && apart * STEPS > away {
+            return Err(unresolved(who, "position", position, apart, &format!("for a plane {away:.1e} from the eye")));
+        }
+        return Ok(());
+    }
+    let (field, shown, at, size) = match scene.get::<Triangle>(shape) {
+        Some(triangle) => {
+            let [a, b, c] = triangle.vertices.map(|vertex| pose.world_from_entity.transform_point3(vertex));
+            let size = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            let placed = position.abs().max_element() >= triangle.vertices[0].abs().max_element();
+            let (field, shown) = if placed { ("position", position) } else { ("vertices", triangle.vertices[0]) };
+            (field, shown, a, size)
+        }
+        None => ("position", position, position, size_of_shape(scene, shape, &pose)),
+    };
+    let apart = spacing(at.abs().max(position.abs()).max(eye.abs()));
+    if apart * STEPS > size && apart > UNSEEN * at.distance(eye) {
+        return Err(unresolved(who, field, shown, apart, &format!("for a shape {size:.1e} across")));
+    }
+    Ok(())
+}
+
+/// The greatest extent of a shape in world space; 0 for one without any.
+fn size_of_shape(scene: &Census<'_>, shape: Entity, pose: &Pose) -> f64 {
+    let whole = scene.get::<Sphere>(shape).map(|sphere| DVec3::splat(2.0 * sphere.radius));
+    let whole = whole.or(scene.get::<Disk>(shape).map(|disk| DVec3::new(2.0 * disk.radius, 0.0, 2.0 * disk.radius)));
+    let whole = whole.or(scene.get::<Rectangle>(shape).map(|own| DVec3::new(own.width, 0.0, own.depth)));
+    let whole = whole.or(scene.get::<Cuboid>(shape).map(|cuboid| cuboid.size));
+    let along = |axis: usize| pose.world_from_entity.matrix3.col(axis).length();
+    whole.map_or(f64::INFINITY, |size| (0..3).map(|axis| size[axis] * along(axis)).fold(0.0, f64::max))
+}
+
+/// The distance between neighbouring numbers, at most, where coordinates are as large as these.
+fn spacing(size: DVec3) -> f64 {
+    size.max_element() * f64::EPSILON
+}
+
+/// The greatest error along a direction of the difference of two rounded points.
+fn spacing_along(direction: DVec3, one: DVec3, other: DVec3) -> f64 {
+    direction.abs().dot(one.abs().max(other.abs())) * f64::EPSILON
+}
+
+fn unresolved(who: String, field: &'static str, at: DVec3, apart: f64, what: &str) -> SceneError {
+    let apart = number(format!("{apart:.1e}").parse().unwrap_or(apart));
+    let accepted = format!(
+        "there 64-bit numbers are {apart} apart, too coarse {what}: move the scene nearer to the world's origin"
+    );
+    SceneError::new(who, field, triple(at), accepted)
+}
