@@ -1,3 +1,4 @@
+use super::emitters::emitters;
 use super::inside::shape_around_camera;
 use super::pilot::{Pilot, pilot};
 use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
@@ -69,6 +70,7 @@ pub fn preflight(
     }
     warnings.extend(shape_around_camera(scene, &shapes)?);
     warnings.extend(unseen(scene));
+    warnings.extend(emitters(scene)?);
     warnings.extend(missing_paths(scene));
     if pilot.rays > 0 {
         warnings.extend(slow(pilot.seconds_a_ray + effort.light_paths * pilot.seconds_a_light_path, effort));
