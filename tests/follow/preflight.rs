@@ -208,7 +208,7 @@ fn under(integrator: impl Bundle, light: impl Fn(&mut World)) -> Vec<String> {
     let mut world = World::new();
     let look = LookAt { eye: DVec3::new(0.0, 2.0, 6.0), ..LookAt::default() };
     world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, integrator));
-    world.spawn((Name::new("floor"), Plane::default(), Matte::default(), Placement::at(0.0, -1.0, 0.0)));
+    world.spawn((Name::new("floor"), Plane::default(), Matte::default(), Placement::at(0.0, -20.0, 0.0)));
     light(&mut world);
     said(&world).expect("accepted")
 }

@@ -118,3 +118,23 @@ impl Default for Integrator {
         Self::PATH
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each kind with all fields left out, and with each field given alone.
+    #[test]
+    fn every_field_has_a_default() {
+        let read = |text: &str| ron::from_str::<Integrator>(text).expect(text);
+        assert_eq!(read("RayCasting"), Integrator::RayCasting);
+        assert_eq!(read("Whitted()"), Integrator::WHITTED);
+        assert_eq!(read("AmbientOcclusion()"), Integrator::AmbientOcclusion { distance: f64::INFINITY });
+        assert_eq!(read("Distribution()"), Integrator::DISTRIBUTION);
+        assert_eq!(read("Path()"), Integrator::PATH);
+        let (max_depth, lights, roulette) = (MANY_SEGMENTS, LightStrategy::Mis, USUAL_ROULETTE);
+        assert_eq!(read("Path(max_depth: 4)"), Integrator::Path { max_depth: 4, lights, roulette });
+        assert_eq!(read("Path(lights: Light)"), Integrator::Path { max_depth, lights: LightStrategy::Light, roulette });
+        assert_eq!(read("Path(roulette: 0)"), Integrator::Path { max_depth, lights, roulette: 0 });
+    }
+}
