@@ -60,7 +60,7 @@ pub const CAMERAS: &[Case] = &[
         let camera = named(w, "main");
         w.despawn(camera);
     }),
-    ("the only camera disabled", &["camera", "missing"], |w| put(w, "main", Disabled)),
+    ("the only camera disabled", &["camera is \"main\", which is disabled"], |w| put(w, "main", Disabled)),
     ("no samples", &["\"main\"", "samples", "is 0,", "1 to 16777216"], |w| {
         put(w, "main", Sampling { samples: 0, ..Sampling::default() });
     }),
@@ -148,9 +148,6 @@ pub const CAMERAS: &[Case] = &[
         let scale = DVec3::new(1.0, 3.0, 1.0);
         let parent = w.spawn(Placement { scale, ..Placement::default() }).id();
         child_of(w, "main", parent);
-    }),
-    ("a disabled camera", &["camera", "\"main\", which is disabled"], |w| {
-        put(w, "main", Disabled);
     }),
     ("a camera mirrored by its parent", &["\"main\"'s parent", "scale is (-1, -1, -1), which mirrors"], |w| {
         let parent = w.spawn(Placement { scale: DVec3::splat(-1.0), ..Placement::default() }).id();

@@ -26,7 +26,13 @@ pub(super) fn check_spacing(scene: &Census<'_>) -> Result<(), SceneError> {
     if let Some(look) = scene.get::<LookAt>(camera) {
         let (ahead, apart) = (look.eye.distance(look.target), spacing(look.eye.abs().max(look.target.abs())));
         if apart * STEPS > ahead {
-            return Err(unresolved(who, "eye", look.eye, apart, &format!("to look at a point {ahead:.1e} away")));
+            return Err(unresolved(
+                who,
+                "eye",
+                look.eye,
+                apart,
+                &format!("to look at a point {} away", rounded(ahead)),
+            ));
         }
     }
     for &shape in shape_entities(scene).iter() {
@@ -44,7 +50,13 @@ fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Re
         let normal = (pose.entity_from_world.transpose() * plane.normal).normalize_or_zero();
         let (away, apart) = ((position - eye).dot(normal).abs(), spacing_along(normal, position, eye));
         if away > 0.0 && apart * STEPS > away {
-            return Err(unresolved(who, "position", position, apart, &format!("for a plane {away:.1e} from the eye")));
+            return Err(unresolved(
+                who,
+                "position",
+                position,
+                apart,
+                &format!("for a plane {} from the eye", rounded(away)),
+            ));
         }
         return Ok(());
     }
@@ -60,7 +72,7 @@ fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Re
     };
     let apart = spacing(at.abs().max(position.abs()).max(eye.abs()));
     if apart * STEPS > size && apart > UNSEEN * at.distance(eye) {
-        return Err(unresolved(who, field, shown, apart, &format!("for a shape {size:.1e} across")));
+        return Err(unresolved(who, field, shown, apart, &format!("for a shape {} across", rounded(size))));
     }
     Ok(())
 }
@@ -86,9 +98,14 @@ fn spacing_along(direction: DVec3, one: DVec3, other: DVec3) -> f64 {
 }
 
 fn unresolved(who: String, field: &'static str, at: DVec3, apart: f64, what: &str) -> SceneError {
-    let apart = number(format!("{apart:.1e}").parse().unwrap_or(apart));
     let accepted = format!(
-        "there 64-bit numbers are {apart} apart, too coarse {what}: move the scene nearer to the world's origin"
+        "there 64-bit numbers are {} apart, too coarse {what}: move the scene nearer to the world's origin",
+        rounded(apart)
     );
     SceneError::new(who, field, triple(at), accepted)
+}
+
+/// A length to two digits.
+fn rounded(length: f64) -> String {
+    number(format!("{length:.1e}").parse().unwrap_or(length))
 }
