@@ -141,7 +141,7 @@ pub const CAMERAS: &[Case] = &[
     ("a scaled camera", &["\"main\"", "scale", "(2, 2, 2)"], |w| {
         edit::<Placement>(w, "main", |p| p.scale = DVec3::splat(2.0));
     }),
-    ("a mirrored camera", &["\"main\"", "scale is (1, 1, -1), which mirrors"], |w| {
+    ("a mirrored camera", &["\"main\"", "scale is (-1, 1, 1), which mirrors"], |w| {
         edit::<Placement>(w, "main", |p| p.scale = DVec3::new(-1.0, 1.0, 1.0));
     }),
     ("a camera scaled by its parent", &["\"main\"", "scale", "(1, 3, 1)"], |w| {

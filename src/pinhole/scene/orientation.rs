@@ -104,7 +104,7 @@ mod tests {
             worst = worst.max((matrix - turned).to_cols_array().iter().fold(0.0, |worst, part| worst.max(part.abs())));
             let axis = draws.unit_vector() * draws.power_of_ten(-200.0, 200.0);
             let turned = axis_angle(axis, Degrees(x));
-            let along = axis / axis.abs().max_element();
+            let along = (axis / axis.abs().max_element()).normalize();
             worst = worst.max((turned * along - along).length());
             let across = along.any_orthonormal_vector();
             worst = worst.max(((turned * across).dot(across) - libm::cos(a)).abs());
