@@ -50,11 +50,37 @@ enum Group {
 }
 use Group::*;
 
+/// A stage on offer, and the group that it belongs to.
+type Grouped = (Group, fn() -> Stage);
+
+/// Stages in order, and then those of every registered shape.
+struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
+
+/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
+fn group_of(group: Group, is_uneven: bool) -> Group {
+    if is_uneven { Transforms } else { group }
+}
+
+fn intersections() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+}
+
+fn surface_points() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+}
+
+fn shadow_rays() -> Vec<Grouped> {
+    let stages = shade::shape_shadow_stages().into_iter();
+    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+}
+
 /// All stages in the order of the data flow.
 ///
 /// Where several of one set add to the same sums, their order here decides the last bits of the picture.
 #[rustfmt::skip]
-const LIST: &[(Group, fn() -> Stage)] = &[
+const LIST: &[Part] = &[Part(&[
     // Image points become rays in world space, or rays start on the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
@@ -78,13 +104,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Bounces, follow::start_scattered_stage),
 
     // Rays are intersected with each kind of shape, and the closest hit is kept.
-    (Intersection, intersect::sphere_stage),
-    (Transforms, intersect::ellipsoid_stage),
-    (Intersection, intersect::plane_stage),
-    (Intersection, intersect::disk_stage),
-    (Intersection, intersect::rectangle_stage),
-    (Intersection, intersect::cuboid_stage),
-    (Intersection, intersect::triangle_stage),
+], intersections), Part(&[
     (Motion, intersect::moving_stage),
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
@@ -95,13 +115,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (LightTracing, follow::caustic_paths_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
-    (Surfaces, intersect::sphere_surface_stage),
-    (Transforms, intersect::ellipsoid_surface_stage),
-    (Surfaces, intersect::plane_surface_stage),
-    (Surfaces, intersect::disk_surface_stage),
-    (Surfaces, intersect::rectangle_surface_stage),
-    (Surfaces, intersect::cuboid_surface_stage),
-    (Surfaces, intersect::triangle_surface_stage),
+], surface_points), Part(&[
     (Motion, intersect::moving_surface_stage),
     (Transforms, intersect::shading_normal_stage),
     (Textures, shade::footprint_stage),
@@ -132,13 +146,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
 
     // Shadow rays are traced.
     (Shadows, shade::start_shadow_stage),
-    (Shadows, shade::sphere_shadow_stage),
-    (Transforms, shade::ellipsoid_shadow_stage),
-    (Shadows, shade::plane_shadow_stage),
-    (Shadows, shade::disk_shadow_stage),
-    (Shadows, shade::rectangle_shadow_stage),
-    (Shadows, shade::cuboid_shadow_stage),
-    (Shadows, shade::triangle_shadow_stage),
+], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
@@ -182,7 +190,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (WideCameras, shade::image_circle_stage),
     (Film, film::moments_stage),
     (Film, film::film_stage),
-];
+], Vec::new)];
 
 fn of(group: Group) -> Vec<Stage> {
     listed(|own| own == group)
@@ -190,7 +198,8 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let places = LIST.iter().enumerate().filter(|(_, (group, _))| wanted(*group));
+    let all = LIST.iter().flat_map(|Part(stages, of_shapes)| stages.iter().copied().chain(of_shapes()));
+    let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }
 
@@ -205,7 +214,7 @@ pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places = PLACES.get_or_init(|| all().iter().map(|stage| (stage.id, stage.place)).collect());
     for stage in offer.iter_mut() {
-        stage.place = places.get(&stage.id).copied().unwrap_or(LIST.len());
+        stage.place = places.get(&stage.id).copied().unwrap_or(usize::MAX);
     }
     offer.sort_by_key(|stage| stage.place);
 }

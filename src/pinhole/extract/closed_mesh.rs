@@ -46,10 +46,10 @@ fn sums(
 ) -> HashMap<Edge, (i64, (usize, usize))> {
     let mut sums = HashMap::new();
     for &row in rows {
-        let corners = triangles.triangle[row].corners.map(|corner| joined(bits(corner)));
+        let corners = triangles.row[row].corners.map(|corner| joined(bits(corner)));
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let [from, to] = [corners[from], corners[to]];
-            let step = if (from < to) == triangles.turned[row] { -1 } else { 1 };
+            let step = if (from < to) == triangles.beside[row].turned { -1 } else { 1 };
             if from != to {
                 let (sum, (_, count)) = sums.entry([from.min(to), from.max(to)]).or_insert((0, (row, 0)));
                 *sum += step;
@@ -67,7 +67,7 @@ fn bits(corner: DVec3) -> Corner {
 
 /// For each of these corners the one that stands for all that may be the same.
 fn joined(triangles: &TriangleTable, rows: &[usize], corners: Vec<Corner>) -> HashMap<Corner, Corner> {
-    let all = || rows.iter().flat_map(|&row| triangles.triangle[row].corners);
+    let all = || rows.iter().flat_map(|&row| triangles.row[row].corners);
     let (least, most) =
         all().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)));
     let apart = ONE_CORNER * (most - least).max_element();
@@ -89,6 +89,7 @@ fn joined(triangles: &TriangleTable, rows: &[usize], corners: Vec<Corner>) -> Ha
 mod tests {
     use super::*;
     use crate::measure::ray_aim::Draws;
+    use crate::shapes::TriangleFace;
     use glam::{DQuat, DVec2};
 
     /// The corners of a platonic solid's triangles, anticlockwise from outside.
@@ -114,7 +115,12 @@ mod tests {
 
     fn table(triangles: &[[DVec3; 3]]) -> (TriangleTable, Vec<usize>) {
         let mut table = TriangleTable::default();
-        triangles.iter().for_each(|corners| table.push(*corners, [DVec2::ZERO, DVec2::X, DVec2::Y], 0));
+        for corners in triangles {
+            let (row, face) = TriangleFace::of(*corners, [DVec2::ZERO, DVec2::X, DVec2::Y]);
+            table.row.push(row);
+            table.beside.push(face);
+            table.shape.push(0);
+        }
         (table, (0..triangles.len()).collect())
     }
 

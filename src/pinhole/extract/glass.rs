@@ -2,9 +2,9 @@ use super::TriangleTable;
 use super::check::{kind_and_name, light_colour, number};
 use super::closed_mesh::{OpenMesh, open_mesh};
 use super::material_kind::{material_kind_evidence, used_material};
-use super::shape_kind::{numbered, shape_name};
+use super::shape_kind::{one_shape, shape_entities, shape_name};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Disk, Glass, Rectangle, SceneError, Triangle, called};
+use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 
@@ -56,36 +56,32 @@ pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, 
 
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
-    let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
-    let mut open: Vec<(Entity, &str)> = of("disk", numbered::<Disk>(scene)).collect();
-    open.extend(of("rectangle", numbered::<Rectangle>(scene)));
-    open.sort_by_key(|(shape, _)| shape.index());
-    for (shape, kind) in open {
+    for &shape in shape_entities(scene).iter() {
+        let listed = one_shape(scene, shape)?;
+        if listed.has_inside {
+            continue;
+        }
         let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
         let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
-        return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
+        return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     check_meshes(scene)
 }
 
 /// Checks that the triangles of each kind of glass close around an interior.
 fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
+    let (triangles, shapes) = (scene.table::<TriangleTable>()?, shape_entities(scene));
     let mut meshes: BTreeMap<Entity, Vec<usize>> = BTreeMap::new();
-    for (row, (_, shape)) in numbered::<Triangle>(scene).into_iter().enumerate() {
-        if let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) {
+    for (row, &shape) in triangles.shape.iter().enumerate() {
+        let material = shapes.get(shape as usize).and_then(|&shape| used_material(scene, shape));
+        if let Some(material) = material.filter(|&own| scene.get::<Glass>(own).is_some()) {
             meshes.entry(material).or_default().push(row);
         }
     }
-    if meshes.is_empty() {
-        return Ok(());
-    }
-    let triangles = scene.table::<TriangleTable>()?;
-    // A triangle that moves is in another table, and its numbers are not rows of this one.
-    let meshes = meshes.iter().filter(|_| triangles.shape.len() == numbered::<Triangle>(scene).len());
-    let open = meshes.filter_map(|(material, rows)| Some((open_mesh(&triangles, rows)?, *material)));
+    let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(&triangles, rows)?, *material)));
     let Some((OpenMesh { row, turned }, material)) = open.min_by_key(|(open, _)| open.row) else { return Ok(()) };
     let why = if turned {
         "this triangle shows another side than its neighbour: swap two of its vertices"

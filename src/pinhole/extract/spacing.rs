@@ -1,12 +1,13 @@
 //! Whether f64 resolves a scene where it lies.
 
+use super::ShapeTable;
 use super::camera::eye;
 use super::camera_entity::named_camera;
 use super::check::{kind_and_name, number, triple};
-use super::pose::{Pose, pose};
-use super::shape_kind::{one_shape, shape_entities};
+use super::pose::pose;
+use super::shape_kind::{listed_kind, one_shape, shape_entities};
 use crate::plan::Census;
-use crate::scene::{Cuboid, Disk, LookAt, Plane, Rectangle, SceneError, Sphere, Triangle};
+use crate::scene::{LookAt, Plane, SceneError, Triangle};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -35,15 +36,20 @@ pub(super) fn check_spacing(scene: &Census<'_>) -> Result<(), SceneError> {
             ));
         }
     }
-    for &shape in shape_entities(scene).iter() {
+    for (number, &shape) in shape_entities(scene).iter().enumerate() {
         let kind = one_shape(scene, shape)?.word;
         let who = kind_and_name(scene, kind, shape);
-        check_shape(scene, who, shape, eye)?;
+        check_shape(scene, who, (number, shape), eye)?;
     }
     Ok(())
 }
 
-fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Result<(), SceneError> {
+fn check_shape(
+    scene: &Census<'_>,
+    who: String,
+    (number, shape): (usize, Entity),
+    eye: DVec3,
+) -> Result<(), SceneError> {
     let pose = pose(scene, &who, shape)?;
     let position = pose.world_from_entity.translation;
     if let Some(plane) = scene.get::<Plane>(shape) {
@@ -68,7 +74,7 @@ fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Re
             let (field, shown) = if placed { ("position", position) } else { ("vertices", triangle.vertices[0]) };
             (field, shown, a, size)
         }
-        None => ("position", position, position, size_of_shape(scene, shape, &pose)),
+        None => ("position", position, position, size_of_shape(scene, number)?),
     };
     let apart = spacing(at.abs().max(position.abs()).max(eye.abs()));
     if apart * STEPS > size && apart > UNSEEN * at.distance(eye) {
@@ -77,14 +83,12 @@ fn check_shape(scene: &Census<'_>, who: String, shape: Entity, eye: DVec3) -> Re
     Ok(())
 }
 
-/// The greatest extent of a shape in world space; 0 for one without any.
-fn size_of_shape(scene: &Census<'_>, shape: Entity, pose: &Pose) -> f64 {
-    let whole = scene.get::<Sphere>(shape).map(|sphere| DVec3::splat(2.0 * sphere.radius));
-    let whole = whole.or(scene.get::<Disk>(shape).map(|disk| DVec3::new(2.0 * disk.radius, 0.0, 2.0 * disk.radius)));
-    let whole = whole.or(scene.get::<Rectangle>(shape).map(|own| DVec3::new(own.width, 0.0, own.depth)));
-    let whole = whole.or(scene.get::<Cuboid>(shape).map(|cuboid| cuboid.size));
-    let along = |axis: usize| pose.world_from_entity.matrix3.col(axis).length();
-    whole.map_or(f64::INFINITY, |size| (0..3).map(|axis| size[axis] * along(axis)).fold(0.0, f64::max))
+/// The greatest extent of the box around a shape that keeps still; infinite for others.
+fn size_of_shape(scene: &Census<'_>, number: usize) -> Result<f64, SceneError> {
+    let shapes = scene.table::<ShapeTable>()?;
+    let Some(listed) = listed_kind(shapes.kind[number]) else { return Ok(f64::INFINITY) };
+    let bounds = (listed.bounds)(scene, shapes.row[number] as usize)?;
+    Ok(bounds.map_or(f64::INFINITY, |bounds| (bounds.most - bounds.least).max_element()))
 }
 
 /// The distance between neighbouring numbers, at most, where coordinates are as large as these.

@@ -6,11 +6,12 @@ use super::{DeeperMedia, GlassRows, Media, Scattered, ScatteredRay, fresnel, mir
 use crate::extract::{
     GlassTable, NO_ROW, SamplingTable, followed_evidence, glass_evidence, needed_if, traced_evidence,
 };
-use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces, offset_origin};
+use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, WorldRays, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

@@ -1,8 +1,9 @@
 use super::view::{BsdfView, BsdfViewItem};
 use super::{MirrorRows, Scattered, ScatteredRay, mirror_direction};
 use crate::extract::{MirrorTable, followed_evidence, mirror_evidence};
-use crate::intersect::{ShadingNormals, offset_origin};
+use crate::intersect::ShadingNormals;
 use crate::plan::{Shared, Stage, TileSystems};
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

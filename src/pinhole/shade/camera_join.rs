@@ -1,10 +1,11 @@
 use super::LightRays;
 use super::light::{LightRay, LightRows, ShadowRay, append_sampled, shadow_t_max};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
-use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine, offset_origin};
+use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Draws, Paths, SampleNumber, Tile, WorldRays, draws_of_two, join_camera, lens_point};
 use crate::sample::Purpose;
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec2;

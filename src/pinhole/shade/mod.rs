@@ -22,7 +22,6 @@ mod checker;
 mod colour;
 mod directional_light;
 mod emissive;
-pub mod emitter;
 mod environment;
 mod environment_light;
 mod footprint;
@@ -31,6 +30,7 @@ mod highlight;
 mod image_circle;
 mod image_texture;
 mod light;
+mod light_targets;
 mod lookup;
 mod phong;
 mod point_light;
@@ -86,6 +86,8 @@ pub use light::{
     start_light, start_light_stage,
 };
 #[doc(hidden)]
+pub use light_targets::{MAX_TARGETS_SOLID_ANGLE, direction_to_targets};
+#[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 #[doc(hidden)]
 pub use phong::{add_phong, mirror_cosine, phong_stage};
@@ -96,9 +98,8 @@ pub use radiance::Radiance;
 pub use radiance::{start_radiance, start_stage};
 #[doc(hidden)]
 pub use shadow::{
-    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
-    plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
-    triangle_shadow_stage,
+    ShadowHits, moving_shadow_stage, plane_shadow_stage, shape_shadow_stage, shape_shadow_stages, sphere_shadow_stage,
+    start_shadow_stage, start_shadows,
 };
 #[doc(hidden)]
 pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};

@@ -1,11 +1,12 @@
 use super::Footprints;
 use crate::extract::{
-    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence,
-    most_of, texture_evidence,
+    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, filtered_by_uv_evidence,
+    texture_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
+use crate::shapes::{face_axes, most_of};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DMat3, DVec3};

@@ -12,9 +12,10 @@ use pinhole::extract::{
     BlinnPhongTable, DirectionalLightTable, MaterialKind, MaterialTable, PhongTable, PointLightTable, SpotLightTable,
     blinn_phong_peak, phong_peak, versine_of_half,
 };
-use pinhole::intersect::{MaterialRows, Surface, Surfaces, offset_bound};
+use pinhole::intersect::{MaterialRows, Surface, Surfaces};
 use pinhole::scene::Degrees;
 use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine, spot_falloff, versine};
+use pinhole::shapes::offset_bound;
 use std::ops::Range;
 
 const HIGHLIGHT: [Method; 2] = [
