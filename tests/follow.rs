@@ -4,6 +4,8 @@
 mod broken;
 #[path = "follow/caustics.rs"]
 mod caustics;
+#[path = "follow/far.rs"]
+mod far;
 #[path = "follow/long_paths.rs"]
 mod long_paths;
 #[path = "follow/materials.rs"]
@@ -14,6 +16,8 @@ mod nested;
 mod numerics;
 #[path = "follow/preflight.rs"]
 mod preflight;
+#[path = "follow/sky.rs"]
+mod sky;
 use crate::scenes;
 
 use bevy_ecs::prelude::*;
