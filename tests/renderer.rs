@@ -15,4 +15,5 @@ mod sampling;
 mod scenes;
 mod stages;
 mod textures;
+mod ties;
 mod words;

@@ -177,6 +177,43 @@ fn means_vary_as_theory_says_and_are_unbiased() {
     eprintln!("means: no net varies more than {dearest:.2} times as much as dice");
 }
 
+/// Bounces are independent of each other: (u − ½)(v − ½) of one number each from two bounces has the mean 0, and its mean
+/// over n samples the variance 1/144n, whatever order a sampler takes its points in.
+#[test]
+fn bounces_are_independent() {
+    const SAMPLES: u32 = 64;
+    const PIXELS: u32 = 1500;
+    let (mut tried, mut greatest) = (0, 0.0_f64);
+    for (one, other) in [(0, 1), (1, 2), (1, 3), (2, 3), (2, 7)] {
+        for purpose in Purpose::ALL {
+            for (word, sampler) in Sampler::ALL {
+                let number = |sample: u32, depth: u32, key: PixelKey| match sampler {
+                    Sampler::Independent => Independent::new(sample, depth, purpose).one(key),
+                    Sampler::Stratified => Stratified::new(sample, SAMPLES, depth, purpose).one(key),
+                    Sampler::Sobol => Sobol::new(sample, depth, purpose).one(key),
+                };
+                let mean_of = |pixel: u32| {
+                    let key = PixelKey::new(29, [pixel, 3]);
+                    let product =
+                        |sample| (unit(number(sample, one, key)) - 0.5) * (unit(number(sample, other, key)) - 0.5);
+                    (0..SAMPLES).map(product).sum::<f64>() / f64::from(SAMPLES)
+                };
+                let means: Vec<f64> = (0..PIXELS).map(mean_of).collect();
+                let variance = means.iter().map(|mean| mean * mean).sum::<f64>() / f64::from(PIXELS);
+                let relative = variance * 144.0 * f64::from(SAMPLES);
+                let mean = means.iter().sum::<f64>() / f64::from(PIXELS);
+                let off = mean / (variance / f64::from(PIXELS)).sqrt();
+                // A standard error of √(2/1500), and what a shuffled net leaves between bounces.
+                let told = format!("{word}, {purpose:?}, bounces {one} and {other}: {relative:.3} times, {off:+.1} SE");
+                assert!(relative < 1.5 && off.abs() < 4.5, "{told}");
+                greatest = greatest.max(relative);
+                tried += 1;
+            }
+        }
+    }
+    eprintln!("bounces: {tried} pairs of bounces, variance at most {greatest:.2} times that of independent numbers");
+}
+
 /// The slope of the variance: −1 by dice, −2 with one sample a cell, steeper with Owen's scrambling where it is smooth.
 #[test]
 fn slopes_are_those_of_theory() {
