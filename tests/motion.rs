@@ -140,7 +140,7 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
         let mut world = moving(world, "thing", velocity, 0.25, 1.0);
         // So that there is a surface.
         let thing = named(&mut world, "thing");
-        world.entity_mut(thing).insert(Matte::default());
+        world.entity_mut(thing).remove::<Emissive>().insert(Matte::default());
         world.spawn((PointLight::default(), Placement::at(0.0, 0.0, 5.0)));
         let inspection = inspect(&world, &offer(), 32).expect("inspects");
         for &tile in &inspection.tiles {
