@@ -4,7 +4,7 @@
 //! or sign in each of many functions, and builds all of these mutations at once, each behind a switch that is read when
 //! the program runs; so one build serves all.
 //! A first run of every test records which mutated functions it reaches.
-//! Then each mutation is switched on and the tests that reach it run, the quickest first, until one fails.
+//! Then each mutation is switched on, and the tests that run its function follow, the quickest first, until one fails.
 //! Snapshots always pass (insta's own switch), and the target `chapters` does not run, so that what catches a mutation
 //! is a closed form, an identity or an independent method.
 //! What fails or is too slow without any mutation is left out and listed.

@@ -106,7 +106,7 @@ fn vertex_normals_answer_every_light_as_a_surface_that_leans_so() {
     eprintln!("vertex normals: {tried} pairs of {SETS} × {} paths", 64 * SAMPLES);
 }
 
-/// Lights without an area leave nothing to chance, so the two agree to rounding.
+/// Lights without an area are seen in one direction only, so nothing is random and the two agree to rounding.
 #[test]
 fn vertex_normals_answer_lights_without_area_exactly() {
     type Spawn = fn(&mut World);
