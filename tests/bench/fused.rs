@@ -17,9 +17,9 @@ use pinhole::intersect::{NO_SHAPE, Surface, l1_norm, nearness, offset_bound, off
 use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
-    Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
+    Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler,
 };
-use pinhole::scene::{Filter, Sampler, SceneError};
+use pinhole::scene::{Filter, SceneError};
 use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
 use std::sync::{Mutex, PoisonError};
 
@@ -90,15 +90,10 @@ pub fn render(world: &World, threads: usize) -> Film {
 fn render_tile(scene: &Scene, film: &mut FilmTile) {
     let Some(SamplingTable { samples, sampler, .. }) = scene.sampling else { return add_centres(scene, film) };
     let (numbers, purpose) = (0..samples, Purpose::Pixel);
-    match sampler {
-        Sampler::Independent => {
-            add_samples(scene, &numbers.map(|n| Independent::new(n, 0, purpose)).collect::<Vec<_>>(), film);
-        }
-        Sampler::Stratified => {
-            add_samples(scene, &numbers.map(|n| Stratified::new(n, samples, 0, purpose)).collect::<Vec<_>>(), film);
-        }
-        Sampler::Sobol => add_samples(scene, &numbers.map(|n| Sobol::new(n, 0, purpose)).collect::<Vec<_>>(), film),
-    }
+    let sample = |number| SampleIndex { number, samples, depth: 0 };
+    with_sampler!(sampler, D => {
+        add_samples(scene, &numbers.map(|n| D::of(sample(n), purpose)).collect::<Vec<_>>(), film);
+    });
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]

@@ -111,7 +111,8 @@ pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
 /// The axis of the face that O + tR hits first; at an edge or a vertex, the first of the axes.
 pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     let f = slabs.centre - origin;
-    let all = [0, 1, 2].map(|axis| slab(f, direction, slabs.normal[axis], slabs.half[axis]));
+    let along = |axis: usize| slab(f, direction, slabs.normal[axis], slabs.half[axis]);
+    let all = [along(0), along(1), along(2)];
     let from_outside = all.iter().any(|[near, _]| near.least > 0.0);
     let from_inside = all.iter().all(|[near, _]| near.most < 0.0);
     let is_first = |axis: usize| {

@@ -147,12 +147,10 @@ pub fn intersect_triangles<R: RayColumn, H: HitColumn>(
 /// The number of rays that are sorted together.
 const CHUNK: usize = 1024;
 
-/// The number of rays of a block that are intersected together: as many as fit a SIMD register.
-const GROUP: usize = 4;
-
-/// Tests one triangle at a time against all rays; if none of four intersects the bounding sphere, they are skipped.
+/// Tests one triangle at a time against blocks of rays; where none of a block intersects its bounding sphere, the block
+/// is skipped.
 ///
-/// Rays are sorted by the axis of their largest component, so that each block of sixteen needs one kind of shear.
+/// Rays are sorted by the axis of their largest component, so that each block needs one kind of shear.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn triangle_rows(rays: RaySlices<'_>, triangles: &TriangleTable, t: &mut [f64], shape: &mut [u32]) {
     let mut start = 0;
@@ -219,12 +217,9 @@ fn rows_along<const Z: usize>(
                 let f = triangle.centre - vector(&o, lane);
                 *nearness_of_lane = nearness(f, vector(&d, lane), inverse[lane], triangle.bounding_radius);
             }
-            let (near, _) = nearest.as_chunks::<GROUP>();
-            let t = own_t[..rows.len()].chunks_mut(GROUP);
-            for (group, (t, shape)) in t.zip(own_shape[..rows.len()].chunks_mut(GROUP)).enumerate() {
-                if near[group].iter().any(|&nearness| nearness >= 0.0) {
-                    keep_closest::<Z>(&o, &d, &sheared, group, triangle, number, t, shape);
-                }
+            if nearest.iter().any(|&nearness| nearness >= 0.0) {
+                let (t, shape) = (&mut own_t[..rows.len()], &mut own_shape[..rows.len()]);
+                keep_closest::<Z>([&o, &d], &sheared, triangle, number, t, shape);
             }
         }
         for (lane, &row) in rows.iter().enumerate() {
@@ -236,31 +231,25 @@ fn rows_along<const Z: usize>(
 /// The shears x, y and z of a block of rays, and |O|₁.
 type Sheared = [[f64; LANES]; 4];
 
-/// Keeps the closest hits of one group of a block's rays, which all have their largest component along `Z`.
+/// Keeps the closest hits of one block of rays, which all have their largest component along `Z`.
 #[inline(always)]
 fn keep_closest<const Z: usize>(
-    o: &[[f64; LANES]; 3],
-    d: &[[f64; LANES]; 3],
-    sheared: &Sheared,
-    group: usize,
+    [o, d]: [&[[f64; LANES]; 3]; 2],
+    [x, y, z, size]: &Sheared,
     triangle: &TriangleRow,
     number: u32,
     t: &mut [f64],
     shape: &mut [u32],
 ) {
-    let of_group = |components: &[f64; LANES]| components.as_chunks::<GROUP>().0[group];
-    let ([ox, oy, oz], [x, y, z, size]) = (o.each_ref().map(of_group), sheared.each_ref().map(of_group));
-    let (mut found, mut uncertain) = ([f64::INFINITY; GROUP], [false; GROUP]);
-    for lane in 0..GROUP {
+    let (mut found, mut uncertain) = ([f64::INFINITY; LANES], [false; LANES]);
+    for lane in 0..LANES {
         let shear = Shear { x: x[lane], y: y[lane], z: z[lane] };
-        let origin = DVec3::new(ox[lane], oy[lane], oz[lane]);
-        let intersection = intersection::<Z>(origin, shear, triangle, size[lane]);
+        let intersection = intersection::<Z>(vector(o, lane), shear, triangle, size[lane]);
         (found[lane], uncertain[lane]) = (intersection.t, intersection.uncertain);
     }
     for (lane, (t, shape)) in t.iter_mut().zip(shape).enumerate() {
         if uncertain[lane] {
-            let row = group * GROUP + lane;
-            found[lane] = exact_triangle_t(vector(o, row), vector(d, row), triangle);
+            found[lane] = exact_triangle_t(vector(o, lane), vector(d, lane), triangle);
         }
         if found[lane] < *t || (found[lane] == *t && number < *shape && found[lane] < f64::INFINITY) {
             (*t, *shape) = (found[lane], number);
