@@ -184,10 +184,9 @@ fn bounces_are_independent() {
     for (one, other) in [(0, 1), (1, 2), (1, 3), (2, 3), (2, 7)] {
         for purpose in Purpose::ALL {
             for (word, sampler) in Sampler::ALL {
-                let number = |sample: u32, depth: u32, key: PixelKey| match sampler {
-                    Sampler::Independent => Independent::new(sample, depth, purpose).one(key),
-                    Sampler::Stratified => Stratified::new(sample, SAMPLES, depth, purpose).one(key),
-                    Sampler::Sobol => Sobol::new(sample, depth, purpose).one(key),
+                let number = |number: u32, depth: u32, key: PixelKey| {
+                    let index = SampleIndex { number, samples: SAMPLES, depth };
+                    with_sampler!(sampler, D => D::of(index, purpose).one(key))
                 };
                 let mean_of = |pixel: u32| {
                     let key = PixelKey::new(29, [pixel, 3]);
