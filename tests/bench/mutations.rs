@@ -29,10 +29,6 @@ use run::{Fate, Limits};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Where mutations are looked for: lights, materials, integration, intersection, sampling, film and report.
-const FOLDERS: &str = "src/pinhole/shade,src/pinhole/follow,src/pinhole/intersect,src/pinhole/sample,src/pinhole/rays,\
-                       src/pinhole/film,src/lab/report";
-
 fn main() {
     let words: Vec<String> = std::env::args().collect();
     let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1)).cloned();
@@ -44,7 +40,7 @@ fn main() {
     let started = Instant::now();
     let cargo = after("--cargo").unwrap_or_else(|| "cargo".into());
     let workspace = Workspace::copied(Path::new(env!("CARGO_MANIFEST_DIR")), &cargo);
-    let candidates = choose::candidates(&workspace.folder, &list("--folders", FOLDERS), number("--seed", 1));
+    let candidates = choose::candidates(&workspace.folder, &list("--folders", choose::FOLDERS), number("--seed", 1));
     println!("{} mutations could be made; seed {}", candidates.len(), number("--seed", 1));
     let (mutations, refused) = workspace.instrumented(candidates, number("--count", 150) as usize);
     println!("{} compile, {refused} that were tried do not, after {:.0?}", mutations.len(), started.elapsed());

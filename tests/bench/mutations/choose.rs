@@ -4,6 +4,10 @@ use super::source::{functions, masked};
 use std::fs;
 use std::path::Path;
 
+/// Where mutations are looked for: lights, materials, integration, intersection, sampling, film and report.
+pub const FOLDERS: &str = "src/pinhole/shade,src/pinhole/follow,src/pinhole/intersect,src/pinhole/sample,src/pinhole/rays,\
+                       src/pinhole/film,src/lab/report";
+
 /// One change to one line of one function.
 #[derive(Clone, Debug)]
 pub struct Mutation {
