@@ -14,6 +14,8 @@ mod order;
 mod plan;
 mod sampling;
 mod scenes;
+mod shapes;
 mod stages;
 mod textures;
+mod ties;
 mod words;

@@ -28,6 +28,7 @@ mod camera;
 mod camera_entity;
 mod camera_join;
 mod check;
+mod closed_mesh;
 mod emissive;
 mod environment;
 mod environment_light;
@@ -62,6 +63,7 @@ mod shape;
 mod shape_kind;
 mod shapes_of;
 mod sky;
+mod spacing;
 mod srgb;
 mod texture;
 mod two_colours;
@@ -161,6 +163,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<EmissiveTable>,
     |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
+    spacing::check_spacing,
     |scene| light_kinds().iter().try_for_each(|kind| (kind.check)(scene)),
     answer::<TextureMaps>,
     answer::<CheckerTable>,
