@@ -62,23 +62,20 @@ fn group_of(group: Group, is_uneven: bool) -> Group {
 }
 
 fn intersections() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+    intersect::shape_stages().into_iter().map(|(uneven, [stage, _])| (group_of(Intersection, uneven), stage)).collect()
 }
 
 fn surface_points() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+    intersect::shape_stages().into_iter().map(|(uneven, [_, stage])| (group_of(Surfaces, uneven), stage)).collect()
 }
 
-fn light_samples() -> Vec<Grouped> {
-    let stages = shade::light_sampling_stages().into_iter();
+fn light_samples(is_distant: bool) -> Vec<Grouped> {
+    let stages = shade::light_sampling_stages(is_distant).into_iter();
     stages.map(|(is_first, stage)| (if is_first { DirectLight } else { Lights }, stage)).collect()
 }
 
 fn shadow_rays() -> Vec<Grouped> {
-    let stages = shade::shape_shadow_stages().into_iter();
-    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+    shade::shape_shadow_stages().into_iter().map(|(uneven, stage)| (group_of(Shadows, uneven), stage)).collect()
 }
 
 /// All stages in the order of the data flow.
@@ -142,8 +139,9 @@ const LIST: &[Part] = &[Part(&[
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
+], || light_samples(true)), Part(&[
     (AreaLights, shade::area_light_stage),
-], light_samples), Part(&[
+], || light_samples(false)), Part(&[
     (LightTracing, shade::camera_join_stage),
     (AreaLights, shade::environment_light_stage),
     (AmbientOcclusion, follow::sky_rays_stage),

@@ -75,16 +75,18 @@ pub fn spot_light_stage() -> Stage {
     light_sampling_stage::<PlacedSpotLight>()
 }
 
-/// The stages that sample each registered light, and whether it is the point light, with which direct light is
-/// introduced.
-pub fn light_sampling_stages() -> Vec<(bool, fn() -> Stage)> {
-    struct Collected(Vec<(bool, fn() -> Stage)>);
+/// The stages that sample each registered light with a position or each without, and whether it is the point light, with
+/// which direct light is introduced.
+pub fn light_sampling_stages(is_distant: bool) -> Vec<(bool, fn() -> Stage)> {
+    struct Collected(bool, Vec<(bool, fn() -> Stage)>);
     impl LightVisitor for Collected {
         fn visit<L: ListedLight>(&mut self) {
-            self.0.push((TypeId::of::<L>() == TypeId::of::<PlacedPointLight>(), light_sampling_stage::<L>));
+            if L::IS_DISTANT == self.0 {
+                self.1.push((TypeId::of::<L>() == TypeId::of::<PlacedPointLight>(), light_sampling_stage::<L>));
+            }
         }
     }
-    let mut collected = Collected(Vec::new());
+    let mut collected = Collected(is_distant, Vec::new());
     visit_lights(&mut collected);
-    collected.0
+    collected.1
 }
