@@ -31,7 +31,8 @@ fn through_a_pane() -> Form {
     let make = || {
         let mut world = World::new();
         camera(&mut world, DVec3::new(0.0, 0.9, 0.0), DVec3::ZERO, WIDTH, true, 4);
-        world.spawn((Plane::default(), white()));
+        // All of it lies behind the pane: a wider ground would be lit beside it, and be seen in the pane.
+        world.spawn((Rectangle { width: 1.2, depth: 1.2 }, Placement::at(0.0, 0.0, 0.0), white()));
         pane(&mut world);
         world.spawn(sun(35.0));
         world

@@ -133,6 +133,12 @@ fn through_a_lens() -> World {
     world
 }
 
+fn under_a_sky() -> World {
+    let mut world = scenes::caustics::traced(|| scenes::caustics::caustics(true))();
+    world.spawn(pinhole::scene::Background { colour: pinhole::scene::Rgb::grey(1.0) });
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -166,6 +172,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("Whitted's rays", followed(Integrator::WHITTED, Setup { size, ..Setup::default() })),
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
         ("light from lamps through a lens", through_a_lens()),
+        ("light from the sky", under_a_sky()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();
