@@ -116,12 +116,6 @@ fn light_from_skies_brings_what_the_camera_s_paths_bring() {
     agrees("a gradient", &|| under(gradient()), 16);
     let file = || String::from("chapters/16_textures/evening.hdr");
     agrees("an evening", &|| under(Environment { file: file(), turn: Degrees(77.0), scale: 1.0 }), 16);
-    let with_lamps = || {
-        let mut world = caustics(true);
-        world.spawn(gradient());
-        world
-    };
-    agrees("lamps under a gradient", &with_lamps, 16);
 }
 
 /// A sun, and a ball so far away that it is seen as 0.4 degrees wide, with the same irradiance: paths start on it as on
