@@ -54,6 +54,7 @@ mod metal;
 mod mirror;
 mod motion;
 mod moving;
+mod on_camera;
 mod phong;
 mod pixel_steps;
 mod point_light;
@@ -144,6 +145,7 @@ use crate::scene::{SceneError, View};
 ///
 /// A new kind of component is added with a line; every other table is made from what these have checked.
 const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
+    on_camera::check_on_camera,
     answer::<ImageFrame>,
     answer::<ShutterTable>,
     answer::<CameraAxes>,

@@ -1,4 +1,4 @@
-//! Surfaces that emit light in a way that strategies for direct light do not agree about, or cannot sample.
+//! Surfaces that emit light and that strategies for direct light do not agree about, or cannot sample.
 
 use crate::Result;
 use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, shape_name};
@@ -17,6 +17,9 @@ pub fn emitters(scene: &Census<'_>) -> Result<Vec<String>> {
         Integrator::Distribution { .. } => LightStrategy::Light,
         _ => return Ok(Vec::new()),
     };
+    if scene.table::<EmissiveTable>()?.radiance.is_empty() {
+        return Ok(Vec::new());
+    }
     let mut warnings = Vec::new();
     if strategy == LightStrategy::Light {
         warnings.extend(unsampled(scene)?);

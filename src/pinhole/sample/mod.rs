@@ -6,7 +6,7 @@
 //! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
 //! in pixels, distributed as the reconstruction filter.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
-//! decided in one place, [`with_sampler!`](crate::with_sampler), outside all loops over pixels.
+//! decided in one place, [`with_sampler!`], outside all loops over pixels.
 //!
 //! ```
 //! use pinhole::sample::{Purpose, uniform};
@@ -49,7 +49,7 @@ pub struct SampleIndex {
 
 /// One sample's random numbers for one purpose, to be drawn for any pixel.
 ///
-/// A sampler implements this in a file of its own, and is registered in [`with_sampler!`](crate::with_sampler) and in
+/// A sampler implements this in a file of its own, and is registered in [`with_sampler!`] and in
 /// [`Sampler`](crate::scene::Sampler).
 pub trait Draw: Copy {
     /// The numbers of a sample for a purpose.
@@ -83,4 +83,4 @@ macro_rules! with_sampler {
         }
     };
 }
-pub use crate::with_sampler;
+pub use with_sampler;
