@@ -47,21 +47,24 @@
 //!
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
-//! 3. [`extract`]: entities → tables, as structures of arrays.
-//! 4. [`sample`]: samplers, random numbers and reconstruction filters.
-//! 5. [`rays`]: raster → NDC → screen → camera → world.
-//! 6. [`intersect`]: rays → the closest hit and its surface.
-//! 7. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 8. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 9. [`film`]: radiance → pixels → files.
-//! 10. [`render`]: the loop over tiles.
-//! 11. [`look`]: traces, views and statistics.
-//! 12. [`stages`]: all stages, in the order of the data.
-//! 13. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 3. [`material`]: how surfaces scatter light, one file for each BSDF.
+//! 4. [`extract`]: entities → tables, as structures of arrays.
+//! 5. [`sample`]: samplers, random numbers and reconstruction filters.
+//! 6. [`rays`]: raster → NDC → screen → camera → world.
+//! 7. [`intersect`]: rays → the closest hit and its surface.
+//! 8. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 9. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 10. [`film`]: radiance → pixels → files.
+//! 11. [`render`]: the loop over tiles.
+//! 12. [`look`]: traces, views and statistics.
+//! 13. [`stages`]: all stages, in the order of the data.
+//! 14. [`prelude`]: what a scene or a stage of one's own begins with.
 
 pub mod scene;
 
 pub mod plan;
+
+pub mod material;
 
 #[doc(hidden)]
 pub mod extract;
@@ -90,6 +93,7 @@ pub mod stages;
 pub mod prelude;
 
 mod chapter;
+mod check;
 mod error;
 mod example;
 

@@ -12,6 +12,8 @@
 //! assert!(stages::all().len() > 90);
 //! ```
 
+use crate::follow::{BsdfRole, BsdfStage};
+use crate::material::BsdfClass;
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
 use std::any::TypeId;
@@ -40,7 +42,7 @@ enum Group {
     Bounces,
     PathContinuation,
     SpecularReflection,
-    RoughMetal,
+    GlossyReflection,
     Glass,
     AreaLights,
     AmbientOcclusion,
@@ -48,13 +50,15 @@ enum Group {
     LightTracing,
     Film,
 }
+use BsdfRole::*;
+use Entry::*;
 use Group::*;
 
 /// All stages in the order of the data flow.
 ///
 /// Where several of one set add to the same sums, their order here decides the last bits of the picture.
 #[rustfmt::skip]
-const LIST: &[(Group, fn() -> Stage)] = &[
+const LIST: &[Entry] = &[Stages(&[
     // Image points become rays in world space, or rays start on the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
@@ -89,7 +93,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
-    (SpecularReflection, follow::classify_materials_stage),
+]), Bsdfs(Classify), Stages(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
@@ -120,6 +124,10 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     // Layers of the film are recorded.
     (Film, film::layers_stage),
 
+    // The medium along each ray is found, and absorbs light.
+    (Glass, follow::start_media_stage),
+    (Glass, follow::absorb_stage),
+
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
     (Lights, shade::directional_light_stage),
@@ -142,13 +150,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Motion, shade::moving_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
-    (Mis, follow::mis_matte_stage),
-    (Mis, follow::mis_phong_stage),
-    (Mis, follow::mis_blinn_phong_stage),
-    (Mis, follow::mis_metal_stage),
-    (Highlights, shade::blinn_phong_stage),
-    (Highlights, shade::phong_stage),
-    (RoughMetal, follow::metal_light_stage),
+]), Bsdfs(MisWeights), Bsdfs(Evaluate), Bsdfs(Connections), Stages(&[
     (DirectLight, shade::light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
@@ -156,17 +158,7 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (Unlit, shade::unlit_stage),
 
     // BSDFs are sampled to continue the path, or it is terminated.
-    (Glass, follow::start_media_stage),
-    (Glass, follow::absorb_stage),
-    (Glass, follow::glass_stage),
-    (SpecularReflection, follow::mirror_stage),
-    (Glass, follow::glass_sample_stage),
-    (LightTracing, follow::glass_light_stage),
-    (LightTracing, follow::matte_light_stage),
-    (PathContinuation, follow::matte_stage),
-    (PathContinuation, follow::phong_sample_stage),
-    (PathContinuation, follow::blinn_phong_sample_stage),
-    (RoughMetal, follow::metal_stage),
+]), Bsdfs(Split), Bsdfs(Sample), Bsdfs(SampleFromLights), Stages(&[
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
@@ -182,7 +174,43 @@ const LIST: &[(Group, fn() -> Stage)] = &[
     (WideCameras, shade::image_circle_stage),
     (Film, film::moments_stage),
     (Film, film::film_stage),
-];
+])];
+
+/// A part of the list: stages one by one, or those of all BSDFs for one purpose.
+enum Entry {
+    Stages(&'static [(Group, fn() -> Stage)]),
+    Bsdfs(BsdfRole),
+}
+
+/// The group in which a stage of a BSDF is offered.
+fn group_of(stage: &BsdfStage) -> Group {
+    match (stage.role, stage.class) {
+        (MisWeights, _) => Mis,
+        (Connections | SampleFromLights, _) => LightTracing,
+        (_, _) if stage.transmits => Glass,
+        (_, BsdfClass::Specular) => SpecularReflection,
+        (_, BsdfClass::Glossy) => GlossyReflection,
+        (Evaluate, BsdfClass::Diffuse) => Highlights,
+        (_, BsdfClass::Diffuse) => PathContinuation,
+    }
+}
+
+/// Every stage with its group, in the order of the list; specular BSDFs come before the others.
+fn list() -> Vec<(Group, fn() -> Stage)> {
+    let bsdfs = follow::bsdf_stages();
+    let mut list = Vec::new();
+    for entry in LIST {
+        match entry {
+            Stages(stages) => list.extend_from_slice(stages),
+            Bsdfs(role) => {
+                let mut own: Vec<&BsdfStage> = bsdfs.iter().filter(|own| own.role == *role).collect();
+                own.sort_by_key(|own| own.class != BsdfClass::Specular);
+                list.extend(own.into_iter().map(|own| (group_of(own), own.stage)));
+            }
+        }
+    }
+    list
+}
 
 fn of(group: Group) -> Vec<Stage> {
     listed(|own| own == group)
@@ -190,7 +218,7 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let places = LIST.iter().enumerate().filter(|(_, (group, _))| wanted(*group));
+    let places = list().into_iter().enumerate().filter(|(_, (group, _))| wanted(*group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }
 
@@ -205,7 +233,7 @@ pub fn sort(offer: &mut [Stage]) {
     static PLACES: OnceLock<BTreeMap<TypeId, usize>> = OnceLock::new();
     let places = PLACES.get_or_init(|| all().iter().map(|stage| (stage.id, stage.place)).collect());
     for stage in offer.iter_mut() {
-        stage.place = places.get(&stage.id).copied().unwrap_or(LIST.len());
+        stage.place = places.get(&stage.id).copied().unwrap_or(usize::MAX);
     }
     offer.sort_by_key(|stage| stage.place);
 }
@@ -297,9 +325,9 @@ pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
 
-/// Rough metal: its BSDF sampled, and evaluated for direct light.
-pub fn rough_metal() -> Vec<Stage> {
-    of(RoughMetal)
+/// Glossy materials such as rough metal: their BSDFs sampled, and evaluated for direct light.
+pub fn glossy_reflection() -> Vec<Stage> {
+    of(GlossyReflection)
 }
 
 /// Glass: reflection and refraction, and the light that it absorbs.

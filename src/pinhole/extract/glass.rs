@@ -1,14 +1,12 @@
-use super::check::{kind_and_name, light_colour, number};
-use super::material_kind::{material_kind_evidence, used_material};
+use super::check::kind_and_name;
+use super::material::used_material;
 use super::shape_kind::numbered;
-use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Disk, Glass, Rectangle, SceneError, called};
+use crate::material::{interior_of, material_entities};
+use crate::plan::{Census, Table};
+use crate::scene::{Disk, Rectangle, SceneError, called};
 use bevy_ecs::prelude::*;
 
-/// The least accepted index of refraction, and the reciprocal of the greatest.
-const LEAST_INDEX: f64 = 1e-3;
-
-/// Kinds of glass (dielectrics), in spawn order.
+/// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlassTable {
     /// The index of refraction relative to a vacuum.
@@ -24,11 +22,11 @@ impl Table for GlassTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for &entity in scene.entities::<With<Glass>>().iter() {
-            let (ior, absorption, priority) = glass_numbers(scene, entity)?;
-            table.ior.push(ior);
-            table.absorption.push(absorption);
-            table.priority.push(priority);
+        for &entity in material_entities(scene).iter() {
+            let Some(interior) = interior_of(scene, entity)? else { continue };
+            table.ior.push(interior.ior);
+            table.absorption.push(interior.absorption);
+            table.priority.push(interior.priority);
         }
         check_closed(scene)?;
         Ok(table)
@@ -39,18 +37,6 @@ impl Table for GlassTable {
     }
 }
 
-/// Index, absorption and priority of a kind of glass, checked.
-pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, [f64; 3], u32), SceneError> {
-    let glass = scene.get::<Glass>(entity).copied().unwrap_or_default();
-    let who = kind_and_name(scene, "glass", entity);
-    if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&glass.ior) {
-        let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
-        return Err(SceneError::new(who, "ior", number(glass.ior), accepted));
-    }
-    let absorption = light_colour(&who, "absorption", glass.absorption)?.to_array();
-    Ok((glass.ior, absorption, glass.priority))
-}
-
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
@@ -58,7 +44,8 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     open.extend(of("rectangle", numbered::<Rectangle>(scene)));
     open.sort_by_key(|(shape, _)| shape.index());
     for (shape, kind) in open {
-        let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
+        let Some(material) = used_material(scene, shape).filter(|&own| matches!(interior_of(scene, own), Ok(Some(_))))
+        else {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
@@ -66,9 +53,4 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
         return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
     }
     Ok(())
-}
-
-/// Evidence that a shape is made of glass.
-pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| material_kind_evidence::<Glass>(scene, "glass surface"))
 }

@@ -1,14 +1,16 @@
-use super::material_kind::in_use_of;
+use super::material::in_use;
 use super::{
-    Bounds, CuboidTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable,
-    TriangleTable, shape_entities,
+    Bounds, CuboidTable, EllipsoidTable, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable, TriangleTable,
+    shape_entities,
 };
+use crate::material::{Interior, interior_of, material_entities};
 use crate::plan::{Census, Evidence};
-use crate::scene::{Glass, SceneError, called};
+use crate::scene::{SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A glass shape with its bounding box.
 struct BoundedGlass {
@@ -21,9 +23,12 @@ struct BoundedGlass {
     bounds: Bounds,
 }
 
-/// Evidence of a shape made of glass that passes a test.
-pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
-    in_use_of::<Glass>(scene, noun, such)
+/// Evidence of a shape filled with what passes a test.
+pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Interior) -> bool) -> Evidence {
+    let such = |&entity: &Entity| interior_of(scene, entity).ok().flatten().is_some_and(|own| such(&own));
+    let of = |entities: Arc<[Entity]>| entities.iter().copied().filter(such).collect::<Vec<_>>();
+    let (in_use, found) = (in_use(scene), of(material_entities(scene)));
+    Evidence::among_entities(scene, noun, |entity| in_use.contains(&entity), &found, &found)
 }
 
 /// Evidence that two glass shapes may overlap, according to their bounding boxes.
@@ -135,7 +140,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];
-        material != NO_ROW && materials.kind[material as usize] == MaterialKind::Glass
+        material != NO_ROW && materials.interior[material as usize] != NO_ROW
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
     let spheres = scene.table::<SphereTable>()?;
@@ -157,7 +162,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
             }
         };
         let part = shapes.kind[shape] == ShapeKind::Triangle;
-        BoundedGlass { shape, of: materials.row[shapes.material[shape] as usize], part, bounds }
+        BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds }
     });
     Ok(bounded.collect())
 }
@@ -165,7 +170,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Matte, Name, PerspectiveCamera, Placement, Plane, Sphere, Triangle, UsesMaterial};
+    use crate::scene::{Glass, Matte, Name, PerspectiveCamera, Placement, Plane, Sphere, Triangle, UsesMaterial};
 
     fn world(balls: &[(f64, f64)]) -> World {
         let mut world = World::new();

@@ -1,7 +1,7 @@
 use super::area_light::light_distribution;
 use super::{
-    AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialKind, MaterialTable, NO_ROW,
-    PointLightTable, RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
+    AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialTable, NO_ROW, PointLightTable,
+    RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
 };
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
@@ -110,7 +110,7 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     let (cuboids, triangles) = (scene.table::<CuboidTable>()?, scene.table::<TriangleTable>()?);
     let is_specular = |shape: &usize| match shapes.material[*shape] {
         NO_ROW => false,
-        material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
+        material => materials.kind[material as usize].is_specular(),
     };
     let mut found = Vec::new();
     for shape in (0..shapes.kind.len()).filter(is_specular) {

@@ -22,12 +22,10 @@
 mod adaptive;
 mod area_light;
 mod background;
-mod blinn_phong;
 mod bounds;
 mod camera;
 mod camera_entity;
 mod camera_join;
-mod check;
 mod cuboid;
 mod directional_light;
 mod disk;
@@ -53,12 +51,8 @@ mod lens;
 mod light_path;
 mod light_tracing;
 mod material;
-mod material_kind;
-mod metal;
-mod mirror;
 mod motion;
 mod moving;
-mod phong;
 mod pixel_steps;
 mod planar;
 mod plane;
@@ -82,7 +76,6 @@ mod velocity;
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
-pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
@@ -101,7 +94,7 @@ pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
 pub use fisheye::{ImageCircle, fisheye_evidence};
-pub use glass::{GlassTable, glass_evidence};
+pub use glass::GlassTable;
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::{Texels, read_exr};
@@ -116,13 +109,12 @@ pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, lens_evidence};
 pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
-pub use material::{MaterialTable, material_evidence, matte_evidence};
-pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
-pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
-pub use mirror::{MirrorTable, mirror_evidence};
+pub use material::{
+    bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,
+    material_kind_evidence, matte_evidence, specular_evidence,
+};
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{Body, MovingTable};
-pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use planar::Planar;
 pub use plane::PlaneTable;
@@ -149,6 +141,8 @@ pub use uv_slope::{UvSlope, UvSlopes, most_of};
 pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
 pub use velocity::{moves_while_open, velocity_of};
 
+use crate::check;
+pub use crate::material::{MaterialKind, MaterialTable, NO_ROW};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
 

@@ -1,11 +1,11 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::material_kind::{MaterialKind, NO_ROW, material_entities, material_kind, materials_in_words};
 use super::shape_kind::{ShapeKind, one_shape, shape_entities};
 use super::velocity::moves_while_open;
 use super::{
     CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
 };
+use crate::material::{NO_ROW, components_in_words, material_entities, material_kind};
 use crate::plan::{Census, Table, TableKind};
 use crate::scene::{SceneError, UsesMaterial, called};
 use bevy_ecs::prelude::*;
@@ -48,7 +48,7 @@ impl Table for ShapeTable {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let kinds: Vec<_> = materials.iter().map(|&material| material_kind(scene, material)).collect();
         let non_specular =
-            |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(MaterialKind::is_non_specular);
+            |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(|kind| !kind.is_specular());
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
         for &entity in shape_entities(scene).iter() {
@@ -88,12 +88,15 @@ fn wrong_material(scene: &Census<'_>, who: &str, has_own: bool, used: Option<Ent
         }
         (_, Some(used)) => {
             let value = format!("used from {}", called(scene, used));
-            let accepted =
-                format!("that entity must carry a {} or an Emissive and not be disabled", materials_in_words());
+            let accepted = format!(
+                "that entity must carry a {} or an Emissive and not be disabled",
+                components_in_words("", |_| true)
+            );
             SceneError::new(who, "material", value, accepted)
         }
         (_, None) => {
-            let accepted = format!("a shape must carry a {}, a UsesMaterial or an Emissive", materials_in_words());
+            let accepted =
+                format!("a shape must carry a {}, a UsesMaterial or an Emissive", components_in_words("", |_| true));
             SceneError::new(who, "material", "missing", accepted)
         }
     }

@@ -1,6 +1,6 @@
-use super::{cosine_direction, frame_of};
 use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
 use crate::intersect::{offset_bound, offset_origin};
+use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};

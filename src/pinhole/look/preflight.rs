@@ -4,8 +4,7 @@ use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, shape_name,
-    traced_evidence,
+    integrator_of, light_sampling_evidence, shadowed_point_evidence, shape_name, specular_evidence, traced_evidence,
 };
 use crate::plan::{Census, Evidence, ExtractedTable, Plan};
 use crate::scene::{DirectionalLight, Environment, Integrator};
@@ -154,7 +153,7 @@ fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
 
 /// The paths of light that the integrator cannot sample in this scene at all.
 fn missing_paths(scene: &Census<'_>) -> Vec<String> {
-    let (points, bends) = (point_evidence(scene), glass_evidence(scene).or(mirror_evidence(scene)));
+    let (points, bends) = (point_evidence(scene), specular_evidence(scene));
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }

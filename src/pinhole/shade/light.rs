@@ -256,7 +256,7 @@ pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
 }
 
 // ANCHOR: add_light
-/// Adds the light of each unblocked shadow ray that a matte surface reflects.
+/// Adds the light of each unblocked shadow ray that a matte surface reflects, or the matte part of another.
 pub fn add_light(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
@@ -268,6 +268,9 @@ pub fn add_light(
             }
             let path = rays.path[ray] as usize;
             let material = surfaces.material[path] as usize;
+            if materials.other_colours && !materials.kind[material].is_lambertian() {
+                continue;
+            }
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(path));
             let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
             radiance.r[path] += r as f32;
@@ -302,7 +305,7 @@ pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
 }
 
 /// Evidence that there is a light of any kind to which shadow rays are traced.
-pub(super) fn light_evidence(scene: &Census<'_>) -> Evidence {
+pub fn light_evidence(scene: &Census<'_>) -> Evidence {
     let sampled = unless_occlusion(scene, or_light(scene, Evidence::among_any(scene, "light", &LIGHTS, |_| true)));
     either(sampled, traced_evidence(scene))
 }

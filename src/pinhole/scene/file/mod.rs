@@ -24,5 +24,5 @@ mod write;
 pub use fingerprint::{FNV_BASIS, fingerprint, fnv};
 pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
-pub use word::words;
+pub use word::{Word, words};
 pub use write::scene_text;

@@ -1,8 +1,4 @@
 use super::{cosine_pdf, ggx_sample};
-use crate::extract::{MetalTable, multiple_scattering_metals};
-use crate::plan::{Census, Table};
-use crate::scene::SceneError;
-use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
 
@@ -13,7 +9,7 @@ const GRID: u32 = 64;
 
 /// The energy that single scattering on rough metal loses, and the lobe that compensates for it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct MultipleScatteringTable {
+pub struct MultipleScattering {
     /// For each rough metal, the fraction lost at the cosines (i / 32)² to the normal; 0 where it is not compensated.
     pub lost: Vec<[f64; STEPS + 1]>,
     /// The scale of the compensating lobe for each metal, in 1/sr: red, green, blue.
@@ -69,24 +65,12 @@ pub fn multiple_scattering_albedo(colour: f64, lost: f64) -> f64 {
     colour * colour * (1.0 - lost) / (1.0 - colour * lost)
 }
 
-impl Table for MultipleScatteringTable {
-    const NAME: &'static str = "multiple scattering";
-
-    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (metals, several) = (scene.table::<MetalTable>()?, multiple_scattering_metals(scene));
-        let mut table = Self::default();
-        for (metal, several) in several.into_iter().enumerate() {
-            table.push(metals.colour[metal], several.then_some(metals.alpha[metal]));
-        }
-        Ok(table)
-    }
-
-    fn bytes(&self) -> usize {
+impl MultipleScattering {
+    /// Its memory, in bytes.
+    pub fn bytes(&self) -> usize {
         size_of_val(&self.lost[..]) + size_of_val(&self.compensation[..])
     }
-}
 
-impl MultipleScatteringTable {
     /// Adds a metal of this colour and α, or one without compensation.
     pub fn push(&mut self, colour: [f64; 3], alpha: Option<f64>) {
         let lost_at =
@@ -131,7 +115,7 @@ impl MultipleScatteringTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::{RoughMetals, ggx_brdf, ggx_g1};
+    use crate::material::{Bsdf, BsdfSample, MetalTable, Site, ggx_brdf, ggx_g1};
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::hemisphere::Quadrature;
     use crate::measure::ray_aim::Draws;
@@ -139,10 +123,16 @@ mod tests {
 
     const ALPHAS: [f64; 5] = [0.05, 0.1, 0.3, 0.6, 1.0];
 
-    fn metal(alpha: f64, colour: f64) -> (MetalTable, MultipleScatteringTable) {
-        let mut several = MultipleScatteringTable::default();
+    const FIRST: Site = Site::opaque(0, [0.0; 3]);
+
+    fn lobes(alpha: f64, colour: f64) -> MultipleScattering {
+        let mut several = MultipleScattering::default();
         several.push([colour; 3], Some(alpha));
-        (MetalTable { colour: vec![[colour; 3]], alpha: vec![alpha] }, several)
+        several
+    }
+
+    fn metal(alpha: f64, colour: f64) -> MetalTable {
+        MetalTable { colour: vec![[colour; 3]], alpha: vec![alpha], several: Some(lobes(alpha, colour)) }
     }
 
     /// The fraction lost, by quadrature over the hemisphere, which is independent of visible normals.
@@ -150,7 +140,7 @@ mod tests {
     fn what_is_lost_is_what_quadrature_misses() {
         let (rule, mut worst, mut tried) = (Quadrature::default(), 0.0_f64, 0);
         for alpha in ALPHAS {
-            let (_, several) = metal(alpha, 1.0);
+            let several = lobes(alpha, 1.0);
             for at in 0..40 {
                 let angle = PI / 2.0 * f64::from(at) / 40.0;
                 let lost = 1.0 - rule.albedo(angle, 0.5 * alpha, |light, eye| ggx_brdf(light, eye, alpha));
@@ -159,7 +149,7 @@ mod tests {
                 assert!(off < 6e-3, "α {alpha}, {angle}: {off}");
             }
         }
-        let (_, roughest) = metal(1.0, 1.0);
+        let roughest = lobes(1.0, 1.0);
         assert!((lost_at(&roughest.lost[0], 1.0) - LN_2).abs() < 1e-3);
         eprintln!("energy lost: {tried} angles, worst difference from quadrature {worst:.1e}");
     }
@@ -170,16 +160,14 @@ mod tests {
     fn furnace() {
         let (rule, mut least, mut most) = (Quadrature::default(), f64::INFINITY, 0.0_f64);
         for alpha in ALPHAS {
-            let (metals, several) = metal(alpha, 1.0);
-            let rough = RoughMetals { metals: &metals, several: Some(&several) };
+            let rough = metal(alpha, 1.0);
             for angle in [0.0, 0.3, 0.7, 1.1, 1.4, 1.5] {
-                let all = rule.albedo(angle, 0.5 * alpha, |light, eye| rough.brdf(0, light, eye)[0]);
+                let all = rule.albedo(angle, 0.5 * alpha, |light, eye| rough.eval(&FIRST, light, eye)[0]);
                 (least, most) = (least.min(all), most.max(all));
                 assert!((0.99..1.01).contains(&all), "α {alpha}, {angle}: {all}");
             }
-            let (metals, several) = metal(alpha, 0.5);
-            let half = RoughMetals { metals: &metals, several: Some(&several) };
-            let all = rule.albedo(0.7, 0.5 * alpha, |light, eye| half.brdf(0, light, eye)[0]);
+            let half = metal(alpha, 0.5);
+            let all = rule.albedo(0.7, 0.5 * alpha, |light, eye| half.eval(&FIRST, light, eye)[0]);
             let once = 0.5 * rule.albedo(0.7, 0.5 * alpha, |light, eye| ggx_brdf(light, eye, alpha));
             assert!(all > once && all < 0.5, "α {alpha}: {once} once, {all} in all");
         }
@@ -189,7 +177,7 @@ mod tests {
 
     #[test]
     fn several_mirrors_are_reciprocal() {
-        let (_, several) = metal(0.4, 0.8);
+        let several = lobes(0.4, 0.8);
         for index in 0..10_000 {
             let mut draws = Draws::new(1941, index);
             let mut direction = || {
@@ -210,8 +198,7 @@ mod tests {
         const SAMPLES: u64 = 100_000;
         const LINES: usize = 12;
         for (which, (alpha, angle)) in [(0.4, 1.2_f64), (0.7, 0.5), (1.0, 0.0), (1.0, 1.45)].into_iter().enumerate() {
-            let (metals, several) = metal(alpha, 0.9);
-            let rough = RoughMetals { metals: &metals, several: Some(&several) };
+            let rough = metal(alpha, 0.9);
             let eye = DVec3::new(libm::sin(angle), 0.0, libm::cos(angle));
             let (rule, mut bins) = (Quadrature::default(), Bins::new(LINES * LINES + 1));
             let line = |at: usize| at as f64 / LINES as f64;
@@ -220,7 +207,7 @@ mod tests {
                     rule.sum(2.0 * PI * line(turn), 2.0 * PI * line(turn + 1), |turn| {
                         let across = (1.0 - z * z).sqrt();
                         let light = DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z);
-                        rough.pdf(0, light, eye)
+                        rough.pdf(&FIRST, light, eye)
                     })
                 });
                 bins.expect(cosine * LINES + turn, fraction * SAMPLES as f64);
@@ -229,7 +216,7 @@ mod tests {
             for index in 0..SAMPLES {
                 let mut draws = Draws::new(1942 + which as u64, index);
                 let (numbers, choice) = ([draws.unit(), draws.unit()], draws.unit());
-                let Some((light, ..)) = rough.sample(0, eye, numbers, choice) else {
+                let Some(BsdfSample { to_light: light, .. }) = rough.sample(&FIRST, eye, numbers, choice) else {
                     bins.count(LINES * LINES);
                     continue;
                 };
@@ -249,14 +236,17 @@ mod tests {
         let ends = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0 - 1.0 / (1 << 24) as f64];
         let mut tried = 0;
         for (alpha, angle) in [(1e-3, 1.0), (0.3, 1e-9), (1.0, 0.0), (1.0, -0.3_f64)] {
-            let (metals, several) = metal(alpha, 1.0);
-            let rough = RoughMetals { metals: &metals, several: Some(&several) };
+            let rough = metal(alpha, 1.0);
             let eye = DVec3::new((1.0 - angle * angle).sqrt(), 0.0, angle);
             assert!(ggx_g1(eye, alpha).is_finite());
             for (u, v) in ends.into_iter().flat_map(|u| ends.map(|v| (u, v))) {
                 for choice in ends {
                     tried += 1;
-                    let Some((light, pdf, weights)) = rough.sample(0, eye, [u, v], choice) else { continue };
+                    let Some(BsdfSample { to_light: light, pdf, weight: weights }) =
+                        rough.sample(&FIRST, eye, [u, v], choice)
+                    else {
+                        continue;
+                    };
                     let [weight, ..] = weights;
                     assert!(light.is_finite() && pdf > 0.0 && pdf.is_finite(), "{alpha} {angle} {u} {v}");
                     assert!((0.0..=4.0).contains(&weight), "{alpha} {angle} {u} {v}: {weight}");
