@@ -33,7 +33,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/shade/phong.rs", "mirror_cosine"),
+        pinhole_has: ("src/pinhole/material/phong.rs", "mirror_cosine"),
         probes: asked(),
         tell: |([colour, specular, exponent], irradiance, normal, to_light, to_eye)| {
             let [normal, to_light, to_eye] = [normal, to_light, to_eye].map(Shown::shown);

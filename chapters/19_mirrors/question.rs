@@ -26,7 +26,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Vector> {
     Question {
-        pinhole_has: ("src/pinhole/follow/fresnel.rs", "mirror_direction"),
+        pinhole_has: ("src/pinhole/material/fresnel.rs", "mirror_direction"),
         probes: asked(),
         tell: |(direction, normal)| format!("direction {}, normal {}", direction.shown(), normal.shown()),
         right: |input| mirror_direction(input.0.into(), unit(input)).into(),

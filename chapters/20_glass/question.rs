@@ -26,7 +26,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Option<Vector>> {
     Question {
-        pinhole_has: ("src/pinhole/follow/fresnel.rs", "refract"),
+        pinhole_has: ("src/pinhole/material/fresnel.rs", "refract"),
         probes: asked(),
         tell: |(direction, normal, eta)| {
             format!("direction {}, normal {}, eta {eta:?}", direction.shown(), normal.shown())

@@ -29,7 +29,7 @@ fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
 
 fn question() -> Question<Input, [f64; 3]> {
     Question {
-        pinhole_has: ("src/pinhole/follow/frame.rs", "cosine_direction"),
+        pinhole_has: ("src/pinhole/material/frame.rs", "cosine_direction"),
         probes: asked(),
         tell: |(u, v)| format!("u {}, v {}", u.shown(), v.shown()),
         right: |&(u, v)| cosine_direction([u, v]).into(),

@@ -10,7 +10,7 @@ use crate::extract::{
     mis_evidence, needed_if, traced_evidence,
 };
 use crate::intersect::{MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
-use crate::material::{Bsdf, BsdfClass, Site, Transport, frame_of};
+use crate::material::{Bsdf, BsdfClass, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
@@ -104,7 +104,7 @@ pub fn mis_bsdf<B: Bsdf>(
                 continue;
             }
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
-            let local_from_world = frame_of(normal).transpose();
+            let local_from_world = B::frame(normal).transpose();
             let [to_light, to_eye] =
                 [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
             let site = site::<B>(&materials, &interface, (colours, row, material), Transport::Radiance);
@@ -133,7 +133,7 @@ pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
                 continue;
             }
             let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
-            let local_from_world = frame_of(normal).transpose();
+            let local_from_world = B::frame(normal).transpose();
             let [to_light, to_eye] =
                 [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
             let site = site::<B>(&materials, &interface, (colours, row, material), transport(FROM_LIGHT));
@@ -195,7 +195,12 @@ pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
             .reads_where::<Media>(media_evidence)
             .reads_where::<DeeperMedia>(deeper_media_evidence)
     } else {
-        stage.table_where::<GlassTable>(|_| Evidence::default())
+        let never = |_: &Census<'_>| Evidence::default();
+        stage
+            .table_where::<GlassTable>(never)
+            .reads_where::<SurfaceSides>(never)
+            .reads_where::<Media>(never)
+            .reads_where::<DeeperMedia>(never)
     }
 }
 

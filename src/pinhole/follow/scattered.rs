@@ -1,6 +1,6 @@
 use crate::extract::followed_evidence;
 use crate::intersect::{ShadingNormals, Surface, Surfaces, offset_origin};
-use crate::material::{Bsdf, BsdfSample, frame_of};
+use crate::material::{Bsdf, BsdfSample};
 use crate::plan::{Stage, TileSystems, column};
 use crate::rays::{Paths, WorldRays};
 use bevy_ecs::prelude::*;
@@ -61,7 +61,7 @@ impl ScatteredRay {
     ) -> Self {
         let surface = surfaces.get(row);
         let own = surface.normal.as_dvec3();
-        let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
+        let world_from_local = B::frame(shading.map_or(own, |normals| normals.get(row)));
         let to_eye = world_from_local.transpose() * -rays.direction_of(row);
         let Some(BsdfSample { to_light, pdf, weight }) = sample(&surface, to_eye) else { return Self::default() };
         let through = B::TRANSMITS && to_light.z < 0.0;

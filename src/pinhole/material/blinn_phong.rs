@@ -71,6 +71,7 @@ impl Bsdf for BlinnPhongTable {
     const CLASS: BsdfClass = BsdfClass::Diffuse;
     const LAMBERTIAN: bool = true;
     const TEXTURED: bool = true;
+    const NARROW: bool = true;
 
     fn colour(own: &BlinnPhong, who: &str) -> Result<[f64; 3], SceneError> {
         exponent_within(who, own.exponent)?;

@@ -1,8 +1,8 @@
-use super::MaterialKind;
+use super::{MaterialKind, frame_of};
 use crate::plan::Table;
 use crate::scene::{Rgb, SceneError};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// How concentrated the light is that a BSDF scatters, which decides how integrators treat it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,6 +141,14 @@ pub trait Bsdf: Table + Named {
     const TRANSMITS: bool = false;
     /// Whether a texture may give the surface its colour.
     const TEXTURED: bool = false;
+    /// Whether its lobes can be so narrow that the length of a normal rounded to f32 shows in them.
+    const NARROW: bool = false;
+
+    /// The frame in which it is evaluated, about the normal of a surface.
+    #[inline(always)]
+    fn frame(normal: DVec3) -> DMat3 {
+        frame_of(if Self::NARROW { normal.normalize() } else { normal })
+    }
 
     /// The kind that a component becomes, which may be another one where its parameters are extreme.
     fn kind_of(_component: &Self::Component) -> MaterialKind {

@@ -72,6 +72,7 @@ impl Bsdf for PhongTable {
     const CLASS: BsdfClass = BsdfClass::Diffuse;
     const LAMBERTIAN: bool = true;
     const TEXTURED: bool = true;
+    const NARROW: bool = true;
 
     fn colour(own: &Phong, who: &str) -> Result<[f64; 3], SceneError> {
         exponent_within(who, own.exponent)?;
