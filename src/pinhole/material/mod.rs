@@ -62,8 +62,10 @@ pub use lobe::{Highlight, Lobe};
 pub use matte::MatteTable;
 pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
-pub use multiple_scattering::{MultipleScattering, multiple_scattering_albedo};
+pub use multiple_scattering::{LostEnergy, MultipleScattering, multiple_scattering_albedo};
 pub use phong::{PhongTable, mirror_cosine, phong_peak};
-pub use registered::{REGISTERED, Registration, declared_materials, is_material, material_entities, material_kind};
+pub use registered::{
+    REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,
+};
 pub(crate) use registered::{components_in_words, interior_of, one_material};
 pub use table::{MaterialTable, NO_ROW};
