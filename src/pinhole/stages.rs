@@ -97,6 +97,7 @@ const LIST: &[Entry] = &[Stages(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
+    (DirectLight, shade::far_rows_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
     (Surfaces, intersect::sphere_surface_stage),

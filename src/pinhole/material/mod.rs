@@ -62,7 +62,7 @@ pub use lobe::{Highlight, Lobe};
 pub use matte::MatteTable;
 pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
-pub use multiple_scattering::{LostEnergy, MultipleScattering, multiple_scattering_albedo};
+pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
 pub use phong::{PhongTable, mirror_cosine, phong_peak};
 pub use registered::{
     REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,

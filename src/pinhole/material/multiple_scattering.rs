@@ -11,53 +11,57 @@ const LATTICE: [u32; 2] = [610, 377];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MultipleScattering {
     /// The fraction lost by each material; 0 where it is not compensated.
-    pub lost: Vec<LostEnergy>,
+    pub lost: Vec<ByCosine>,
     /// The scale of the compensating lobe for each material, in 1/sr: red, green, blue.
     pub compensation: Vec<[f64; 3]>,
 }
 
-/// The fraction of light that single scattering loses, by the cosine μ to the normal, in equal steps of
-/// μ (1 + α) / (μ + α).
+/// A quantity of rough microfacets by the cosine μ to the normal, in equal steps of μ (1 + α) / (μ + α).
 ///
-/// For small α nearly all is lost at cosines of about α, and these steps are fine there.
+/// For small α nearly all changes at cosines of about α, and these steps are fine there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LostEnergy {
+pub struct ByCosine {
     alpha: f64,
     steps: [f64; STEPS + 1],
 }
 
-/// The directional albedo of single scattering at this cosine, for microfacets of reflectance 1.
+/// The mean of a function of the cosine between eye and microfacet normal, weighted by what single scattering reflects at
+/// this cosine to the normal: for the function 1 the directional albedo of microfacets of reflectance 1.
 ///
 /// It is averaged over [`ggx_sample`] at the points of a Fibonacci lattice (Sloan and Joe 1994).
 /// The first number is 1 − s³ for a coordinate s of the lattice, so that the rare steep microfacets, whose light is lost,
 /// get most of the points.
-fn single_scattering_albedo(cosine: f64, alpha: f64) -> f64 {
+pub fn single_scattering(cosine: f64, alpha: f64, of: impl Fn(f64) -> f64) -> f64 {
     let to_eye = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
     let [count, generator] = LATTICE;
     let weight = |at: u32| {
         let s = (f64::from(at) + 0.5) / f64::from(count);
         let turn = f64::from(at * generator % count) / f64::from(count);
-        ggx_sample(to_eye, alpha, [1.0 - s * s * s, turn]).map_or(0.0, |sample| 3.0 * s * s * sample.weight)
+        ggx_sample(to_eye, alpha, [1.0 - s * s * s, turn]).map_or(0.0, |sample| {
+            let facing = to_eye.dot((sample.to_light + to_eye).normalize());
+            3.0 * s * s * sample.weight * of(facing)
+        })
     };
     (0..count).map(weight).sum::<f64>() / f64::from(count)
 }
 
-impl LostEnergy {
-    /// The energy lost at this α.
-    fn new(alpha: f64) -> Self {
-        let lost = |step: usize| {
-            let x = step as f64 / STEPS as f64;
-            // At grazing incidence nothing is visible; the value just above stands for it.
-            let cosine = (x * alpha / (1.0 + alpha - x)).clamp(1e-6, 1.0);
-            (1.0 - single_scattering_albedo(cosine, alpha)).max(0.0)
-        };
-        Self { alpha, steps: std::array::from_fn(lost) }
+impl ByCosine {
+    /// Tabulates a function of the cosine.
+    pub fn new(alpha: f64, of: impl Fn(f64) -> f64) -> Self {
+        // At grazing incidence nothing is visible; the value just above stands for it.
+        let cosine = |x: f64| (x * alpha / (1.0 + alpha - x)).clamp(1e-6, 1.0);
+        Self { alpha, steps: std::array::from_fn(|step| of(cosine(step as f64 / STEPS as f64))) }
     }
 
-    /// None is lost.
+    /// The fraction of light that single scattering loses at microfacets of reflectance 1.
+    pub fn lost(alpha: f64) -> Self {
+        Self::new(alpha, |cosine| (1.0 - single_scattering(cosine, alpha, |_| 1.0)).max(0.0))
+    }
+
+    /// 0 at all cosines.
     const NONE: Self = Self { alpha: 1.0, steps: [0.0; STEPS + 1] };
 
-    /// The fraction lost at a cosine, interpolated linearly in the steps.
+    /// The value at a cosine, interpolated linearly in the steps.
     #[inline(always)]
     pub fn at(&self, cosine: f64) -> f64 {
         let cosine = cosine.clamp(0.0, 1.0);
@@ -66,10 +70,10 @@ impl LostEnergy {
         self.steps[step] + (place - step as f64) * (self.steps[step + 1] - self.steps[step])
     }
 
-    /// The hemispherical average of the fraction lost, 2 ∫ lost(μ) μ dμ, exactly for the interpolation of [`Self::at`].
+    /// The hemispherical average 2 ∫ value(μ) μ dμ, exactly for the interpolation of [`Self::at`].
     ///
-    /// By parts it is the sum of [lost μ²] − slope · ∫ μ² dx over the steps of x, with μ = α x / (1 + α − x).
-    fn average(&self) -> f64 {
+    /// By parts it is the sum of [value μ²] − slope · ∫ μ² dx over the steps of x, with μ = α x / (1 + α − x).
+    pub fn average(&self) -> f64 {
         let (alpha, whole) = (self.alpha, 1.0 + self.alpha);
         let cosine = |x: f64| alpha * x / (whole - x);
         let squares = |x: f64| {
@@ -102,7 +106,7 @@ impl MultipleScattering {
 
     /// Adds a material of this colour and α, or one without compensation.
     pub fn push(&mut self, colour: [f64; 3], alpha: Option<f64>) {
-        let lost = alpha.map_or(LostEnergy::NONE, LostEnergy::new);
+        let lost = alpha.map_or(ByCosine::NONE, ByCosine::lost);
         let average = lost.average();
         let scale = if average > 0.0 { FRAC_1_PI / average } else { 0.0 };
         self.lost.push(lost);
@@ -112,7 +116,7 @@ impl MultipleScattering {
     // ANCHOR: lobe
     /// The multiple-scattering lobe of a metal, in 1/sr.
     ///
-    /// It is symmetric in the two directions, and its directional albedo is what [`LostEnergy::at`] gives (Kulla and Conty
+    /// It is symmetric in the two directions, and its directional albedo is what [`ByCosine::at`] gives (Kulla and Conty
     /// 2017).
     #[inline(always)]
     pub fn brdf(&self, metal: usize, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {

@@ -26,8 +26,8 @@ fn shadow_ray_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Shadow
 
 /// Appends shadow rays to directional lights, light after light; they have no end.
 pub fn sample_directional_lights(lights: Res<Shared<DirectionalLightTable>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
             append_rays(
                 &receivers,

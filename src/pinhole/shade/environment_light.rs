@@ -77,12 +77,12 @@ pub fn sample_environment(
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
     for (
-        LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs },
+        LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs },
         DrawsViewItem { tile, depth, number, samples },
         paths,
     ) in &mut tiles
     {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+        let receivers = LightRows::new(surfaces, shading, list, far);
         let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
         let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
         let (to, purpose) = ((&mut *rays, pdfs.as_deref_mut()), Purpose::EnvironmentPoint);

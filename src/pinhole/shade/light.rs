@@ -1,10 +1,10 @@
-use super::{Radiance, ShadowHits, SurfaceColours};
+use super::{FarRows, Radiance, ShadowHits, SurfaceColours};
 use crate::extract::{
     MaterialTable, area_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
 use crate::intersect::{
-    NO_SHAPE, RayColumn, RaySlices, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
+    MaterialRows, NO_SHAPE, RayColumn, RaySlices, ShadingNormals, Surface, Surfaces, falling_cosine, offset_origin,
 };
 use crate::plan::{Census, Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
@@ -151,9 +151,38 @@ pub(super) struct LightRay {
 
 /// The surfaces that lights may illuminate.
 pub(super) struct LightRows<'a> {
-    pub surfaces: &'a Surfaces,
-    pub shading: Option<&'a ShadingNormals>,
-    pub rows: &'a [u32],
+    surfaces: &'a Surfaces,
+    shading: Option<&'a ShadingNormals>,
+    rows: &'a [u32],
+    /// Those that are lit from behind as well.
+    far: &'a [u32],
+}
+
+impl<'a> LightRows<'a> {
+    #[inline(always)]
+    pub fn new(
+        surfaces: &'a Surfaces,
+        shading: Option<&'a ShadingNormals>,
+        list: &'a MaterialRows,
+        far: Option<&'a FarRows>,
+    ) -> Self {
+        Self { surfaces, shading, rows: &list.row, far: far.map_or(&[], |far| &far.row) }
+    }
+
+    /// A row's surface and shading normal.
+    #[inline(always)]
+    fn near(&self, row: usize) -> (Surface, DVec3) {
+        let surface = self.surfaces.get(row);
+        let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
+        (surface, normal)
+    }
+
+    /// The same on the other side.
+    #[inline(always)]
+    fn behind(&self, row: usize) -> (Surface, DVec3) {
+        let (surface, normal) = self.near(row);
+        (Surface { normal: -surface.normal, ..surface }, -normal)
+    }
 }
 
 /// The columns that shadow rays are appended to.
@@ -178,6 +207,12 @@ pub(super) fn append_rays(
         Some(normals) => {
             append(receivers.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
         }
+    }
+    if !receivers.far.is_empty() {
+        append(receivers.far, rays, casts_shadows, |row| {
+            let (surface, normal) = receivers.behind(row);
+            ray_of(&surface, normal)
+        });
     }
     if let Some(pdfs) = pdfs {
         let (path, _) = pdfs.slices_mut(rays.rows());
@@ -217,15 +252,27 @@ pub(super) fn append_sampled(
     (rays, mut pdfs): RayLists<'_>,
     ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
 ) {
+    append_sampled_rows(receivers.rows, (rays, pdfs.as_deref_mut()), |row| {
+        let (surface, normal) = receivers.near(row);
+        ray_of(row, &surface, normal)
+    });
+    if !receivers.far.is_empty() {
+        append_sampled_rows(receivers.far, (rays, pdfs), |row| {
+            let (surface, normal) = receivers.behind(row);
+            ray_of(row, &surface, normal)
+        });
+    }
+}
+
+#[inline(always)]
+fn append_sampled_rows(rows: &[u32], (rays, mut pdfs): RayLists<'_>, ray_of: impl Fn(usize) -> (LightRay, f64)) {
     let length = rays.rows();
-    let most = length + receivers.rows.len();
+    let most = length + rows.len();
     let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(most);
     let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
     let mut at = length;
-    for &row in receivers.rows {
-        let surface = receivers.surfaces.get(row as usize);
-        let normal = receivers.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (light_ray, pdf) = ray_of(row as usize, &surface, normal);
+    for &row in rows {
+        let (light_ray, pdf) = ray_of(row as usize);
         path[at] = row;
         (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
         (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();

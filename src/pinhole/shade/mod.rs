@@ -24,6 +24,7 @@ mod emissive;
 pub mod emitter;
 mod environment;
 mod environment_light;
+mod far_rows;
 mod footprint;
 mod gradient;
 mod image_circle;
@@ -65,6 +66,8 @@ pub use environment::{
 };
 #[doc(hidden)]
 pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
+#[doc(hidden)]
+pub use far_rows::{FarRows, far_rows_stage, list_far_rows};
 #[doc(hidden)]
 pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
 #[doc(hidden)]

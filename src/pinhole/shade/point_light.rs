@@ -20,8 +20,8 @@ pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared:
 
 /// Appends shadow rays to point lights, light after light.
 pub fn sample_point_lights(lights: Res<Shared<PointLightTable>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for light in 0..lights.position.len() {
             sample_rows(&receivers, &lights, light, (&mut rays, pdfs.as_deref_mut()));
         }
