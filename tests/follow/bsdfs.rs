@@ -187,10 +187,11 @@ fn place_of(light: DVec3) -> (f64, f64) {
     (light.z.clamp(-1.0, 1.0 - 1e-16), libm::atan2(light.y, light.x).rem_euclid(TAU).min(TAU * (1.0 - 1e-16)))
 }
 
-/// Cells that hold at most so many of these places each.
-fn cells(places: &[(f64, f64)], most: usize) -> Vec<Cell> {
-    let mut open: Vec<(Cell, Vec<(f64, f64)>, u32)> =
-        [-1.0, 0.0].map(|low| (Cell { z: [low, low + 1.0], turn: [0.0, TAU] }, places.to_vec(), 0)).into();
+/// Cells that hold at most so many of these places each, of all directions to which light is sent.
+fn cells(places: &[(f64, f64)], most: usize, either_side: bool) -> Vec<Cell> {
+    let sides = if either_side { &[0.0, -1.0][..] } else { &[0.0] };
+    let whole = |&low: &f64| (Cell { z: [low, low + 1.0], turn: [0.0, TAU] }, places.to_vec(), 0);
+    let mut open: Vec<(Cell, Vec<(f64, f64)>, u32)> = sides.iter().map(whole).collect();
     let mut found = Vec::new();
     while let Some((cell, mut inside, depth)) = open.pop() {
         inside.retain(|&(z, turn)| cell.holds(z, turn));
@@ -216,7 +217,7 @@ fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
         sampled.map(|sample| place_of(sample.to_light)).collect::<Vec<_>>()
     };
     // The cells must not depend on the samples that are counted in them.
-    let (cells, rule) = (cells(&places(seed), 400), Quadrature::default());
+    let (cells, rule) = (cells(&places(seed), 400, example.transmits), Quadrature::default());
     let mut bins = Bins::new(cells.len() + 1);
     for (bin, cell) in cells.iter().enumerate() {
         let part = cell.integral(&rule, 6, &|light| example.bsdf.pdf(site, light, eye));

@@ -1,6 +1,7 @@
 use super::LightRays;
 use super::emitter::{distance_to, pdf_towards, point_on};
-use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_sampled, cosine_of, shadow_t_max};
+use super::light::{ShadowRay, cosine_of, shadow_t_max};
+use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::{Surface, offset_origin};

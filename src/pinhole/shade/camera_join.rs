@@ -1,4 +1,5 @@
-use super::light::{LightRay, LightRows, ShadowRay, append_sampled, shadow_t_max};
+use super::light::{ShadowRay, shadow_t_max};
+use super::receivers::{LightRay, LightRows, append_sampled};
 use super::{FarRows, LightRays};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine, offset_origin};

@@ -1,5 +1,6 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, ShadowRay, append_rays, cosine_of};
+use super::light::{ShadowRay, cosine_of};
+use super::receivers::{LightRay, LightRows, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::{Surface, offset_origin};

@@ -1,4 +1,5 @@
-use super::light::{LightRay, LightRows, ShadowRay, append_sampled, cosine_of};
+use super::light::{ShadowRay, cosine_of};
+use super::receivers::{LightRay, LightRows, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use super::{LightRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{

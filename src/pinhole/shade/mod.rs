@@ -33,6 +33,7 @@ mod light;
 mod lookup;
 mod point_light;
 mod radiance;
+mod receivers;
 mod shadow;
 mod spot_light;
 mod surface_colour;

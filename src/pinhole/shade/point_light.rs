@@ -1,5 +1,6 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, RayLists, append_rays, shadow_ray_to, shadow_t_max};
+use super::light::{shadow_ray_to, shadow_t_max};
+use super::receivers::{LightRay, LightRows, RayLists, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};

@@ -1,4 +1,5 @@
-use super::light::{LightRay, LightRows, append_rays, shadow_ray_to, shadow_t_max};
+use super::light::{shadow_ray_to, shadow_t_max};
+use super::receivers::{LightRay, LightRows, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use super::{LightRays, irradiance_from_point};
 use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
