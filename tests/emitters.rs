@@ -14,8 +14,8 @@ mod shadow_rays;
 mod sides;
 
 use glam::DVec3;
-use pinhole::extract::{Emitter, EmittingCuboid, Parallelogram};
-use pinhole::shade::emitter::{LightPoint, pdf_towards, point_on};
+use pinhole::shapes::emitter::{EmittingCuboid, EmittingDisk, EmittingTriangle, LightPoint, Parallelogram};
+use pinhole::shapes::{Emitter, pdf_towards, point_on};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// The mean and the standard deviation of what a surface at a point receives of a light of radiance 1, told by one
@@ -82,12 +82,12 @@ fn rectangle(centre: DVec3, half_edges: [DVec3; 2], side: DVec3) -> Emitter {
 
 /// A disk, or an ellipse.
 fn disk(centre: DVec3, half_edges: [DVec3; 2], side: DVec3) -> Emitter {
-    Emitter::Disk(Parallelogram::about_ellipse(centre, half_edges, side))
+    Emitter::Disk(EmittingDisk(Parallelogram::about_ellipse(centre, half_edges, side)))
 }
 
 fn triangle(corners: [DVec3; 3]) -> Emitter {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-    Emitter::Triangle { corners, normal }
+    Emitter::Triangle(EmittingTriangle { corners, normal })
 }
 
 fn cuboid(centre: DVec3, half_edges: [DVec3; 3]) -> Emitter {
@@ -115,7 +115,7 @@ fn corners_of(emitter: &Emitter) -> Vec<DVec3> {
             let (centre, [x, y]) = (planar.centre, planar.half_edges);
             vec![centre - x - y, centre + x - y, centre + x + y, centre - x + y]
         }
-        Emitter::Triangle { corners, .. } => corners.to_vec(),
+        Emitter::Triangle(EmittingTriangle { corners, .. }) => corners.to_vec(),
         _ => Vec::new(),
     }
 }

@@ -149,7 +149,7 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
                 let centre = DVec3::new(-0.5, 0.2, -10.0) + velocity * time;
                 let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
                 let expected = match mover {
-                    Mover::Ball => pinhole::intersect::sphere_t(origin, direction, centre, 0.7),
+                    Mover::Ball => pinhole::shapes::sphere_t(origin, direction, centre, 0.7),
                     _ => {
                         let t = (centre.z - origin.z) / direction.z;
                         let across = (origin + t * direction - centre).truncate();

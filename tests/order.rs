@@ -15,6 +15,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "plan",
             "check",
             "material",
+            "shapes",
             "extract",
             "sample",
             "rays",

@@ -13,6 +13,7 @@ mod order;
 mod plan;
 mod sampling;
 mod scenes;
+mod shapes;
 mod stages;
 mod textures;
 mod words;

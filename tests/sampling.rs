@@ -9,8 +9,8 @@ use pinhole::plan::{Census, plan};
 use pinhole::rays::{PixelSamples, RasterPoints, SampleSigns, Tile};
 use pinhole::render::{Execution, inspect, render};
 use pinhole::sample::{
-    Draw, INTEGRANDS, Independent, MeanError, PixelKey, Purpose, Sobol, Stratified, box_offset, mean_error, slope,
-    table_offset, tent_offset, unit,
+    Draw, INTEGRANDS, MeanError, PixelKey, Purpose, SampleIndex, box_offset, mean_error, slope, table_offset,
+    tent_offset, unit, with_sampler,
 };
 use pinhole::scene::*;
 use scenes::{Setup, full, named, offer, one_world};
@@ -113,11 +113,8 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
             for (row, &pixel) in rows.iter().enumerate() {
                 let [x, y] = place.pixel_of(pixel as usize);
                 let key = PixelKey::new(9, [x, y]);
-                let drawn = match sampling.sampler {
-                    Sampler::Independent => Independent::new(0, 0, Purpose::Pixel).two(key),
-                    Sampler::Stratified => Stratified::new(0, 4, 0, Purpose::Pixel).two(key),
-                    Sampler::Sobol => Sobol::new(0, 0, Purpose::Pixel).two(key),
-                };
+                let sample = SampleIndex { number: 0, samples: 4, depth: 0 };
+                let drawn = with_sampler!(sampling.sampler, D => D::of(sample, Purpose::Pixel).two(key));
                 let radius = pinhole::extract::radius_of(sampling.filter);
                 if sampling.filter == Filter::BOX {
                     assert_eq!(raster.x[row].floor(), f64::from(x), "{sampling:?}");

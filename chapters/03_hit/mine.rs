@@ -17,11 +17,11 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
             for (place, rays, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {
                     let (origin, direction) = (rays.origin_of(row).into(), rays.direction_of(row).into());
-                    for sphere in 0..spheres.shape.len() {
-                        let centre = spheres.centre(sphere).into();
-                        let t = ask.at(place, row, (origin, direction, centre, spheres.radius[sphere])).flatten();
+                    for (sphere, &shape) in spheres.row.iter().zip(&spheres.shape) {
+                        let asked = (origin, direction, sphere.centre.into(), sphere.radius);
+                        let t = ask.at(place, row, asked).flatten();
                         if let Some(t) = t.filter(|t| *t > 0.0 && *t < hits.t[row]) {
-                            (hits.t[row], hits.shape[row]) = (t, spheres.shape[sphere]);
+                            (hits.t[row], hits.shape[row]) = (t, shape);
                         }
                     }
                 }

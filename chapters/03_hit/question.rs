@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use glam::{DVec3, Vec3};
-use pinhole::intersect::sphere_intersection;
+use pinhole::shapes::sphere_intersection;
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::oracle_sphere::{Sphere, line_roots, sphere_hit};

@@ -5,9 +5,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{EllipsoidTable, ShapeTable};
 use pinhole::intersect;
-use pinhole::intersect::{EllipsoidRows, Hits, Surfaces};
+use pinhole::intersect::{Hits, ShapeRows, Surfaces};
 use pinhole::plan::Shared;
 use pinhole::rays::WorldRays;
+use pinhole::shapes::Ellipsoid;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Normals of ellipsoids, from those of the unit spheres that they are in object space.
@@ -16,11 +17,11 @@ pub fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
         intersect::ellipsoid_surface_stage,
         move |ellipsoids: Res<Shared<EllipsoidTable>>,
               shapes: Res<Shared<ShapeTable>>,
-              mut tiles: Query<(RowPlaces, &WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>| {
+              mut tiles: Query<(RowPlaces, &WorldRays, &Hits, &ShapeRows<Ellipsoid>, &mut Surfaces)>| {
             for (place, rays, hits, list, mut surfaces) in &mut tiles {
                 for &row in &list.row {
                     let row = row as usize;
-                    let ellipsoid = &ellipsoids.ellipsoid[shapes.row[hits.shape[row] as usize] as usize];
+                    let ellipsoid = &ellipsoids.row[shapes.row[hits.shape[row] as usize] as usize];
                     let from_centre = rays.point_at(row, hits.t[row]) - ellipsoid.centre;
                     let own = (ellipsoid.unit_from_world * from_centre).normalize();
                     let map = ellipsoid.unit_from_world.inverse();

@@ -17,7 +17,7 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
         move |cuboids: Res<Shared<CuboidTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &mut Hits)>| {
             for (place, rays, mut hits) in &mut tiles {
                 for row in 0..rays.rows() {
-                    for (slabs, &shape) in cuboids.slabs.iter().zip(&cuboids.shape) {
+                    for (slabs, &shape) in cuboids.row.iter().zip(&cuboids.shape) {
                         let own = |v: DVec3| slabs.normal.map(|normal| normal.dot(v));
                         let (origin, direction) =
                             (own(rays.origin_of(row) - slabs.centre), own(rays.direction_of(row)));

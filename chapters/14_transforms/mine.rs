@@ -3,8 +3,9 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::extract::{ShapeKind, ShapeTable, TriangleTable, VertexNormalTable};
-use pinhole::intersect::{Hits, ShadingNormals, Surfaces, TriangleHit, falling_cosine};
+use pinhole::extract::{ShapeTable, TriangleTable, VertexNormalTable};
+use pinhole::shapes::{ShapeKind, TriangleHit};
+use pinhole::intersect::{Hits, ShadingNormals, Surfaces, falling_cosine};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade;
@@ -34,7 +35,7 @@ pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
                         continue;
                     }
                     let (origin, direction) = (eye.origin_of(row), eye.direction_of(row));
-                    let weights = TriangleHit::of(origin, direction, &triangles.triangle[triangle]).weights;
+                    let weights = TriangleHit::of(origin, direction, &triangles.row[triangle]).weights;
                     let geometric = surfaces.get(row).normal.as_dvec3();
                     let asked =
                         (geometric.into(), corners.map(DVec3::into), weights, (-direction).into(), to_light.into());

@@ -2,7 +2,7 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::shade::emitter::pdf_from_area;
+use pinhole::shapes::emitter::pdf_from_area;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;

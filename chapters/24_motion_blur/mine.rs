@@ -2,9 +2,10 @@
 
 use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
-use pinhole::extract::{Body, MovingTable};
+use pinhole::extract::MovingTable;
+use pinhole::shapes::{Body, PlacedSphere};
 use pinhole::intersect;
-use pinhole::intersect::{Hits, at_rest, disk_t, rectangle_t};
+use pinhole::intersect::{Hits, at_rest};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{RayTimes, WorldRays};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
@@ -20,13 +21,12 @@ pub fn mine(ask: Ask<Input, Answer>, _: &Setting<'_>) -> StandIn {
                     for ((body, &velocity), &shape) in moving.body.iter().zip(&moving.velocity).zip(&moving.shape) {
                         let still = at_rest(origin, velocity, time);
                         let t = match body {
-                            Body::Sphere { centre, radius } => {
+                            Body::Sphere(PlacedSphere { centre, radius }, ()) => {
                                 let (o, d) = (origin.into(), direction.into());
                                 let asked = (o, d, (*centre).into(), *radius, velocity.into(), time);
                                 ask.at(place, row, asked).flatten().unwrap_or(f64::INFINITY)
                             }
-                            Body::Disk(planar) => disk_t(still, direction, planar),
-                            Body::Rectangle(planar) => rectangle_t(still, direction, planar),
+                            other => other.t(still, direction),
                         };
                         if t > 0.0 && t < hits.t[row] {
                             (hits.t[row], hits.shape[row]) = (t, shape);

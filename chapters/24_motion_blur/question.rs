@@ -2,7 +2,8 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::intersect::{at_rest, sphere_intersection, sphere_t};
+use pinhole::intersect::at_rest;
+use pinhole::shapes::{sphere_intersection, sphere_t};
 use pinhole_lab::exercise::apart::{option, relative};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;

@@ -51,14 +51,67 @@ enum Group {
     Film,
 }
 use BsdfRole::*;
-use Entry::*;
 use Group::*;
+
+/// A stage on offer, and the group that it belongs to.
+type Grouped = (Group, fn() -> Stage);
+
+/// Stages in order, and then those of every registered shape or BSDF.
+struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
+
+/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
+fn group_of(group: Group, is_uneven: bool) -> Group {
+    if is_uneven { Transforms } else { group }
+}
+
+fn intersections() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+}
+
+fn surface_points() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+}
+
+fn shadow_rays() -> Vec<Grouped> {
+    let stages = shade::shape_shadow_stages().into_iter();
+    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+}
+
+/// The stages of all BSDFs for one purpose; specular BSDFs come before the others.
+fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
+    let group = |stage: &BsdfStage| match (role, stage.class) {
+        (MisWeights, _) => Mis,
+        (Connections | SampleFromLights, _) => LightTracing,
+        (_, _) if stage.transmits => Glass,
+        (_, BsdfClass::Specular) => SpecularReflection,
+        (_, BsdfClass::Glossy) => GlossyReflection,
+        (Evaluate, BsdfClass::Diffuse) => Highlights,
+        (_, BsdfClass::Diffuse) => PathContinuation,
+    };
+    let mut stages: Vec<BsdfStage> = follow::bsdf_stages().into_iter().filter(|own| own.role == role).collect();
+    stages.sort_by_key(|own| own.class != BsdfClass::Specular);
+    stages.iter().map(|own| (group(own), own.stage)).collect()
+}
+
+fn bsdf_rows() -> Vec<Grouped> {
+    of_bsdfs(Classify)
+}
+
+fn direct_light_of_bsdfs() -> Vec<Grouped> {
+    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
+}
+
+fn bsdf_samples() -> Vec<Grouped> {
+    [Split, Sample, SampleFromLights].into_iter().flat_map(of_bsdfs).collect()
+}
 
 /// All stages in the order of the data flow.
 ///
 /// Where several of one set add to the same sums, their order here decides the last bits of the picture.
 #[rustfmt::skip]
-const LIST: &[Entry] = &[Stages(&[
+const LIST: &[Part] = &[Part(&[
     // Image points become rays in world space, or rays start on the lights.
     (CameraRays, rays::raster_stage),
     (Samples, rays::place_samples_stage),
@@ -82,31 +135,19 @@ const LIST: &[Entry] = &[Stages(&[
     (Bounces, follow::start_scattered_stage),
 
     // Rays are intersected with each kind of shape, and the closest hit is kept.
-    (Intersection, intersect::sphere_stage),
-    (Transforms, intersect::ellipsoid_stage),
-    (Intersection, intersect::plane_stage),
-    (Intersection, intersect::disk_stage),
-    (Intersection, intersect::rectangle_stage),
-    (Intersection, intersect::cuboid_stage),
-    (Intersection, intersect::triangle_stage),
+], intersections), Part(&[
     (Motion, intersect::moving_stage),
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
-]), Bsdfs(Classify), Stages(&[
+], bsdf_rows), Part(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
     (DirectLight, shade::far_rows_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
-    (Surfaces, intersect::sphere_surface_stage),
-    (Transforms, intersect::ellipsoid_surface_stage),
-    (Surfaces, intersect::plane_surface_stage),
-    (Surfaces, intersect::disk_surface_stage),
-    (Surfaces, intersect::rectangle_surface_stage),
-    (Surfaces, intersect::cuboid_surface_stage),
-    (Surfaces, intersect::triangle_surface_stage),
+], surface_points), Part(&[
     (Motion, intersect::moving_surface_stage),
     (Transforms, intersect::shading_normal_stage),
     (Textures, shade::footprint_stage),
@@ -141,17 +182,11 @@ const LIST: &[Entry] = &[Stages(&[
 
     // Shadow rays are traced.
     (Shadows, shade::start_shadow_stage),
-    (Shadows, shade::sphere_shadow_stage),
-    (Transforms, shade::ellipsoid_shadow_stage),
-    (Shadows, shade::plane_shadow_stage),
-    (Shadows, shade::disk_shadow_stage),
-    (Shadows, shade::rectangle_shadow_stage),
-    (Shadows, shade::cuboid_shadow_stage),
-    (Shadows, shade::triangle_shadow_stage),
+], shadow_rays), Part(&[
     (Motion, shade::moving_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
-]), Bsdfs(MisWeights), Bsdfs(Evaluate), Bsdfs(Connections), Stages(&[
+], direct_light_of_bsdfs), Part(&[
     (DirectLight, shade::light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
@@ -159,7 +194,7 @@ const LIST: &[Entry] = &[Stages(&[
     (Unlit, shade::unlit_stage),
 
     // BSDFs are sampled to continue the path, or it is terminated.
-]), Bsdfs(Split), Bsdfs(Sample), Bsdfs(SampleFromLights), Stages(&[
+], bsdf_samples), Part(&[
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
@@ -175,43 +210,7 @@ const LIST: &[Entry] = &[Stages(&[
     (WideCameras, shade::image_circle_stage),
     (Film, film::moments_stage),
     (Film, film::film_stage),
-])];
-
-/// A part of the list: stages one by one, or those of all BSDFs for one purpose.
-enum Entry {
-    Stages(&'static [(Group, fn() -> Stage)]),
-    Bsdfs(BsdfRole),
-}
-
-/// The group in which a stage of a BSDF is offered.
-fn group_of(stage: &BsdfStage) -> Group {
-    match (stage.role, stage.class) {
-        (MisWeights, _) => Mis,
-        (Connections | SampleFromLights, _) => LightTracing,
-        (_, _) if stage.transmits => Glass,
-        (_, BsdfClass::Specular) => SpecularReflection,
-        (_, BsdfClass::Glossy) => GlossyReflection,
-        (Evaluate, BsdfClass::Diffuse) => Highlights,
-        (_, BsdfClass::Diffuse) => PathContinuation,
-    }
-}
-
-/// Every stage with its group, in the order of the list; specular BSDFs come before the others.
-fn list() -> Vec<(Group, fn() -> Stage)> {
-    let bsdfs = follow::bsdf_stages();
-    let mut list = Vec::new();
-    for entry in LIST {
-        match entry {
-            Stages(stages) => list.extend_from_slice(stages),
-            Bsdfs(role) => {
-                let mut own: Vec<&BsdfStage> = bsdfs.iter().filter(|own| own.role == *role).collect();
-                own.sort_by_key(|own| own.class != BsdfClass::Specular);
-                list.extend(own.into_iter().map(|own| (group_of(own), own.stage)));
-            }
-        }
-    }
-    list
-}
+], Vec::new)];
 
 fn of(group: Group) -> Vec<Stage> {
     listed(|own| own == group)
@@ -219,7 +218,8 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let places = list().into_iter().enumerate().filter(|(_, (group, _))| wanted(*group));
+    let all = LIST.iter().flat_map(|Part(stages, of_each)| stages.iter().copied().chain(of_each()));
+    let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }
 

@@ -9,29 +9,56 @@ use glam::{DVec2, DVec3, Vec3};
 use multiversion::multiversion;
 use pinhole::extract::{
     BackgroundTable, CameraAxes, DirectionalLightTable, FilterTable, ImageFrame, MaterialKind, MaterialTable,
-    PerspectiveProjection, PlaneTable, PointLightTable, SamplingTable, ShapeKind, ShapeTable, SphereTable,
-    SpotLightTable,
+    PerspectiveProjection, PlaneTable, PointLightTable, SamplingTable, ShapeTable, SphereTable, SpotLightTable,
 };
 use pinhole::film::{Film, FilmTile};
-use pinhole::intersect::{NO_SHAPE, Surface, l1_norm, nearness, offset_bound, offset_origin, plane_t, sphere_t};
+use pinhole::intersect::{NO_SHAPE, Surface};
 use pinhole::plan::{Census, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, sampling_evidence, screen_from_ndc};
 use pinhole::sample::{
-    Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
+    Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler,
 };
-use pinhole::scene::{Filter, Sampler, SceneError};
+use pinhole::scene::{Filter, SceneError};
 use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
+use pinhole::shapes::{PlacedSphere, RayHit, ShapeKind, l1_norm, nearness, offset_origin, plane_t, sphere_t};
 use std::sync::{Mutex, PoisonError};
 
 /// Spheres tested together.
 const LANES: usize = 16;
+
+/// Spheres as a structure of arrays, so that sixteen of them are loaded at once.
+struct Spheres {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+    radius: Vec<f64>,
+    shape: Vec<u32>,
+}
+
+impl Spheres {
+    fn of(table: &SphereTable) -> Self {
+        let part = |of: fn(&PlacedSphere) -> f64| table.row.iter().map(of).collect();
+        Self {
+            x: part(|sphere| sphere.centre.x),
+            y: part(|sphere| sphere.centre.y),
+            z: part(|sphere| sphere.centre.z),
+            radius: part(|sphere| sphere.radius),
+            shape: table.shape.clone(),
+        }
+    }
+
+    #[inline(always)]
+    fn centre(&self, row: usize) -> DVec3 {
+        DVec3::new(self.x[row], self.y[row], self.z[row])
+    }
+}
 
 /// Everything the loop reads.
 pub struct Scene {
     image: ImageFrame,
     lens: PerspectiveProjection,
     axes: CameraAxes,
-    spheres: SphereTable,
+    spheres: Spheres,
     planes: PlaneTable,
     shapes: ShapeTable,
     materials: MaterialTable,
@@ -60,7 +87,7 @@ impl Scene {
             image: Table::extract(census)?,
             lens: Table::extract(census)?,
             axes: Table::extract(census)?,
-            spheres: Table::extract(census)?,
+            spheres: Spheres::of(&Table::extract(census)?),
             planes: Table::extract(census)?,
             shapes: Table::extract(census)?,
             materials,
@@ -90,15 +117,10 @@ pub fn render(world: &World, threads: usize) -> Film {
 fn render_tile(scene: &Scene, film: &mut FilmTile) {
     let Some(SamplingTable { samples, sampler, .. }) = scene.sampling else { return add_centres(scene, film) };
     let (numbers, purpose) = (0..samples, Purpose::Pixel);
-    match sampler {
-        Sampler::Independent => {
-            add_samples(scene, &numbers.map(|n| Independent::new(n, 0, purpose)).collect::<Vec<_>>(), film);
-        }
-        Sampler::Stratified => {
-            add_samples(scene, &numbers.map(|n| Stratified::new(n, samples, 0, purpose)).collect::<Vec<_>>(), film);
-        }
-        Sampler::Sobol => add_samples(scene, &numbers.map(|n| Sobol::new(n, 0, purpose)).collect::<Vec<_>>(), film),
-    }
+    let sample = |number| SampleIndex { number, samples, depth: 0 };
+    with_sampler!(sampler, D => {
+        add_samples(scene, &numbers.map(|n| D::of(sample(n), purpose)).collect::<Vec<_>>(), film);
+    });
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -162,9 +184,10 @@ fn surface(scene: &Scene, direction: DVec3, t: f64, shape: usize) -> Surface {
             (outward, l1_norm(centre) + scene.spheres.radius[row])
         }
         // Nothing but planes is left, as `extract` has made sure.
-        _ => (scene.planes.normal[row], scene.planes.offset[row].abs()),
+        _ => (scene.planes.row[row].normal, scene.planes.row[row].offset.abs()),
     };
-    Surface::facing(direction, point, normal, offset_bound(point, DVec3::ZERO, size), material)
+    let hit = RayHit { origin: DVec3::ZERO, direction, t, displacement: DVec3::ZERO };
+    Surface::of(hit.facing(point, normal, size), material)
 }
 
 #[inline(always)]
@@ -199,9 +222,9 @@ fn blocked(scene: &Scene, light: usize, origin: Vec3, direction: DVec3, distance
 #[inline(always)]
 fn nearest(scene: &Scene, origin: DVec3, direction: DVec3, t_max: f64, any: bool) -> (f64, u32) {
     let (mut t, mut shape) = (t_max, NO_SHAPE);
-    for (plane, &normal) in scene.planes.normal.iter().enumerate() {
-        let found = plane_t(origin, direction, normal, scene.planes.offset[plane]);
-        keep_closest(found, scene.planes.shape[plane], &mut t, &mut shape);
+    for (plane, &number) in scene.planes.row.iter().zip(&scene.planes.shape) {
+        let found = plane_t(origin, direction, plane.normal, plane.offset);
+        keep_closest(found, number, &mut t, &mut shape);
     }
     let spheres = &scene.spheres;
     let count = spheres.x.len();

@@ -138,9 +138,13 @@ fn varied() -> Vec<Stage> {
         shade::texture_point_stage(),
         shade::checker_stage(),
     ]);
-    stages.extend([shade::spot_light_stage(), shade::start_shadow_stage(), shade::disk_shadow_stage()]);
     stages.extend([
-        shade::cuboid_shadow_stage(),
+        shade::spot_light_stage(),
+        shade::start_shadow_stage(),
+        shade::shape_shadow_stage::<pinhole::shapes::PlacedDisk>(),
+    ]);
+    stages.extend([
+        shade::shape_shadow_stage::<pinhole::shapes::Slabs>(),
         shade::light_stage(),
         follow::direct_light_stage::<PhongTable>(),
         film_stage(),

@@ -1,7 +1,8 @@
 //! What lights send to a surface, against formulae.
 
 use super::*;
-use pinhole::shade::emitter::{
+use pinhole::shapes::PlacedSphere;
+use pinhole::shapes::emitter::{
     parallelogram_area_pdf, parallelogram_area_point, triangle_area_pdf, triangle_area_point,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -31,7 +32,7 @@ fn spheres_of_any_size_shine_as_they_should() {
             let normal = draws.unit_vector();
             let across = draws.unit_vector_across(normal);
             let centre = (normal * libm::cos(angle) + across * libm::sin(angle)) * 3.0;
-            let emitter = Emitter::Sphere { centre, radius: 3.0 * ratio };
+            let emitter = Emitter::Sphere(PlacedSphere { centre, radius: 3.0 * ratio });
             let received = Received::of(&emitter, DVec3::ZERO, normal, RAYS, cases);
             let truth = PI * ratio * ratio * libm::cos(angle);
             check(&format!("sphere {ratio:e} at {angle}"), &received, truth);
@@ -46,7 +47,7 @@ fn spheres_of_any_size_shine_as_they_should() {
 #[test]
 fn a_touching_sphere_fills_the_sky() {
     for (name, height) in [("touching", 1.0 + 1e-12), ("inside", 0.3), ("at the wall", 1.0 - 1e-12)] {
-        let emitter = Emitter::Sphere { centre: DVec3::Y * height, radius: 1.0 };
+        let emitter = Emitter::Sphere(PlacedSphere { centre: DVec3::Y * height, radius: 1.0 });
         let received = Received::of(&emitter, DVec3::ZERO, DVec3::Y, 2 * RAYS, 5);
         check(name, &received, PI);
     }

@@ -1,7 +1,8 @@
 //! Where points of lights fall, against what their pdfs say; and numbers at their ends.
 
 use super::*;
-use pinhole::shade::emitter::triangle_solid_angle;
+use pinhole::shapes::PlacedSphere;
+use pinhole::shapes::emitter::triangle_solid_angle;
 use std::f64::consts::TAU;
 
 const RAYS: u32 = 100_000;
@@ -131,7 +132,7 @@ fn ends_of_the_unit_square_are_no_trouble() {
         let (centre, a, b, c, away) = (vector(), vector(), vector(), vector(), vector());
         let nearness = draws.power_of_ten(-7.0, 2.0);
         let lights = [
-            Emitter::Sphere { centre, radius: a.length() },
+            Emitter::Sphere(PlacedSphere { centre, radius: a.length() }),
             rectangle(centre, [a, a.cross(b).normalize() * b.length()], away),
             rectangle(centre, [a, b], away),
             disk(centre, [a, a.cross(b).normalize() * a.length()], away),

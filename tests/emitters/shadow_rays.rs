@@ -4,18 +4,17 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::system::RunSystemOnce;
 use glam::{DQuat, DVec3, Vec3};
 use pinhole::extract::{
-    AreaLightTable, CuboidTable, DiskTable, Emitter, PlaneTable, RectangleTable, SamplingTable, SphereTable,
-    TriangleTable,
+    AreaLightTable, CuboidTable, DiskTable, PlaneTable, RectangleTable, SamplingTable, SphereTable, TriangleTable,
 };
-use pinhole::intersect::{
-    MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_cuboids, intersect_disks, intersect_planes,
-    intersect_rectangles, intersect_spheres, intersect_triangles, offset_bound,
-};
+use pinhole::intersect::{MaterialRows, NO_SHAPE, Surface, Surfaces, intersect_shapes};
 use pinhole::plan::{Census, Column, Shared, Table};
 use pinhole::rays::{SampleNumber, Tile};
 use pinhole::scene::*;
-use pinhole::shade::emitter::point_on;
 use pinhole::shade::{LightPdfs, LightRays, ShadowHits, area_light_pdf, sample_area_lights, start_shadows};
+use pinhole::shapes::emitter::EmittingTriangle;
+use pinhole::shapes::{
+    Emitter, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow, offset_bound, point_on,
+};
 use pinhole_lab::measure::ray_aim::Draws;
 
 /// Surfaces at once.
@@ -61,12 +60,12 @@ fn traced(world: &mut World, tile: Entity, surfaces: &[Surface], sample: u32) ->
     entity.get_mut::<LightPdfs>().expect("pdfs").clear();
     world.run_system_once(sample_area_lights).expect("runs");
     world.run_system_once(start_shadows).expect("runs");
-    world.run_system_once(intersect_spheres::<LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_disks::<LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_rectangles::<LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_cuboids::<LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_triangles::<LightRays, ShadowHits>).expect("runs");
-    world.run_system_once(intersect_planes::<LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedSphere, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedDisk, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedRectangle, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<Slabs, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<TriangleRow, LightRays, ShadowHits>).expect("runs");
+    world.run_system_once(intersect_shapes::<PlacedPlane, LightRays, ShadowHits>).expect("runs");
     let entity = world.entity(tile);
     let rays = entity.get::<LightRays>().expect("rays");
     assert_eq!(entity.get::<LightPdfs>().expect("pdfs").rows(), rays.rows());
@@ -230,7 +229,7 @@ fn both_strategies_know_one_pdf() {
             // Where a planar light is seen obliquely, the rounding counts by one over the cosine more.
             let obliqueness = match &lights.emitter[0] {
                 Emitter::Rectangle(planar) => planar.normal.dot(direction).abs(),
-                Emitter::Triangle { normal, .. } => normal.dot(direction).abs(),
+                Emitter::Triangle(EmittingTriangle { normal, .. }) => normal.dot(direction).abs(),
                 _ => 1.0,
             };
             let off = off * obliqueness;

@@ -78,7 +78,7 @@ pub fn drawn_distance(subject: &Subject) -> f64 {
     let planes = subject.planar_shapes.iter().flat_map(|planar| {
         at_one
             .corners()
-            .map(|corner| pinhole::intersect::plane_t(DVec3::ZERO, corner, planar.normal, planar.offset) * 0.88)
+            .map(|corner| pinhole::shapes::plane_t(DVec3::ZERO, corner, planar.normal, planar.offset) * 0.88)
     });
     let room = spheres.chain(planes).fold(f64::INFINITY, f64::min);
     // One decimal, since the figure's foot says it.

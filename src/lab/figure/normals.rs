@@ -9,14 +9,15 @@ use super::svg::{Drawing, Svg};
 use crate::naive::ellipsoid::normal_as_direction;
 use glam::DVec2;
 use pinhole::Result;
-use pinhole::extract::{EllipsoidTable, MaterialTable, PointLightTable, normal_world_from_object};
+use pinhole::extract::{EllipsoidTable, MaterialTable, PointLightTable};
 use pinhole::film::FilmTile;
-use pinhole::intersect::{Hits, Surface, Surfaces, offset_origin};
+use pinhole::intersect::{Hits, Surface, Surfaces};
 use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::Resolution;
 use pinhole::shade::{irradiance_from_point, matte_radiance, shadow_t_max};
+use pinhole::shapes::{normal_world_from_object, offset_origin};
 use pinhole::{Chapter, Overrides};
 
 /// Pixels of each of the two pictures.
@@ -77,14 +78,14 @@ fn pictures(chapter: &Chapter, figure: &Figure) -> Result<(Vec<[f32; 3]>, Vec<[f
     let (mut naive, mut worst) = (right.clone(), None::<Worst>);
     for (row, naive) in naive.iter_mut().enumerate() {
         let Some(number) = ellipsoids.shape.iter().position(|&shape| shape == hits.shape[row]) else { continue };
-        let ellipsoid = &ellipsoids.ellipsoid[number];
+        let ellipsoid = &ellipsoids.row[number];
         let surface = surfaces.get(row);
         let point = rays.point_at(row, hits.t[row]);
         let (map, from_centre) = (ellipsoid.unit_from_world, point - ellipsoid.centre);
         // The unit sphere's own normal, taken out of it as a direction is.
         let turned = normal_as_direction(map.inverse(), map * from_centre);
-        let wrong =
-            Surface { normal: Surface::facing(rays.direction_of(row), point, turned, 0.0, 0).normal, ..surface };
+        let facing = if turned.dot(rays.direction_of(row)) > 0.0 { -turned } else { turned };
+        let wrong = Surface { normal: facing.as_vec3(), ..surface };
         let outward = normal_world_from_object(map, map * from_centre).normalize();
         let degrees = libm::acos(turned.dot(outward).clamp(-1.0, 1.0)).to_degrees();
         if worst.is_none_or(|worst| degrees > worst.degrees) {

@@ -10,7 +10,8 @@ use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::intersect::{Surface, offset_origin};
+use pinhole::intersect::Surface;
+use pinhole::shapes::offset_origin;
 
 const HEIGHT: f64 = 372.0;
 /// Where the part at the scene's own scale ends and the magnified one begins.

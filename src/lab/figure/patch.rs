@@ -104,7 +104,7 @@ impl Patch {
         let mut outline = Vec::new();
         for around in circle(DVec2::ZERO, rim) {
             let edge = touch + around.x * a + around.y * b;
-            let t = pinhole::intersect::plane_t(light, edge - light, self.normal, self.normal.dot(self.origin));
+            let t = pinhole::shapes::plane_t(light, edge - light, self.normal, self.normal.dot(self.origin));
             // Cut by the plane, or cast past the horizon: no outline that closes.
             if !t.is_finite() || t < 1.0 - 1e-9 {
                 return Vec::new();

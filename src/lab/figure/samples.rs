@@ -10,7 +10,7 @@ use pinhole::Result;
 use pinhole::extract::{SamplingTable, camera_entity};
 use pinhole::plan::{Census, Table};
 use pinhole::sample::{
-    Draw, INTEGRANDS, Independent, MeanError, PixelKey, Purpose, Sobol, Stratified, mean_error, slope, unit,
+    Draw, INTEGRANDS, MeanError, PixelKey, Purpose, SampleIndex, mean_error, slope, unit, with_sampler,
 };
 use pinhole::scene::Sampler;
 
@@ -36,11 +36,8 @@ pub fn draw_points(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         }
         let mut columns = [0_u32; POINTS as usize];
         for sample in 0..POINTS {
-            let point = match sampler {
-                Sampler::Independent => Independent::new(sample, 0, Purpose::Pixel).two(pixel),
-                Sampler::Stratified => Stratified::new(sample, POINTS, 0, Purpose::Pixel).two(pixel),
-                Sampler::Sobol => Sobol::new(sample, 0, Purpose::Pixel).two(pixel),
-            };
+            let sample = SampleIndex { number: sample, samples: POINTS, depth: 0 };
+            let point = with_sampler!(sampler, D => D::of(sample, Purpose::Pixel).two(pixel));
             let at = corner + DVec2::from(point.map(unit)) * side;
             svg.circle(at, 2.4, Some(&Fill::new(RAY, 1.0)), None);
             columns[(unit(point[0]) * f64::from(POINTS)) as usize] += 1;

@@ -8,8 +8,9 @@ use super::subject::Subject;
 use super::svg::{Drawing, Svg};
 use glam::DVec2;
 use pinhole::Result;
-use pinhole::extract::{CuboidTable, Slabs};
+use pinhole::extract::CuboidTable;
 use pinhole::plan::{Census, Table};
+use pinhole::shapes::Slabs;
 use pinhole::{Chapter, Overrides};
 
 const HEIGHT: f64 = 300.0;
@@ -79,7 +80,7 @@ fn drawn_range(spans: &[[f64; 2]; 3]) -> (f64, f64) {
 fn telling<'s>(subject: &'s Subject, table: &CuboidTable) -> Option<(&'s PixelRay, [[f64; 2]; 3])> {
     let hitting = |shape: u32| subject.rays.iter().filter(move |ray| ray.hit.is_some_and(|(_, hit)| hit == shape));
     let row = (0..table.shape.len()).max_by_key(|&row| hitting(table.shape[row]).count())?;
-    let slabs = &table.slabs[row];
+    let slabs = &table.row[row];
     let apart = |ray: &&PixelRay| {
         let spans = spans(ray, slabs);
         let (first, last) = drawn_range(&spans);

@@ -3,13 +3,14 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use pinhole::extract::{
     CameraAxes, ImageFrame, MaterialTable, OrthographicWindow, PerspectiveProjection, PlaneTable, PointLightTable,
-    ShapeKind, ShapeTable, SphereTable, camera_entity,
+    ShapeTable, SphereTable, camera_entity,
 };
 use pinhole::intersect::Hits;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::{Inspection, inspect};
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
+use pinhole::shapes::ShapeKind;
 use pinhole::{Chapter, Overrides};
 use pinhole::{Error, Result, stages};
 
@@ -168,13 +169,19 @@ fn colours(scene: &World, kind: ShapeKind) -> Result<Vec<[f64; 3]>> {
 fn balls(scene: &World) -> Result<Vec<Ball>> {
     let table = SphereTable::extract(&Census::of(scene))?;
     let colours = colours(scene, ShapeKind::Sphere)?.into_iter().enumerate();
-    let ball =
-        |(row, colour)| Ball { centre: table.centre(row), radius: table.radius[row], colour, shape: table.shape[row] };
+    let ball = |(row, colour): (usize, _)| Ball {
+        centre: table.row[row].centre,
+        radius: table.row[row].radius,
+        colour,
+        shape: table.shape[row],
+    };
     Ok(colours.map(ball).collect())
 }
 
 fn planar_shapes(scene: &World) -> Result<Vec<Planar>> {
     let table = PlaneTable::extract(&Census::of(scene))?;
     let colours = colours(scene, ShapeKind::Plane)?.into_iter().enumerate();
-    Ok(colours.map(|(row, colour)| Planar { normal: table.normal[row], offset: table.offset[row], colour }).collect())
+    Ok(colours
+        .map(|(row, colour)| Planar { normal: table.row[row].normal, offset: table.row[row].offset, colour })
+        .collect())
 }

@@ -8,7 +8,7 @@ use super::exact::Dyadic;
 use super::exact_vector::Vector;
 use super::number::Number;
 use glam::{DVec3, Vec3};
-use pinhole::extract::Slabs;
+use pinhole::shapes::Slabs;
 
 /// A t as a quotient, the lower number above 0, and the axis of its face.
 #[derive(Clone)]
@@ -117,7 +117,7 @@ pub fn side_of_cuboid(point: DVec3, slabs: &Slabs) -> i32 {
 mod tests {
     use super::*;
     use crate::measure::cuboid_aim::{Eye, Spot, cuboid_shot};
-    use pinhole::intersect::{cuboid_intersection, cuboid_t as pinhole_t};
+    use pinhole::shapes::{cuboid_intersection, cuboid_t as pinhole_t};
 
     /// Half edges 1, 2, 4.
     fn brick() -> Slabs {

@@ -9,7 +9,7 @@ use super::exact::Dyadic;
 use super::exact_vector::Vector;
 use super::number::Number;
 use glam::{DVec3, Vec3};
-use pinhole::extract::Planar;
+use pinhole::shapes::Planar;
 use std::cmp::Ordering;
 
 /// Where the line of a ray crosses a planar shape's plane: t is `distance` over `approach`, and the coordinates there are
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::measure::oracle_plane::{Plane, plane_hit};
     use crate::measure::planar_aim::{At, View, edge_on, planar_shot};
-    use pinhole::intersect::{disk_intersection, disk_t as pinhole_t};
+    use pinhole::shapes::{disk_intersection, disk_t as pinhole_t};
 
     /// Half axes 2 along x and 1 along z, five below the eye.
     fn ellipse() -> Planar {

@@ -11,7 +11,7 @@ use super::exact_vector::{EnclosedVector, ExactVector, Vector};
 use super::number::Number;
 use super::oracle_sphere::Roots;
 use glam::{DVec3, Vec3};
-use pinhole::extract::Ellipsoid;
+use pinhole::shapes::Ellipsoid;
 
 /// A v.
 fn to_unit<N: Number>(ellipsoid: &Ellipsoid, v: &Vector<N>) -> Vector<N> {

@@ -8,7 +8,7 @@ use super::exact::Dyadic;
 use super::number::Number;
 use super::oracle_disk::Crossing;
 use glam::Vec3;
-use pinhole::extract::Planar;
+use pinhole::shapes::Planar;
 
 /// The t > 0 at which the ray hits the rectangle, if it does; nothing where these numbers cannot tell.
 fn hit<N: Number>(origin: Vec3, direction: Vec3, planar: &Planar) -> Option<Option<N>> {
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
     use crate::measure::planar_aim::{At, View, edge_on, planar_shot};
     use glam::DVec3;
-    use pinhole::intersect::{rectangle_intersection, rectangle_t as pinhole_t};
+    use pinhole::shapes::{rectangle_intersection, rectangle_t as pinhole_t};
 
     #[test]
     fn edges_and_corners_are_hits_and_the_next_number_a_miss() {

@@ -2,7 +2,7 @@
 
 use super::ray_aim::{AimedRay, BAND_IN_QUANTA, Draws, rounded_ray};
 use glam::{DVec3, Vec3};
-use pinhole::extract::Planar;
+use pinhole::shapes::Planar;
 
 /// One direction quantum: the spacing of f32 numbers just below 1.
 const QUANTUM: f64 = 1.0 / (1_u64 << 24) as f64;

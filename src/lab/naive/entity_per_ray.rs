@@ -8,14 +8,15 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::SingleThreadedExecutor;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::{
-    BackgroundTable, CameraAxes, ImageFrame, MaterialTable, NO_ROW, PerspectiveProjection, PlaneTable, ShapeKind,
-    ShapeTable, SphereTable,
+    BackgroundTable, CameraAxes, ImageFrame, MaterialTable, NO_ROW, PerspectiveProjection, PlaneTable, ShapeTable,
+    SphereTable,
 };
 use pinhole::film::Film;
-use pinhole::intersect::{self, NO_SHAPE, l1_norm, nearness, offset_bound, plane_t, sphere_t};
+use pinhole::intersect::{self, NO_SHAPE};
 use pinhole::plan::{Census, Sample, Shared, Table};
 use pinhole::rays::{camera_ray_perspective, ndc_from_raster, raster_from_pixel, screen_from_ndc};
 use pinhole::scene::SceneError;
+use pinhole::shapes::{RayHit, ShapeKind, l1_norm, nearness, plane_t, sphere_t};
 
 // ANCHOR: entity_per_ray
 /// Which pixel an entity is.
@@ -167,14 +168,14 @@ fn intersect(
         let [origin, direction] = ray.0.map(|part| part.as_dvec3());
         let inverse = 1.0 / direction.dot(direction);
         *hit = Hit { t: f64::INFINITY, shape: NO_SHAPE };
-        for row in 0..spheres.x.len() {
-            let (centre, radius) = (spheres.centre(row), spheres.radius[row]);
+        for row in 0..spheres.row.len() {
+            let (centre, radius) = (spheres.row[row].centre, spheres.row[row].radius);
             if nearness(centre - origin, direction, inverse, radius) >= 0.0 {
                 hit.keep_closest(sphere_t(origin, direction, centre, radius), spheres.shape[row]);
             }
         }
-        for (row, &normal) in planes.normal.iter().enumerate() {
-            hit.keep_closest(plane_t(origin, direction, normal, planes.offset[row]), planes.shape[row]);
+        for (plane, &shape) in planes.row.iter().zip(&planes.shape) {
+            hit.keep_closest(plane_t(origin, direction, plane.normal, plane.offset), shape);
         }
     }
 }
@@ -203,14 +204,15 @@ fn describe(
         let point = origin + hit.t * direction;
         let (normal, size) = match shapes.kind[shape] {
             ShapeKind::Sphere => {
-                let centre = spheres.centre(row);
+                let centre = spheres.row[row].centre;
                 let outward = (point - centre).try_normalize().unwrap_or(-direction);
-                (outward, l1_norm(centre) + spheres.radius[row])
+                (outward, l1_norm(centre) + spheres.row[row].radius)
             }
             // Nothing but planes is left, as `spawn` has made sure.
-            _ => (planes.normal[row], planes.offset[row].abs()),
+            _ => (planes.row[row].normal, planes.row[row].offset.abs()),
         };
-        surface.0 = intersect::Surface::facing(direction, point, normal, offset_bound(point, origin, size), material);
+        let hit = RayHit { origin, direction, t: hit.t, displacement: DVec3::ZERO };
+        surface.0 = intersect::Surface::of(hit.facing(point, normal, size), material);
     }
 }
 

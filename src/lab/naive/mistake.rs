@@ -7,19 +7,20 @@ use super::path::uniform_direction;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::{
-    AreaLightTable, Emitter, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, NO_ROW,
-    SamplingTable, ShutterTable, bsdf_evidence, glass_evidence, material_evidence, mis_evidence, occlusion_evidence,
+    AreaLightTable, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, NO_ROW, SamplingTable,
+    ShutterTable, bsdf_evidence, glass_evidence, material_evidence, mis_evidence, occlusion_evidence,
 };
 use pinhole::follow::{Scattered, ScatteredRay, SkyLists, SkyView, sample_sky_with};
-use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces, offset_origin};
+use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces};
 use pinhole::material::{MetalTable, cosine_pdf, frame_of};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
 };
 use pinhole::sample::{Purpose, uniform};
-use pinhole::shade::emitter::{distance_to, parallelogram_area_pdf};
 use pinhole::shade::{LightRays, area_light_stage};
+use pinhole::shapes::emitter::parallelogram_area_pdf;
+use pinhole::shapes::{Emitter, distance_to, offset_origin};
 use std::f64::consts::FRAC_1_PI;
 
 /// How a matte surface sends light on: a direction about +z by two numbers, and the weight that it counts with, by albedo and

@@ -1,12 +1,9 @@
 use super::emissive::emissive_of;
-use super::emitter::{Emitter, EmittingCuboid, Parallelogram};
-use super::shape_kind::is_shape;
-use super::{
-    CuboidTable, DiskTable, EmissiveTable, NO_ROW, Planar, RectangleTable, ShapeKind, ShapeTable, SphereTable,
-    TriangleTable, moves_while_open, shape_entities, unevenly_scaled,
-};
+use super::shape_kind::{is_shape, listed_kind, one_shape};
+use super::{EmissiveTable, NO_ROW, ShapeTable, moves_while_open, shape_entities};
 use crate::plan::{Census, Evidence, Table, counted};
-use crate::scene::{Emissive, Placement, Plane, Rgb, SceneError, Sphere, called};
+use crate::scene::{Emissive, Placement, Rgb, SceneError, called};
+use crate::shapes::Emitter;
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
 
@@ -83,9 +80,6 @@ impl Table for AreaLightTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (shapes, emissive) = (scene.table::<ShapeTable>()?, scene.table::<EmissiveTable>()?);
-        let (spheres, disks) = (scene.table::<SphereTable>()?, scene.table::<DiskTable>()?);
-        let (rectangles, triangles) = (scene.table::<RectangleTable>()?, scene.table::<TriangleTable>()?);
-        let cuboids = scene.table::<CuboidTable>()?;
         let mut table = Self { light_of_shape: vec![NO_ROW; shapes.kind.len()], ..Self::default() };
         let mut powers = Vec::new();
         for (shape, &emits) in shapes.emissive.iter().enumerate().filter(|(_, emits)| **emits != NO_ROW) {
@@ -94,19 +88,8 @@ impl Table for AreaLightTable {
                 continue;
             }
             let row = shapes.row[shape] as usize;
-            let emitter = match shapes.kind[shape] {
-                ShapeKind::Sphere => Emitter::Sphere { centre: spheres.centre(row), radius: spheres.radius[row] },
-                ShapeKind::Disk => Emitter::Disk(about_ellipse(&disks.planar[row])),
-                ShapeKind::Rectangle => Emitter::Rectangle(parallelogram(&rectangles.planar[row])),
-                ShapeKind::Triangle => {
-                    Emitter::Triangle { corners: triangles.triangle[row].corners, normal: triangles.normal[row] }
-                }
-                ShapeKind::Cuboid => {
-                    let slabs = &cuboids.slabs[row];
-                    Emitter::Cuboid(EmittingCuboid::new(slabs.centre, slabs.half_edges()))
-                }
-                ShapeKind::Plane | ShapeKind::Ellipsoid | ShapeKind::Moving => continue,
-            };
+            let emitter = listed_kind(shapes.kind[shape]).map(|listed| (listed.emitter)(scene, row)).transpose()?;
+            let Some(emitter) = emitter.flatten() else { continue };
             let one_sided = emissive.one_sided[emits as usize];
             let sides = if one_sided { 1.0 } else { 2.0 };
             powers.push(luminance(radiance) * emitter.area() * PI * sides);
@@ -126,23 +109,11 @@ impl Table for AreaLightTable {
     }
 }
 
-fn parallelogram(planar: &Planar) -> Parallelogram {
-    Parallelogram::new(planar.centre, planar.half_edges(), planar.normal)
-}
-
-fn about_ellipse(planar: &Planar) -> Parallelogram {
-    Parallelogram::about_ellipse(planar.centre, planar.half_edges(), planar.normal)
-}
-
 /// Evidence that a shape emits light and can be sampled; emitting shapes that cannot are mentioned too.
 pub fn area_light_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let moves = moves_while_open(scene);
-        let endless = |shape: Entity| {
-            moves(shape)
-                || scene.get::<Plane>(shape).is_some()
-                || (scene.get::<Sphere>(shape).is_some() && unevenly_scaled(scene, shape))
-        };
+        let endless = |shape: Entity| moves(shape) || !one_shape(scene, shape).is_ok_and(|listed| listed.is_sampled);
         let shines = |shape: Entity| {
             let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
             emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)

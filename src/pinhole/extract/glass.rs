@@ -1,9 +1,9 @@
 use super::check::kind_and_name;
 use super::material::used_material;
-use super::shape_kind::numbered;
+use super::shape_kind::{one_shape, shape_entities};
 use crate::material::{interior_of, material_entities};
 use crate::plan::{Census, Table};
-use crate::scene::{Disk, Rectangle, SceneError, called};
+use crate::scene::{SceneError, called};
 use bevy_ecs::prelude::*;
 
 /// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
@@ -39,18 +39,18 @@ impl Table for GlassTable {
 
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
-    let of = |kind, numbered: Vec<(usize, Entity)>| numbered.into_iter().map(move |(_, shape)| (shape, kind));
-    let mut open: Vec<(Entity, &str)> = of("disk", numbered::<Disk>(scene)).collect();
-    open.extend(of("rectangle", numbered::<Rectangle>(scene)));
-    open.sort_by_key(|(shape, _)| shape.index());
-    for (shape, kind) in open {
+    for &shape in shape_entities(scene).iter() {
+        let listed = one_shape(scene, shape)?;
+        if listed.has_inside {
+            continue;
+        }
         let Some(material) = used_material(scene, shape).filter(|&own| matches!(interior_of(scene, own), Ok(Some(_))))
         else {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
         let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
-        return Err(SceneError::new(kind_and_name(scene, kind, shape), "material", value, accepted));
+        return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
     Ok(())
 }

@@ -1,11 +1,10 @@
 use super::material::in_use;
-use super::{
-    Bounds, CuboidTable, EllipsoidTable, MaterialTable, NO_ROW, ShapeKind, ShapeTable, SphereTable, TriangleTable,
-    shape_entities,
-};
+use super::shape_kind::listed_kind;
+use super::{MaterialTable, NO_ROW, ShapeTable, shape_entities};
 use crate::material::{Interior, interior_of, material_entities};
 use crate::plan::{Census, Evidence};
 use crate::scene::{SceneError, called};
+use crate::shapes::Bounds;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -143,28 +142,15 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
         material != NO_ROW && materials.interior[material as usize] != NO_ROW
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
-    let spheres = scene.table::<SphereTable>()?;
-    let (ellipsoids, cuboids) = (scene.table::<EllipsoidTable>()?, scene.table::<CuboidTable>()?);
-    let triangles = scene.table::<TriangleTable>()?;
     let bounded = glass.into_iter().map(|shape| {
-        let row = shapes.row[shape] as usize;
-        let bounds = match shapes.kind[shape] {
-            ShapeKind::Sphere => Bounds::of_sphere(spheres.centre(row), spheres.radius[row]),
-            ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
-            ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
-            ShapeKind::Triangle => {
-                let [a, b, c] = triangles.triangle[row].corners;
-                Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
-            }
-            // A plane is infinite, and a moving shape may go anywhere; disks and rectangles of glass are invalid.
-            ShapeKind::Plane | ShapeKind::Disk | ShapeKind::Rectangle | ShapeKind::Moving => {
-                Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY }
-            }
-        };
-        let part = shapes.kind[shape] == ShapeKind::Triangle;
-        BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds }
+        let (listed, row) = (listed_kind(shapes.kind[shape]), shapes.row[shape] as usize);
+        // A plane is infinite, and a moving shape may go anywhere.
+        let anywhere = Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
+        let bounds = listed.map_or(Ok(None), |listed| (listed.bounds)(scene, row))?.unwrap_or(anywhere);
+        let part = listed.is_some_and(|listed| listed.is_part);
+        Ok(BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds })
     });
-    Ok(bounded.collect())
+    bounded.collect()
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 use super::area_light::light_distribution;
-use super::{
-    AreaLightTable, Bounds, CuboidTable, DiskTable, EllipsoidTable, Emitter, MaterialTable, NO_ROW, PointLightTable,
-    RectangleTable, ShapeKind, ShapeTable, SphereTable, SpotLightTable, TriangleTable, luminance,
-};
+use super::shape_kind::listed_kind;
+use super::{AreaLightTable, MaterialTable, NO_ROW, PointLightTable, ShapeTable, SpotLightTable, luminance};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
+use crate::shapes::{Bounds, Emitter};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -105,9 +104,6 @@ impl Table for LightPathTable {
 /// Bounding spheres of all mirrors and glass; none where one of these is infinite.
 fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
-    let (spheres, ellipsoids) = (scene.table::<SphereTable>()?, scene.table::<EllipsoidTable>()?);
-    let (disks, rectangles) = (scene.table::<DiskTable>()?, scene.table::<RectangleTable>()?);
-    let (cuboids, triangles) = (scene.table::<CuboidTable>()?, scene.table::<TriangleTable>()?);
     let is_specular = |shape: &usize| match shapes.material[*shape] {
         NO_ROW => false,
         material => materials.kind[material as usize].is_specular(),
@@ -115,22 +111,10 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     let mut found = Vec::new();
     for shape in (0..shapes.kind.len()).filter(is_specular) {
         let row = shapes.row[shape] as usize;
-        let bounds = match shapes.kind[shape] {
-            ShapeKind::Sphere => {
-                found.push(Target::new(spheres.centre(row), spheres.radius[row]));
-                continue;
-            }
-            ShapeKind::Ellipsoid => Bounds::of_ellipsoid(&ellipsoids.ellipsoid[row]),
-            ShapeKind::Disk => Bounds::of_disk(&disks.planar[row]),
-            ShapeKind::Rectangle => Bounds::of_rectangle(&rectangles.planar[row]),
-            ShapeKind::Cuboid => Bounds::of_cuboid(&cuboids.slabs[row]),
-            ShapeKind::Triangle => {
-                let [a, b, c] = triangles.triangle[row].corners;
-                Bounds { least: a.min(b).min(c), most: a.max(b).max(c) }
-            }
-            ShapeKind::Plane | ShapeKind::Moving => return Ok(Vec::new()),
-        };
-        found.push(Target::about(bounds.least, bounds.most));
+        let around = listed_kind(shapes.kind[shape]).map(|listed| (listed.bounding_sphere)(scene, row)).transpose()?;
+        // A plane is infinite, and a moving shape may go anywhere.
+        let Some((centre, radius)) = around.flatten() else { return Ok(Vec::new()) };
+        found.push(Target::new(centre, radius));
     }
     if found.len() > MOST_TARGETS {
         let ends = |target: &Target| {
@@ -141,7 +125,8 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
             .iter()
             .map(ends)
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
-        found = vec![Target::about(least, most)];
+        let (centre, radius) = Bounds { least, most }.sphere_around();
+        found = vec![Target::new(centre, radius)];
     }
     Ok(found)
 }
@@ -149,10 +134,5 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
 impl Target {
     fn new(centre: DVec3, radius: f64) -> Self {
         Self { centre, radius: radius * MARGIN }
-    }
-
-    /// The bounding sphere of a box.
-    fn about(least: DVec3, most: DVec3) -> Self {
-        Self::new(0.5 * (least + most), 0.5 * (most - least).length())
     }
 }

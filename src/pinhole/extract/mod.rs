@@ -15,26 +15,21 @@
 //! scene.spawn((Sphere { radius: 0.5 }, Placement::at(1.0, 0.0, -3.0), Matte::default()));
 //! // Positions are relative to the eye.
 //! let spheres = Census::of(&scene).table::<SphereTable>()?;
-//! assert_eq!((spheres.x[0], spheres.z[0], spheres.radius[0]), (0.0, -3.0, 0.5));
+//! let ball = spheres.row[0];
+//! assert_eq!((ball.centre, ball.radius), (DVec3::new(0.0, 0.0, -3.0), 0.5));
 //! # Ok::<(), pinhole::scene::SceneError>(())
 //! ```
 
 mod adaptive;
 mod area_light;
 mod background;
-mod bounds;
 mod camera;
 mod camera_entity;
 mod camera_join;
-mod cuboid;
 mod directional_light;
-mod disk;
-mod ellipsoid;
 mod emissive;
-mod emitter;
 mod environment;
 mod environment_light;
-mod exact_sum;
 mod filter;
 mod fisheye;
 mod glass;
@@ -54,20 +49,16 @@ mod material;
 mod motion;
 mod moving;
 mod pixel_steps;
-mod planar;
-mod plane;
 mod point_light;
 mod pose;
 mod pyramid;
-mod rectangle;
 mod sampling;
 mod shape;
 mod shape_kind;
-mod sphere;
+mod shapes_of;
 mod spot_light;
 mod srgb;
 mod texture;
-mod triangle;
 mod two_colours;
 mod uv_slope;
 mod uv_space;
@@ -76,22 +67,16 @@ mod velocity;
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
-pub use bounds::Bounds;
 pub use camera::{
     CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
     eye, half_extent, tan_half,
 };
 pub use camera_entity::camera_entity;
 pub use camera_join::CameraJoinTable;
-pub use cuboid::{CuboidTable, Slabs};
 pub use directional_light::DirectionalLightTable;
-pub use disk::DiskTable;
-pub use ellipsoid::{Ellipsoid, EllipsoidTable};
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
-pub use emitter::{Emitter, EmittingCuboid, Parallelogram};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
-pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
 pub use fisheye::{ImageCircle, fisheye_evidence};
 pub use glass::GlassTable;
@@ -114,31 +99,29 @@ pub use material::{
     material_kind_evidence, matte_evidence, specular_evidence,
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
-pub use moving::{Body, MovingTable};
+pub use moving::{MovingTable, shape_bodies};
 pub use pixel_steps::PixelSteps;
-pub use planar::Planar;
-pub use plane::PlaneTable;
 pub use point_light::PointLightTable;
-pub use pose::{
-    Pose, ahead, direction_object_from_world, look_at_axes, normal_world_from_object, point_object_from_world, pose,
-    unevenly_scaled, world_from_entity,
-};
+pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
-pub use rectangle::RectangleTable;
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
-pub use shape_kind::{ShapeKind, shape_entities, shape_name, shape_names};
-pub use sphere::SphereTable;
+pub use shape_kind::{
+    ListedKind, kind_evidence, listed_kind, listed_kinds, shape_entities, shape_evidence, shape_name, shape_names,
+};
+pub use shapes_of::{
+    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapesOf, SphereTable, TriangleTable,
+    VertexNormalTable,
+};
 pub use spot_light::{SpotLightTable, versine_of_half};
 pub use srgb::linear_from_srgb;
 pub use texture::{
     NO_TEXTURE, ShapeSpaces, Texture, TextureMap, TextureMapping, TextureMaps, by_uv_evidence, filtered_by_uv_evidence,
     filtered_evidence, texture_evidence, texture_of_kind,
 };
-pub use triangle::{TriangleRow, TriangleTable, VertexNormalTable};
 pub use two_colours::{CheckerTable, StripesTable, TwoColours};
-pub use uv_slope::{UvSlope, UvSlopes, most_of};
-pub use uv_space::{UvSpaceTable, face_axes, plane_axes};
+pub use uv_slope::UvSlopes;
+pub use uv_space::UvSpaceTable;
 pub use velocity::{moves_while_open, velocity_of};
 
 use crate::check;
@@ -166,13 +149,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<MaterialTable>,
     answer::<GlassTable>,
     answer::<EmissiveTable>,
-    answer::<SphereTable>,
-    answer::<EllipsoidTable>,
-    answer::<PlaneTable>,
-    answer::<DiskTable>,
-    answer::<RectangleTable>,
-    answer::<CuboidTable>,
-    answer::<TriangleTable>,
+    |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
     answer::<PointLightTable>,
     answer::<DirectionalLightTable>,

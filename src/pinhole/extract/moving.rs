@@ -1,29 +1,10 @@
-use super::check::{kind_and_name, positive_length};
 use super::eye;
-use super::planar::{Planar, planar};
-use super::shape_kind::moving_shapes;
-use super::sphere::placed_sphere;
+use super::shape_kind::{moving_shapes, one_shape, shape_entities};
 use super::velocity::velocity_of;
 use crate::plan::{Census, Table};
-use crate::scene::{Disk, Rectangle, SceneError, Sphere};
-use bevy_ecs::prelude::*;
+use crate::scene::SceneError;
+use crate::shapes::Body;
 use glam::DVec3;
-
-/// A moving shape at the moment when the shutter opens, in render space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Body {
-    /// A sphere.
-    Sphere {
-        /// Its centre.
-        centre: DVec3,
-        /// Its radius, in scene units.
-        radius: f64,
-    },
-    /// A disk.
-    Disk(Planar),
-    /// A rectangle.
-    Rectangle(Planar),
-}
 
 /// Shapes of every kind that move while the shutter is open, in spawn order; the tables of the kinds hold the others.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,24 +24,7 @@ impl Table for MovingTable {
         let eye = eye(scene)?;
         let mut table = Self::default();
         for &(shape, entity) in moving_shapes(scene).iter() {
-            let body = if let Some(sphere) = scene.get::<Sphere>(entity) {
-                let (centre, radius) = placed_sphere(scene, entity, sphere, eye)?;
-                Body::Sphere { centre, radius }
-            } else if let Some(disk) = scene.get::<Disk>(entity) {
-                let who = kind_and_name(scene, "disk", entity);
-                let radius = positive_length(&who, "radius", disk.radius)?;
-                Body::Disk(planar(scene, &who, entity, [radius; 2])?)
-            } else if let Some(rectangle) = scene.get::<Rectangle>(entity) {
-                let who = kind_and_name(scene, "rectangle", entity);
-                let half = [
-                    positive_length(&who, "width", rectangle.width)? / 2.0,
-                    positive_length(&who, "depth", rectangle.depth)? / 2.0,
-                ];
-                Body::Rectangle(planar(scene, &who, entity, half)?)
-            } else {
-                continue;
-            };
-            table.body.push(body);
+            table.body.push((one_shape(scene, entity)?.body)(scene, entity, eye)?);
             table.velocity.push(velocity_of(scene, entity));
             table.shape.push(shape as u32);
         }
@@ -70,4 +34,12 @@ impl Table for MovingTable {
     fn bytes(&self) -> usize {
         self.body.len() * (size_of::<Body>() + size_of::<DVec3>() + size_of::<u32>())
     }
+}
+
+/// All shapes at the moment when the shutter opens, each of any kind, in spawn order.
+///
+/// Errors: what is wrong with a shape.
+pub fn shape_bodies(scene: &Census<'_>) -> Result<Vec<Body>, SceneError> {
+    let eye = eye(scene)?;
+    shape_entities(scene).iter().map(|&entity| (one_shape(scene, entity)?.body)(scene, entity, eye)).collect()
 }

@@ -1,30 +1,12 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::shape_kind::{ShapeKind, one_shape, shape_entities};
+use super::shape_kind::{one_shape, shape_entities};
 use super::velocity::moves_while_open;
-use super::{
-    CuboidTable, DiskTable, EllipsoidTable, MovingTable, PlaneTable, RectangleTable, SphereTable, TriangleTable,
-};
 use crate::material::{NO_ROW, components_in_words, material_entities, material_kind};
-use crate::plan::{Census, Table, TableKind};
+use crate::plan::{Census, Table};
 use crate::scene::{SceneError, UsesMaterial, called};
+use crate::shapes::ShapeKind;
 use bevy_ecs::prelude::*;
-
-impl ShapeKind {
-    /// The table of this kind.
-    pub fn table(self) -> TableKind {
-        match self {
-            Self::Sphere => TableKind::of::<SphereTable>(),
-            Self::Plane => TableKind::of::<PlaneTable>(),
-            Self::Ellipsoid => TableKind::of::<EllipsoidTable>(),
-            Self::Disk => TableKind::of::<DiskTable>(),
-            Self::Rectangle => TableKind::of::<RectangleTable>(),
-            Self::Cuboid => TableKind::of::<CuboidTable>(),
-            Self::Triangle => TableKind::of::<TriangleTable>(),
-            Self::Moving => TableKind::of::<MovingTable>(),
-        }
-    }
-}
 
 /// All shapes in spawn order; a shape's index here is the shape number in hits.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,10 +32,10 @@ impl Table for ShapeTable {
         let non_specular =
             |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(|kind| !kind.is_specular());
         let mut table = Self::default();
-        let (mut rows_of_kind, moves) = ([0; ShapeKind::COUNT], moves_while_open(scene));
+        let (mut rows_of_kind, moves) = ([0; ShapeKind::Moving as usize + 1], moves_while_open(scene));
         for &entity in shape_entities(scene).iter() {
-            let written = one_shape(scene, entity)?;
-            let kind = if moves(entity) { ShapeKind::Moving } else { (written.kind)(scene, entity) };
+            let listed = one_shape(scene, entity)?;
+            let kind = if moves(entity) { ShapeKind::Moving } else { listed.kind };
             let rows = &mut rows_of_kind[kind as usize];
             table.row.push(*rows);
             *rows += 1;
@@ -65,7 +47,7 @@ impl Table for ShapeTable {
             // A shape that emits light need not reflect any, but a material that it uses must exist.
             let is_missing = material.min(if used.is_some() { used_emits } else { emits }) == NO_ROW;
             if is_missing || (own != NO_ROW && used.is_some()) {
-                return Err(wrong_material(scene, &kind_and_name(scene, written.word, entity), own != NO_ROW, used));
+                return Err(wrong_material(scene, &kind_and_name(scene, listed.word, entity), own != NO_ROW, used));
             }
             table.non_specular.push(non_specular(material));
             table.material.push(material);

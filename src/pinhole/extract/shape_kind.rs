@@ -1,83 +1,157 @@
-//! Which entities are a shape, and of which kind.
+//! Which entities are a shape, of which kind, and what extraction asks of each kind.
 
 use super::check::kind_and_name;
 use super::pose::unevenly_scaled;
+use super::shapes_of::{ShapesOf, placed_shape};
 use super::velocity::moves_while_open;
-use crate::plan::{Census, united};
-use crate::scene::{Cuboid, Disk, Plane, Rectangle, SceneError, Sphere, Triangle};
+use crate::plan::{Census, Evidence, TableKind, united};
+use crate::scene::SceneError;
+use crate::shapes::emitter::NeverSampled;
+use crate::shapes::{Body, Bounds, Emitter, Listed, SceneShape, ShapeKind, ShapeVisitor, UvSlope, visit_shapes};
 use bevy_ecs::prelude::*;
-use std::sync::Arc;
+use glam::{DMat3, DVec3};
+use std::any::TypeId;
+use std::sync::{Arc, OnceLock};
 
-/// The kinds of shape, in the order of their tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShapeKind {
-    /// A row of the sphere table.
-    Sphere,
-    /// A row of the plane table.
-    Plane,
-    /// A row of the ellipsoid table.
-    Ellipsoid,
-    /// A row of the disk table.
-    Disk,
-    /// A row of the rectangle table.
-    Rectangle,
-    /// A row of the cuboid table.
-    Cuboid,
-    /// A row of the triangle table.
-    Triangle,
-    /// A row of the table of moving shapes.
-    Moving,
-}
-
-impl ShapeKind {
-    /// The number of kinds.
-    pub(super) const COUNT: usize = 8;
-}
-
-/// A component that is a shape, and the table of its kind.
-pub(super) struct Written {
-    /// The component's name.
-    component: &'static str,
-    /// Its name in messages.
-    pub(super) word: &'static str,
+/// A registered shape as extraction handles it, without its type.
+#[derive(Clone, Copy)]
+pub struct ListedKind {
+    /// The kind.
+    pub kind: ShapeKind,
+    /// The name of its component.
+    pub component: &'static str,
+    /// Its component in messages.
+    pub word: &'static str,
+    /// Which placements make this shape of its component, if not all do.
+    uneven: Option<bool>,
+    /// Whether it can be made of glass.
+    pub has_inside: bool,
+    /// Whether several usually make up one surface.
+    pub is_part: bool,
+    /// Its table.
+    pub table: TableKind,
+    /// Evidence that the scene contains one that keeps still.
+    pub evidence: fn(&Census<'_>) -> Evidence,
     entities: fn(&Census<'_>) -> Arc<[Entity]>,
+    component_evidence: fn(&Census<'_>) -> Evidence,
     carries: fn(&Census<'_>, Entity) -> bool,
-    pub(super) kind: fn(&Census<'_>, Entity) -> ShapeKind,
+    /// Extracts its table, which checks its components.
+    pub check: fn(&Census<'_>) -> Result<(), SceneError>,
+    /// A shape that moves.
+    pub(super) body: fn(&Census<'_>, Entity, DVec3) -> Result<Body, SceneError>,
+    /// A row of its table as a light; none where it cannot be sampled.
+    pub(super) emitter: fn(&Census<'_>, usize) -> Result<Option<Emitter>, SceneError>,
+    /// Whether there are lights of this kind at all.
+    pub(super) is_sampled: bool,
+    /// The box around a row; none where it is infinite.
+    pub(super) bounds: fn(&Census<'_>, usize) -> Result<Option<Bounds>, SceneError>,
+    /// The sphere around a row; none where it is infinite.
+    pub(super) bounding_sphere: fn(&Census<'_>, usize) -> Result<Option<(DVec3, f64)>, SceneError>,
+    /// The number of the first shape with a point in its inside.
+    pub around: fn(&Census<'_>, DVec3) -> Result<Option<u32>, SceneError>,
+    /// The linear map from world space to an entity's uv space.
+    pub(super) uv_from_world: fn(&Census<'_>, Entity, DMat3) -> DMat3,
+    /// Fills in the gradients of u and v along its rows.
+    pub(super) fill_uv_slopes: fn(&Census<'_>, &[DMat3], &mut [UvSlope]) -> Result<(), SceneError>,
 }
 
-impl Written {
-    const fn of<C: Component>(
-        component: &'static str,
-        word: &'static str,
-        kind: fn(&Census<'_>, Entity) -> ShapeKind,
-    ) -> Self {
-        let carries = |scene: &Census<'_>, entity: Entity| scene.get::<C>(entity).is_some();
-        Self { component, word, entities: |scene| scene.entities::<With<C>>(), carries, kind }
+impl ListedKind {
+    fn of<S: Listed>() -> Self {
+        Self {
+            kind: S::KIND,
+            component: S::Component::NAME,
+            word: S::Component::WORD,
+            uneven: S::UNEVEN,
+            has_inside: S::HAS_INSIDE,
+            is_part: S::IS_PART,
+            table: TableKind::of::<ShapesOf<S>>(),
+            evidence: kind_evidence::<S>,
+            entities: |scene| scene.entities::<With<S::Component>>(),
+            component_evidence: |scene| Evidence::of::<S::Component>(scene, S::Component::WORD),
+            carries: |scene, entity| scene.get::<S::Component>(entity).is_some(),
+            check: |scene| scene.table::<ShapesOf<S>>().map(drop),
+            body: |scene, entity, eye| {
+                placed_shape::<S>(scene, entity, eye).map(|(shape, beside)| shape.into_body(beside))
+            },
+            emitter: |scene, row| {
+                let shapes = scene.table::<ShapesOf<S>>()?;
+                Ok(shapes.row[row].listed_emitter(&shapes.beside[row]))
+            },
+            is_sampled: TypeId::of::<S::Emitter>() != TypeId::of::<NeverSampled>(),
+            bounds: |scene, row| Ok(scene.table::<ShapesOf<S>>()?.row[row].bounds()),
+            bounding_sphere: |scene, row| Ok(scene.table::<ShapesOf<S>>()?.row[row].bounding_sphere()),
+            around: |scene, point| {
+                let shapes = scene.table::<ShapesOf<S>>()?;
+                Ok(shapes.row.iter().position(|shape| shape.contains(point)).map(|row| shapes.shape[row]))
+            },
+            uv_from_world: |scene, entity, entity_from_world| {
+                let component = scene.get::<S::Component>(entity).copied().unwrap_or_default();
+                S::uv_from_world(&component, entity_from_world)
+            },
+            fill_uv_slopes: |scene, uv_from_world, slopes| {
+                let shapes = scene.table::<ShapesOf<S>>()?;
+                for ((row, beside), &shape) in shapes.row.iter().zip(&shapes.beside).zip(&shapes.shape) {
+                    slopes[shape as usize] = row.uv_slope(beside, uv_from_world[shape as usize]);
+                }
+                Ok(())
+            },
+        }
+    }
+
+    /// Whether it is the first of those that are made of its component.
+    fn is_first(&self) -> bool {
+        self.uneven != Some(true)
     }
 }
 
-/// The components that are shapes; a new one is added with a line.
-const WRITTEN: &[Written] = &[
-    Written::of::<Sphere>("Sphere", "sphere", |scene, entity| {
-        if unevenly_scaled(scene, entity) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere }
-    }),
-    Written::of::<Plane>("Plane", "plane", |_, _| ShapeKind::Plane),
-    Written::of::<Disk>("Disk", "disk", |_, _| ShapeKind::Disk),
-    Written::of::<Rectangle>("Rectangle", "rectangle", |_, _| ShapeKind::Rectangle),
-    Written::of::<Cuboid>("Cuboid", "cuboid", |_, _| ShapeKind::Cuboid),
-    Written::of::<Triangle>("Triangle", "triangle", |_, _| ShapeKind::Triangle),
-];
+/// All registered shapes, in the order of the list.
+pub fn listed_kinds() -> &'static [ListedKind] {
+    struct Collected(Vec<ListedKind>);
+    impl ShapeVisitor for Collected {
+        fn visit<S: Listed>(&mut self) {
+            self.0.push(ListedKind::of::<S>());
+        }
+    }
+    static KINDS: OnceLock<Vec<ListedKind>> = OnceLock::new();
+    KINDS.get_or_init(|| {
+        let mut collected = Collected(Vec::new());
+        visit_shapes(&mut collected);
+        collected.0
+    })
+}
+
+/// A registered shape by its kind; none for moving shapes, which are of any.
+pub fn listed_kind(kind: ShapeKind) -> Option<&'static ListedKind> {
+    listed_kinds().iter().find(|listed| listed.kind == kind)
+}
+
+/// Evidence that the scene contains a shape of one kind that keeps still.
+pub fn kind_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
+    let moves = moves_while_open(scene);
+    Evidence::of_kind::<With<S::Component>>(scene, S::NOUN, |entity| {
+        S::UNEVEN.is_none_or(|uneven| uneven == unevenly_scaled(scene, entity)) && !moves(entity)
+    })
+}
+
+/// Evidence that the scene contains a shape of any kind.
+pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
+    let each = listed_kinds().iter().filter(|listed| listed.is_first());
+    each.map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default()
+}
 
 /// The enabled entities that are a shape, in spawn order; the place of one is its number.
 pub fn shape_entities(scene: &Census<'_>) -> Arc<[Entity]> {
-    scene.once(|scene| united(&mut WRITTEN.iter().map(|written| (written.entities)(scene))).into())
+    let each = || listed_kinds().iter().filter(|listed| listed.is_first());
+    scene.once(move |scene| united(&mut each().map(|listed| (listed.entities)(scene))).into())
 }
 
-/// The shapes that carry a component, with their numbers.
-pub(super) fn numbered<C: Component>(scene: &Census<'_>) -> Vec<(usize, Entity)> {
+/// The shapes of one kind, moving ones among them, with their numbers.
+pub(super) fn numbered<S: Listed>(scene: &Census<'_>) -> Vec<(usize, Entity)> {
     let shapes = shape_entities(scene);
     let number = |entity: Entity| shapes.binary_search_by_key(&entity.index(), |shape| shape.index()).ok();
-    scene.entities::<With<C>>().iter().filter_map(|&entity| Some((number(entity)?, entity))).collect()
+    let of_kind = |entity: &&Entity| S::UNEVEN.is_none_or(|uneven| uneven == unevenly_scaled(scene, **entity));
+    let found = scene.entities::<With<S::Component>>();
+    found.iter().filter(of_kind).filter_map(|&entity| Some((number(entity)?, entity))).collect()
 }
 
 /// The shapes that move while the shutter is open, with their numbers.
@@ -91,8 +165,8 @@ pub(super) fn moving_shapes(scene: &Census<'_>) -> Arc<[(usize, Entity)]> {
 /// The name of a shape in messages, by its number: its kind and its entity's name.
 pub fn shape_name(scene: &Census<'_>, shape: usize) -> String {
     let entity = shape_entities(scene).get(shape).copied();
-    let written = entity.and_then(|entity| WRITTEN.iter().find(|written| (written.carries)(scene, entity)));
-    entity.zip(written).map_or_else(String::new, |(entity, written)| kind_and_name(scene, written.word, entity))
+    let listed = entity.and_then(|entity| listed_kinds().iter().find(|listed| (listed.carries)(scene, entity)));
+    entity.zip(listed).map_or_else(String::new, |(entity, listed)| kind_and_name(scene, listed.word, entity))
 }
 
 /// The names of all shapes in messages, in the order of their numbers.
@@ -102,23 +176,21 @@ pub fn shape_names(scene: &Census<'_>) -> Vec<String> {
 
 /// Whether an entity, enabled or not, carries a shape.
 pub(super) fn is_shape(scene: &Census<'_>, entity: Entity) -> bool {
-    WRITTEN.iter().any(|written| (written.carries)(scene, entity))
+    listed_kinds().iter().any(|listed| (listed.carries)(scene, entity))
 }
 
-/// The one shape component of an entity.
-pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<&'static Written, SceneError> {
-    let present: Vec<&Written> = WRITTEN.iter().filter(|written| (written.carries)(scene, entity)).collect();
-    match present[..] {
-        [one] => Ok(one),
-        _ => {
-            let names: Vec<&str> = present.iter().map(|written| written.component).collect();
-            let value = format!("{} at once", names.join(" and "));
-            Err(SceneError::new(
-                kind_and_name(scene, "shape", entity),
-                "shape",
-                value,
-                "an entity may be one shape only",
-            ))
-        }
+/// The kind of an entity that carries one shape component.
+///
+/// Errors: an entity with several.
+pub(super) fn one_shape(scene: &Census<'_>, entity: Entity) -> Result<&'static ListedKind, SceneError> {
+    let carried = || listed_kinds().iter().filter(|listed| (listed.carries)(scene, entity));
+    let components: Vec<&ListedKind> = carried().filter(|listed| listed.is_first()).collect();
+    if let [one] = components[..] {
+        let is_this =
+            |listed: &&ListedKind| listed.uneven.is_none_or(|uneven| uneven == unevenly_scaled(scene, entity));
+        return Ok(carried().find(is_this).unwrap_or(one));
     }
+    let names: Vec<&str> = components.iter().map(|listed| listed.component).collect();
+    let value = format!("{} at once", names.join(" and "));
+    Err(SceneError::new(kind_and_name(scene, "shape", entity), "shape", value, "an entity may be one shape only"))
 }

@@ -1,14 +1,11 @@
 use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
-use crate::intersect::{offset_bound, offset_origin};
 use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
-use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, unit};
-use crate::scene::Sampler;
-use crate::shade::emitter::{
-    MAX_TARGETS_SOLID_ANGLE, cone_direction, direction_to_targets, leaving_point, sphere_direction,
-};
-use crate::shade::{Radiance, spot_falloff, versine};
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::shade::{MAX_TARGETS_SOLID_ANGLE, Radiance, direction_to_targets, spot_falloff, versine};
+use crate::shapes::emitter::{cone_direction, sphere_direction};
+use crate::shapes::{leaving_point, offset_bound, offset_origin};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DVec3, Vec3};
@@ -129,10 +126,8 @@ pub fn start_on_lights(
         let purposes = [Purpose::LightChoice, Purpose::LightPoint, Purpose::Pixel, Purpose::Lens];
         let of = (&**table, tile, sampling.seed);
         let to = (&mut *rays, &mut *paths, &mut *power);
-        match sampling.sampler {
-            Sampler::Independent => start_rows(of, purposes.map(|own| Independent::new(number.0, 0, own)), to),
-            _ => start_rows(of, purposes.map(|own| Sobol::new(number.0, 0, own)), to),
-        }
+        let sample = SampleIndex { number: number.0, samples: sampling.samples, depth: 0 };
+        with_sampler!(sampling.sampler, D => start_rows(of, purposes.map(|own| D::of(sample, own)), to));
         let rows = crate::plan::Column::rows(&*rays);
         let (r, g, b) = radiance.slices_mut(rows);
         [r, g, b].into_iter().for_each(|component| component.fill(0.0));

@@ -1,10 +1,11 @@
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
-use crate::intersect::{Hits, NO_SHAPE, Surfaces, offset_origin, shape_evidence};
+use crate::intersect::{Hits, NO_SHAPE, Surfaces, shape_evidence};
 use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;
 use crate::shade::{LightRays, Radiance, ShadowHits};
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;

@@ -1,8 +1,9 @@
 use crate::extract::followed_evidence;
-use crate::intersect::{ShadingNormals, Surface, Surfaces, offset_origin};
+use crate::intersect::{ShadingNormals, Surface, Surfaces};
 use crate::material::{Bsdf, BsdfSample};
 use crate::plan::{Stage, TileSystems, column};
 use crate::rays::{Paths, WorldRays};
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 

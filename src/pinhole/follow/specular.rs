@@ -8,12 +8,13 @@ use super::{Scattered, ScatteredRay};
 use crate::extract::{
     GlassTable, MaterialTable, SamplingTable, bsdf_evidence, followed_evidence, needed_if, traced_evidence,
 };
-use crate::intersect::{ShadingNormals, Surface, offset_origin};
+use crate::intersect::{ShadingNormals, Surface};
 use crate::material::{Bsdf, SpecularSample, mirror_direction};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
 use crate::scene::Integrator;
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

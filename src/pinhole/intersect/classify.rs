@@ -1,27 +1,18 @@
-use super::evidence::shape_evidence;
-use super::rows::{
-    CuboidRows, DiskRows, EllipsoidRows, EmissiveRows, MaterialRows, PlaneRows, RectangleRows, SphereRows, TriangleRows,
-};
+use super::rows::{EmissiveRows, MaterialRows, ShapeRows};
 use super::{Hits, NO_SHAPE, SurfaceSides, SurfaceUvs, Surfaces};
-use crate::extract::{NO_ROW, ShapeKind, ShapeTable};
+use crate::extract::{NO_ROW, ShapeTable, shape_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};
+use crate::shapes::{ShapeKind, with_shapes};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 
-/// The hits of a tile, the lists that they are sorted into, and what is cleared where nothing was hit.
+/// The hits of a tile, the lists by material that they are sorted into, and what is cleared where nothing was hit.
 ///
 /// Each exists only where something reads it.
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub struct HitListsView {
     hits: &'static Hits,
-    spheres: Option<&'static mut SphereRows>,
-    ellipsoids: Option<&'static mut EllipsoidRows>,
-    planes: Option<&'static mut PlaneRows>,
-    disks: Option<&'static mut DiskRows>,
-    rectangles: Option<&'static mut RectangleRows>,
-    cuboids: Option<&'static mut CuboidRows>,
-    triangles: Option<&'static mut TriangleRows>,
     materials: Option<&'static mut MaterialRows>,
     emissive: Option<&'static mut EmissiveRows>,
     surfaces: Option<&'static mut Surfaces>,
@@ -29,47 +20,30 @@ pub struct HitListsView {
     sides: Option<&'static mut SurfaceSides>,
 }
 
+macro_rules! shape_lists {
+    ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
+        /// The lists by shape that the hits of a tile are sorted into; each exists only where something reads it.
+        #[derive(QueryData)]
+        #[query_data(mutable)]
+        pub struct ShapeListsView {
+            $($field: Option<&'static mut ShapeRows<$shape>>,)+
+        }
+
+        fn list_shapes(hits: &Hits, shapes: &ShapeTable, lists: ShapeListsViewItem<'_, '_>) {
+            $(if let Some(mut list) = lists.$field {
+                list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::$kind);
+            })+
+        }
+    };
+}
+with_shapes!(shape_lists);
+
 /// Sorts the rows into lists by shape and material, and clears the surfaces of rows that hit nothing.
 ///
 /// Afterwards each stage visits the rows of its own kind only, so that no kernel branches by kind.
-pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<HitListsView>) {
-    for HitListsViewItem {
-        hits,
-        spheres,
-        ellipsoids,
-        planes,
-        disks,
-        rectangles,
-        cuboids,
-        triangles,
-        materials,
-        emissive,
-        surfaces,
-        uvs,
-        sides,
-    } in &mut tiles
-    {
-        if let Some(mut list) = spheres {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Sphere);
-        }
-        if let Some(mut list) = ellipsoids {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Ellipsoid);
-        }
-        if let Some(mut list) = planes {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Plane);
-        }
-        if let Some(mut list) = disks {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Disk);
-        }
-        if let Some(mut list) = rectangles {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Rectangle);
-        }
-        if let Some(mut list) = cuboids {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Cuboid);
-        }
-        if let Some(mut list) = triangles {
-            list_rows(hits, &mut list.row, |shape| shapes.kind[shape] == ShapeKind::Triangle);
-        }
+pub fn classify_hits(shapes: Res<Shared<ShapeTable>>, mut tiles: Query<(ShapeListsView, HitListsView)>) {
+    for (lists, HitListsViewItem { hits, materials, emissive, surfaces, uvs, sides }) in &mut tiles {
+        list_shapes(hits, &shapes, lists);
         if let Some(mut list) = materials {
             list_rows(hits, &mut list.row, |shape| shapes.non_specular[shape]);
         }

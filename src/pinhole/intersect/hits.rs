@@ -1,5 +1,6 @@
 use crate::plan::{Column, column};
 use crate::rays::WorldRays;
+use crate::shapes::RaySlices;
 
 /// The shape number of a ray that hit nothing.
 pub const NO_SHAPE: u32 = u32::MAX;
@@ -24,15 +25,6 @@ impl Hits {
         let near = (1.0 / (1.0 + 0.05 * self.t[row]).sqrt()) as f32;
         [mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255].map(|byte| (0.35 + 0.65 * byte as f32 / 255.0) * near)
     }
-}
-
-/// The components of a column of rays as the kernels of shapes read them: slices of equal length.
-#[derive(Clone, Copy)]
-pub struct RaySlices<'a> {
-    /// Origin: x, y, z.
-    pub origin: [&'a [f32]; 3],
-    /// Direction, a unit vector up to rounding to f32: x, y, z.
-    pub direction: [&'a [f32]; 3],
 }
 
 /// A column of rays, such as camera rays or shadow rays; every shape's kernel runs over any of them.

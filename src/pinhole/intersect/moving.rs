@@ -1,14 +1,9 @@
-use super::disk::disk_intersection;
-use super::double_double::double_double_sphere_t;
-use super::double_double_planar::{double_double_disk_t, double_double_rectangle_t};
-use super::ray_block::{LANES, RayBlock, keep_closest, vector};
-use super::rectangle::rectangle_intersection;
-use super::sphere::sphere_intersection;
-use super::surface::{Surface, SurfaceSides, Surfaces, l1_norm, offset_bound};
-use super::{HitColumn, Hits, NO_SHAPE, RayColumn, RaySlices};
-use crate::extract::{Body, MovingTable, ShapeKind, ShapeTable, moving_evidence};
+use super::surface::{Surface, SurfaceSides, Surfaces};
+use super::{HitColumn, Hits, NO_SHAPE, RayColumn};
+use crate::extract::{MovingTable, ShapeTable, moving_evidence};
 use crate::plan::{Column, Shared, Stage, TileSystems};
 use crate::rays::{RayTimes, WorldRays};
+use crate::shapes::{LANES, RayBlock, RayHit, RaySlices, ShapeKind, vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use multiversion::multiversion;
@@ -59,32 +54,7 @@ fn moving_rows(
                 let origin = at_rest(vector(&own.o, lane), *velocity, time);
                 (own.o[0][lane], own.o[1][lane], own.o[2][lane]) = origin.into();
             }
-            match body {
-                &Body::Sphere { centre, radius } => keep_closest(
-                    &own,
-                    |origin, direction| sphere_intersection(centre - origin, direction, radius),
-                    |origin, direction| double_double_sphere_t(origin, direction, centre, radius),
-                    number,
-                    t,
-                    shape,
-                ),
-                Body::Disk(planar) => keep_closest(
-                    &own,
-                    |origin, direction| disk_intersection(origin, direction, planar),
-                    |origin, direction| double_double_disk_t(origin, direction, planar),
-                    number,
-                    t,
-                    shape,
-                ),
-                Body::Rectangle(planar) => keep_closest(
-                    &own,
-                    |origin, direction| rectangle_intersection(origin, direction, planar),
-                    |origin, direction| double_double_rectangle_t(origin, direction, planar),
-                    number,
-                    t,
-                    shape,
-                ),
-            }
+            body.keep_closest(&own, number, t, shape);
         }
         start = end;
     }
@@ -101,20 +71,14 @@ pub fn fill_moving_surfaces(
         for row in (0..hits.rows()).filter(|&row| moves(hits.shape[row])) {
             let shape = hits.shape[row] as usize;
             let mover = shapes.row[shape] as usize;
-            let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let displacement = moving.velocity[mover] * times.time[row];
-            let point = origin + hits.t[row] * direction;
-            let (normal, size) = match &moving.body[mover] {
-                Body::Sphere { centre, radius } => {
-                    ((point - displacement - *centre).try_normalize().unwrap_or(-direction), l1_norm(*centre) + radius)
-                }
-                Body::Disk(planar) | Body::Rectangle(planar) => (planar.normal, l1_norm(planar.centre)),
-            };
-            let bound = offset_bound(point, origin, size + l1_norm(displacement));
-            let surface = Surface::facing(direction, point, normal, bound, shapes.material[shape]);
-            surfaces.set(row, surface);
+            let (origin, direction) = (rays.origin_of(row) - displacement, rays.direction_of(row));
+            let hit = RayHit { origin, direction, t: hits.t[row], displacement };
+            let mut surface = moving.body[mover].surface(&hit);
+            surface.point += displacement;
+            surfaces.set(row, Surface::of(surface, shapes.material[shape]));
             if let Some(sides) = &mut sides {
-                sides.outside[row] = u32::from(surface.normal.as_dvec3().dot(normal) >= 0.0);
+                sides.outside[row] = u32::from(surface.outside);
             }
         }
     }

@@ -1,58 +1,49 @@
-use crate::plan::column;
+use crate::plan::{Column, ColumnComponent, ColumnKind, ComponentValue, Lifetime, column};
+use crate::shapes::Listed;
+use bevy_ecs::component::{ComponentId, Mutable, RequiredComponentsRegistrator, StorageType};
+use bevy_ecs::prelude::*;
+use std::marker::PhantomData;
 
-column! {
-    /// The rows that hit a sphere, ascending.
-    pub struct SphereRows("sphere rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
+/// The rows that hit one kind of shape, ascending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShapeRows<S> {
+    /// Rows of the hits.
+    pub row: Vec<u32>,
+    of: PhantomData<S>,
+}
+
+impl<S> Default for ShapeRows<S> {
+    fn default() -> Self {
+        Self { row: Vec::new(), of: PhantomData }
     }
 }
 
-column! {
-    /// The rows that hit an ellipsoid, ascending.
-    pub struct EllipsoidRows("ellipsoid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
+// What `column!` writes for a column that is not generic.
+impl<S: Listed> Component for ShapeRows<S> {
+    const STORAGE_TYPE: StorageType = StorageType::Table;
+    type Mutability = Mutable;
+
+    fn register_required_components(_: ComponentId, _: &mut RequiredComponentsRegistrator<'_, '_>) {
+        ColumnKind::of::<Self>().remember();
     }
 }
 
-column! {
-    /// The rows that hit a plane, ascending.
-    pub struct PlaneRows("plane rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
+impl<S: Listed> Column for ShapeRows<S> {
+    const NAME: &'static str = S::NAMES.rows;
+    const SPACE: &'static str = "rows of the tile";
+    const UNIT: &'static str = "rows";
+    const LIFETIME: Lifetime = Lifetime::Ray;
 
-column! {
-    /// The rows that hit a disk, ascending.
-    pub struct DiskRows("disk rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
+    fn rows(&self) -> usize {
+        self.row.len()
     }
-}
 
-column! {
-    /// The rows that hit a rectangle, ascending.
-    pub struct RectangleRows("rectangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
+    fn components(&self) -> Vec<ColumnComponent<'_>> {
+        vec![ColumnComponent { name: "row", values: ComponentValue::values(&self.row) }]
     }
-}
 
-column! {
-    /// The rows that hit a cuboid, ascending.
-    pub struct CuboidRows("cuboid rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
-    }
-}
-
-column! {
-    /// The rows that hit a triangle, ascending.
-    pub struct TriangleRows("triangle rows", "rows of the tile", "rows", Ray) {
-        /// A row of the hits.
-        row: u32,
+    fn paint(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
+        [1.0; 3]
     }
 }
 
@@ -74,49 +65,7 @@ column! {
     }
 }
 
-impl SphereRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl EllipsoidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl PlaneRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
 impl EmissiveRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl DiskRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl RectangleRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl CuboidRows {
-    fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
-        [1.0; 3]
-    }
-}
-
-impl TriangleRows {
     fn paint_row(&self, _row: usize, _size: [u32; 2]) -> [f32; 3] {
         [1.0; 3]
     }

@@ -1,10 +1,10 @@
-use super::rows::TriangleRows;
-use super::triangle_surface::TriangleHit;
+use super::rows::ShapeRows;
 use super::{Hits, Surfaces};
 use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
 use crate::scene::Triangle;
+use crate::shapes::{TriangleHit, TriangleRow};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -61,7 +61,7 @@ pub fn interpolate_normals(
     triangles: Res<Shared<TriangleTable>>,
     normals: Res<Shared<VertexNormalTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &TriangleRows, &mut ShadingNormals)>,
+    mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &ShapeRows<TriangleRow>, &mut ShadingNormals)>,
 ) {
     for (rays, hits, surfaces, list, mut shading) in &mut tiles {
         let (nx, ny, nz) = shading.slices_mut(hits.rows());
@@ -75,9 +75,8 @@ pub fn interpolate_normals(
             if vertex_normals[0] == DVec3::ZERO {
                 continue;
             }
-            let triangle_hit =
-                TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.triangle[triangle]);
-            let leaves_by_normal = triangle_hit.along != triangles.turned[triangle];
+            let triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.row[triangle]);
+            let leaves_by_normal = triangle_hit.along != triangles.beside[triangle].turned;
             let normal = shading_normal(vertex_normals, &triangle_hit);
             let normal = if leaves_by_normal { -normal } else { normal };
             (nx[row], ny[row], nz[row]) = normal.as_vec3().into();

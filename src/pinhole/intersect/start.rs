@@ -1,5 +1,5 @@
-use super::evidence::shape_evidence;
 use super::{Hits, NO_SHAPE};
+use crate::extract::shape_evidence;
 use crate::plan::{Column, Stage, TileSystems};
 use crate::rays::WorldRays;
 use bevy_ecs::prelude::*;

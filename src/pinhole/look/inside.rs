@@ -1,33 +1,27 @@
 use crate::Result;
-use crate::extract::{CuboidTable, EllipsoidTable, ShapeTable, SphereTable, TriangleTable, shape_entities, shape_name};
+use crate::extract::{ShapeTable, TriangleTable, listed_kinds, shape_entities, shape_name};
 use crate::plan::Census;
 use crate::scene::{Glass, Rgb, UsesMaterial};
-use crate::shade::emitter::triangle_solid_angle;
+use crate::shapes::emitter::triangle_solid_angle;
+use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// A solid angle, in steradians, from which triangles seen from the camera count as closed around it.
 const ALL_ROUND: f64 = 4.0 * PI * (1.0 - 1e-6);
 
-/// A warning that the camera is inside a shape, and inside which: a sphere, a cuboid, an ellipsoid, or a closed mesh.
+/// A warning that the camera is inside a shape, and inside which: one with an inside of its own, or a closed mesh.
 ///
 /// The medium around the camera attenuates the light that the camera receives from that shape's own surface, but not
 /// from objects inside it.
 pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Option<String>> {
-    let spheres = scene.table::<SphereTable>()?;
-    let within = |row: &usize| spheres.centre(*row).length() < spheres.radius[*row];
-    let sphere = (0..spheres.radius.len()).find(within).map(|row| spheres.shape[row]);
-    let cuboids = scene.table::<CuboidTable>()?;
-    let within = |row: &usize| cuboids.slabs[*row].contains_the_eye();
-    let cuboid = (0..cuboids.slabs.len()).find(within).map(|row| cuboids.shape[row]);
-    let ellipsoids = scene.table::<EllipsoidTable>()?;
-    let within = |row: &usize| {
-        let egg = &ellipsoids.ellipsoid[*row];
-        (egg.unit_from_world * egg.centre).length() < 1.0
-    };
-    let ellipsoid = (0..ellipsoids.ellipsoid.len()).find(within).map(|row| ellipsoids.shape[row]);
+    // The camera is the origin of render space.
+    let mut around = None;
+    for listed in listed_kinds() {
+        around = around.or((listed.around)(scene, DVec3::ZERO)?);
+    }
     let mesh = triangles_around(&*scene.table::<TriangleTable>()?, shapes);
-    let Some(shape) = sphere.or(cuboid).or(ellipsoid).or(mesh) else { return Ok(None) };
+    let Some(shape) = around.or(mesh) else { return Ok(None) };
     let name = shape_name(scene, shape as usize);
     let entity = shape_entities(scene).get(shape as usize).copied();
     let absorbs = entity.is_some_and(|entity| {
@@ -44,8 +38,8 @@ pub fn shape_around_camera(scene: &Census<'_>, shapes: &ShapeTable) -> Result<Op
 fn triangles_around(triangles: &TriangleTable, shapes: &ShapeTable) -> Option<u32> {
     let mut filled: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
-        let corners = &triangles.triangle[row].corners;
-        let angle = triangle_solid_angle(corners).copysign(triangles.normal[row].dot(corners[0]));
+        let corners = &triangles.row[row].corners;
+        let angle = triangle_solid_angle(corners).copysign(triangles.beside[row].normal.dot(corners[0]));
         let of = filled.entry(shapes.material[shape as usize]).or_insert((0.0, shape));
         of.0 += if angle.is_finite() { angle } else { 0.0 };
     }

@@ -226,6 +226,12 @@ impl Stage {
         self
     }
 
+    /// Removes a table that its system could read and never does.
+    pub fn without_table<T: Table>(mut self) -> Self {
+        self.tables.retain(|own| !own.is::<T>());
+        self
+    }
+
     /// The tables that it reads for a scene, where these of its columns are read.
     pub fn tables_for(&self, scene: &Census<'_>, columns: &[ColumnKind]) -> Vec<TableKind> {
         let needed = self.tables_where.iter().filter(|(_, predicate)| predicate(scene).needed);

@@ -1,7 +1,6 @@
 use super::{Depth, Paths, PixelSamples, SampleNumber, Tile, pixel_of_row};
 use crate::extract::SamplingTable;
-use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
-use crate::scene::Sampler;
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use bevy_ecs::query::QueryData;
 
 /// Everything that determines a tile's random numbers at the current bounce.
@@ -43,13 +42,19 @@ impl DrawsViewItem<'_, '_> {
 
 impl Draws<'_> {
     fn keys<'r>(&'r self, rows: &'r [u32]) -> impl Iterator<Item = PixelKey> + 'r {
-        rows.iter().map(|&row| {
-            PixelKey::new(self.sampling.seed, pixel_of_row(self.tile, self.samples, self.paths, row as usize))
-        })
+        rows.iter().map(|&row| self.key(row as usize))
     }
 
-    fn number(&self) -> u32 {
-        self.number.map_or(0, |number| number.0)
+    /// The key of the pixel that a row's path belongs to.
+    #[inline(always)]
+    pub fn key(&self, row: usize) -> PixelKey {
+        PixelKey::new(self.sampling.seed, pixel_of_row(self.tile, self.samples, self.paths, row))
+    }
+
+    /// The sample of each pixel that the numbers are for.
+    pub fn sample(&self) -> SampleIndex {
+        let number = self.number.map_or(0, |number| number.0);
+        SampleIndex { number, samples: self.sampling.samples, depth: self.depth.0 }
     }
 }
 
@@ -59,12 +64,7 @@ pub fn draws_of_two(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
         into.extend(keys.map(|key| draw.two(key).map(unit)));
     }
     into.clear();
-    let (number, depth, keys) = (of.number(), of.depth.0, of.keys(rows));
-    match of.sampling.sampler {
-        Sampler::Independent => fill(Independent::new(number, depth, purpose), keys, into),
-        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, depth, purpose), keys, into),
-        Sampler::Sobol => fill(Sobol::new(number, depth, purpose), keys, into),
-    }
+    with_sampler!(of.sampling.sampler, D => fill(D::of(of.sample(), purpose), of.keys(rows), into));
 }
 
 /// Draws a uniform number in [0, 1) for each of these rows.
@@ -73,10 +73,5 @@ pub fn draws_of_one(of: &Draws<'_>, purpose: Purpose, rows: &[u32], into: &mut V
         into.extend(keys.map(|key| unit(draw.one(key))));
     }
     into.clear();
-    let (number, depth, keys) = (of.number(), of.depth.0, of.keys(rows));
-    match of.sampling.sampler {
-        Sampler::Independent => fill(Independent::new(number, depth, purpose), keys, into),
-        Sampler::Stratified => fill(Stratified::new(number, of.sampling.samples, depth, purpose), keys, into),
-        Sampler::Sobol => fill(Sobol::new(number, depth, purpose), keys, into),
-    }
+    with_sampler!(of.sampling.sampler, D => fill(D::of(of.sample(), purpose), of.keys(rows), into));
 }

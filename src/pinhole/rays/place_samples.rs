@@ -1,10 +1,8 @@
 use super::{RasterPoints, Tile};
 use crate::extract::{FilterCells, FilterTable, SamplingTable};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::sample::{
-    Draw, Independent, PixelKey, Purpose, Sobol, Stratified, box_offset, table_offset, tent_offset, unit,
-};
-use crate::scene::{Filter, Sampler, Sampling};
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler};
+use crate::scene::{Filter, Sampling};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use multiversion::multiversion;
@@ -83,13 +81,8 @@ pub fn place_samples(
         sample.fill(number);
 
         let to = (active.as_slice(), tile, sampling.seed);
-        match sampling.sampler {
-            Sampler::Independent => draw_points(Independent::new(number, 0, Purpose::Pixel), to, xs, ys),
-            Sampler::Stratified => {
-                draw_points(Stratified::new(number, sampling.samples, 0, Purpose::Pixel), to, xs, ys);
-            }
-            Sampler::Sobol => draw_points(Sobol::new(number, 0, Purpose::Pixel), to, xs, ys),
-        }
+        let sample = SampleIndex { number, samples: sampling.samples, depth: 0 };
+        with_sampler!(sampling.sampler, D => draw_points(D::of(sample, Purpose::Pixel), to, xs, ys));
         if let Some(signs) = &mut signs {
             fill_signs(&filter.cells, xs, ys, signs.slices_mut(active.len()));
         }

@@ -2,8 +2,7 @@
 
 use super::{PixelSamples, SampleNumber, Tile};
 use crate::extract::SamplingTable;
-use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
-use crate::scene::Sampler;
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use multiversion::multiversion;
 
 /// Which sample of which pixel each row of a tile is, with the seed and the sampler.
@@ -15,16 +14,16 @@ pub(super) struct Rows<'a> {
     pub samples: Option<&'a PixelSamples>,
 }
 
+impl Rows<'_> {
+    fn sample(&self) -> SampleIndex {
+        let number = self.number.map_or(0, |number| number.0);
+        SampleIndex { number, samples: self.sampling.samples, depth: 0 }
+    }
+}
+
 /// Draws a uniform point in [0, 1)² for each row, at depth 0.
 pub(super) fn draw_two(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64], ys: &mut [f64]) {
-    let number = rows.number.map_or(0, |number| number.0);
-    match rows.sampling.sampler {
-        Sampler::Independent => two_rows(Independent::new(number, 0, purpose), rows, xs, ys),
-        Sampler::Stratified => {
-            two_rows(Stratified::new(number, rows.sampling.samples, 0, purpose), rows, xs, ys);
-        }
-        Sampler::Sobol => two_rows(Sobol::new(number, 0, purpose), rows, xs, ys),
-    }
+    with_sampler!(rows.sampling.sampler, D => two_rows(D::of(rows.sample(), purpose), rows, xs, ys));
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -44,12 +43,7 @@ fn key(rows: Rows<'_>, row: usize) -> PixelKey {
 
 /// Draws a uniform number in [0, 1) for each row, at depth 0.
 pub(super) fn draw_one(rows: Rows<'_>, purpose: Purpose, xs: &mut [f64]) {
-    let number = rows.number.map_or(0, |number| number.0);
-    match rows.sampling.sampler {
-        Sampler::Independent => one_rows(Independent::new(number, 0, purpose), rows, xs),
-        Sampler::Stratified => one_rows(Stratified::new(number, rows.sampling.samples, 0, purpose), rows, xs),
-        Sampler::Sobol => one_rows(Sobol::new(number, 0, purpose), rows, xs),
-    }
+    with_sampler!(rows.sampling.sampler, D => one_rows(D::of(rows.sample(), purpose), rows, xs));
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]

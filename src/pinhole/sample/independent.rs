@@ -1,5 +1,5 @@
 use super::hash::halves;
-use super::{Draw, PixelKey, Purpose, unit};
+use super::{Draw, PixelKey, Purpose, SampleIndex, unit};
 
 /// The independent sampler: every number is uniform in [0, 1) and independent of all others.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,11 @@ impl Independent {
 }
 
 impl Draw for Independent {
+    #[inline(always)]
+    fn of(sample: SampleIndex, purpose: Purpose) -> Self {
+        Self::new(sample.number, sample.depth, purpose)
+    }
+
     #[inline(always)]
     fn one(self, pixel: PixelKey) -> u32 {
         self.two(pixel)[0]

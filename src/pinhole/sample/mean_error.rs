@@ -2,7 +2,7 @@
 //!
 //! Each pixel of a line is one trial with random numbers of its own.
 
-use super::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
+use super::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
 use crate::scene::Sampler;
 use std::f64::consts::PI;
 
@@ -71,11 +71,9 @@ pub fn mean_error(
     trials: u32,
     seed: u64,
 ) -> MeanError {
-    let errors: Vec<f64> = match sampler {
-        Sampler::Independent => errors(|n| Independent::new(n, 0, purpose), integrand, samples, trials, seed),
-        Sampler::Stratified => errors(|n| Stratified::new(n, samples, 0, purpose), integrand, samples, trials, seed),
-        Sampler::Sobol => errors(|n| Sobol::new(n, 0, purpose), integrand, samples, trials, seed),
-    };
+    let sample = |number| SampleIndex { number, samples, depth: 0 };
+    let errors: Vec<f64> =
+        with_sampler!(sampler, D => errors(|n| D::of(sample(n), purpose), integrand, samples, trials, seed));
     let n = f64::from(trials);
     let bias = errors.iter().sum::<f64>() / n;
     let squares = || errors.iter().map(|error| error * error);

@@ -6,7 +6,7 @@
 //! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
 //! in pixels, distributed as the reconstruction filter.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
-//! decided outside the loop over pixels.
+//! decided in one place, [`with_sampler!`](crate::with_sampler), outside all loops over pixels.
 //!
 //! ```
 //! use pinhole::sample::{Purpose, uniform};
@@ -36,10 +36,51 @@ pub use purpose::{DIMENSIONS, Purpose};
 pub use sobol::{Sobol, sobol_bits};
 pub use stratified::{Stratified, permuted, strata_of};
 
+/// Which of a pixel's samples random numbers are for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SampleIndex {
+    /// The index of the sample within its pixel.
+    pub number: u32,
+    /// The number of samples that each pixel gets.
+    pub samples: u32,
+    /// The bounce; 0 is the camera ray.
+    pub depth: u32,
+}
+
 /// One sample's random numbers for one purpose, to be drawn for any pixel.
+///
+/// A sampler implements this in a file of its own, and is registered in [`with_sampler!`](crate::with_sampler) and in
+/// [`Sampler`](crate::scene::Sampler).
 pub trait Draw: Copy {
+    /// The numbers of a sample for a purpose.
+    fn of(sample: SampleIndex, purpose: Purpose) -> Self;
     /// A number for a pixel, as a 32-bit fraction.
     fn one(self, pixel: PixelKey) -> u32;
     /// Two numbers for a pixel, a point of the unit square, as 32-bit fractions.
     fn two(self, pixel: PixelKey) -> [u32; 2];
 }
+
+/// Evaluates an expression with `$draw` as the type that a [`Sampler`](crate::scene::Sampler) draws its numbers with.
+///
+/// The expression is compiled once for each sampler, so that no loop in it depends on which one it is.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! with_sampler {
+    ($sampler:expr, $draw:ident => $numbers:expr) => {
+        match $sampler {
+            $crate::scene::Sampler::Independent => {
+                type $draw = $crate::sample::Independent;
+                $numbers
+            }
+            $crate::scene::Sampler::Stratified => {
+                type $draw = $crate::sample::Stratified;
+                $numbers
+            }
+            $crate::scene::Sampler::Sobol => {
+                type $draw = $crate::sample::Sobol;
+                $numbers
+            }
+        }
+    };
+}
+pub use crate::with_sampler;

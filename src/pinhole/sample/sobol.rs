@@ -1,5 +1,5 @@
 use super::hash::halves;
-use super::{DIMENSIONS, Draw, PixelKey, Purpose, owen_scrambled};
+use super::{DIMENSIONS, Draw, PixelKey, Purpose, SampleIndex, owen_scrambled};
 
 /// The primitive polynomial of a dimension (degree and coefficients), and its initial direction numbers.
 type JoeKuo = (usize, u32, [u32; 6]);
@@ -114,6 +114,11 @@ fn shuffled(sample: u32, depth: u32) -> u32 {
 }
 
 impl Draw for Sobol {
+    #[inline(always)]
+    fn of(sample: SampleIndex, purpose: Purpose) -> Self {
+        Self::new(sample.number, sample.depth, purpose)
+    }
+
     #[inline(always)]
     fn one(self, pixel: PixelKey) -> u32 {
         let [seed, _] = halves(pixel.bits(self.dimension, 0));

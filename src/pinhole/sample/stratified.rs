@@ -1,5 +1,5 @@
 use super::hash::{halves, mixed};
-use super::{Draw, PixelKey, Purpose, unit};
+use super::{Draw, PixelKey, Purpose, SampleIndex, unit};
 
 /// The stratified sampler: a stratum of the unit square or interval for each sample, and a jittered point within it.
 ///
@@ -33,6 +33,11 @@ impl Stratified {
 }
 
 impl Draw for Stratified {
+    #[inline(always)]
+    fn of(sample: SampleIndex, purpose: Purpose) -> Self {
+        Self::new(sample.number, sample.samples, sample.depth, purpose)
+    }
+
     #[inline(always)]
     fn one(self, pixel: PixelKey) -> u32 {
         let (cell, bits) = self.stratum(pixel);

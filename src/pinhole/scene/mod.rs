@@ -21,6 +21,7 @@ mod adaptive;
 mod angle;
 mod background;
 mod camera;
+mod check;
 mod checker;
 mod colour;
 mod cuboid;
@@ -71,6 +72,7 @@ pub use bevy_ecs::hierarchy::ChildOf;
 #[doc(no_inline)]
 pub use bevy_ecs::name::Name;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
+pub(crate) use check::{finite_point, number, positive_length, triple};
 pub use checker::Checker;
 pub use colour::Rgb;
 pub use cuboid::Cuboid;

@@ -1,14 +1,13 @@
 use super::LightRays;
-use super::emitter::{distance_to, pdf_towards, point_on};
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
 use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
-use crate::intersect::{Surface, offset_origin};
+use crate::intersect::Surface;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{DrawsView, DrawsViewItem, Paths, pixel_of_row};
-use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified, unit};
-use crate::scene::Sampler;
+use crate::rays::{DrawsView, Paths};
+use crate::sample::{Draw, PixelKey, Purpose, unit, with_sampler};
+use crate::shapes::{distance_to, offset_origin, pdf_towards, point_on};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 
@@ -74,41 +73,14 @@ pub fn sample_area_lights(
     if lights.emitter.is_empty() {
         return;
     }
-    for (
-        LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs },
-        DrawsViewItem { tile, depth, number, samples },
-        paths,
-    ) in &mut tiles
-    {
+    for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
         let receivers = LightRows::new(surfaces, shading, list, far);
-        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
-        let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
-        let to = (&mut *rays, pdfs.as_deref_mut());
-        let purposes = [Purpose::LightChoice, Purpose::LightPoint];
-        match sampling.sampler {
-            Sampler::Independent => {
-                sample_rows(
-                    purposes.map(|purpose| Independent::new(number, depth, purpose)),
-                    key,
-                    &lights,
-                    &receivers,
-                    to,
-                );
-            }
-            Sampler::Stratified => {
-                let all = sampling.samples;
-                sample_rows(
-                    purposes.map(|purpose| Stratified::new(number, all, depth, purpose)),
-                    key,
-                    &lights,
-                    &receivers,
-                    to,
-                );
-            }
-            Sampler::Sobol => {
-                sample_rows(purposes.map(|purpose| Sobol::new(number, depth, purpose)), key, &lights, &receivers, to);
-            }
-        }
+        let (draws, to) = (draws.draws(&sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
+        let (sample, key) = (draws.sample(), |row| draws.key(row));
+        with_sampler!(sampling.sampler, D => {
+            let drawn = [Purpose::LightChoice, Purpose::LightPoint].map(|purpose| D::of(sample, purpose));
+            sample_rows(drawn, key, &lights, &receivers, to);
+        });
     }
 }
 

@@ -3,9 +3,10 @@ use super::light::{ShadowRay, cosine_of};
 use super::receivers::{LightRay, LightRows, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
-use crate::intersect::{Surface, offset_origin};
+use crate::intersect::Surface;
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
 use crate::scene::DirectionalLight;
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 

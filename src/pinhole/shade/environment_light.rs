@@ -6,11 +6,11 @@ use crate::extract::{
     EnvironmentLightTable, EnvironmentTable, SamplingTable, environment_light_evidence, light_sampling_evidence,
     material_evidence,
 };
-use crate::intersect::{Surface, offset_origin};
+use crate::intersect::Surface;
 use crate::plan::{Shared, Stage, StageKind, TileSystems};
-use crate::rays::{DrawsView, DrawsViewItem, Paths, pixel_of_row};
-use crate::sample::{Draw, Independent, PixelKey, Purpose, Sobol, Stratified};
-use crate::scene::Sampler;
+use crate::rays::{DrawsView, Paths};
+use crate::sample::{Draw, Purpose, with_sampler};
+use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -77,37 +77,16 @@ pub fn sample_environment(
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
-    for (
-        LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs },
-        DrawsViewItem { tile, depth, number, samples },
-        paths,
-    ) in &mut tiles
-    {
+    for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
         let receivers = LightRows::new(surfaces, shading, list, far);
-        let key = |row| PixelKey::new(sampling.seed, pixel_of_row(tile, samples, paths, row));
-        let (number, depth) = (number.map_or(0, |number| number.0), depth.map_or(0, |depth| depth.0));
-        let (to, purpose) = ((&mut *rays, pdfs.as_deref_mut()), Purpose::EnvironmentPoint);
-        let sample = |surface: &Surface, normal, u| sample_environment_at(&environment, &light, surface, normal, u);
-        match sampling.sampler {
-            Sampler::Independent => {
-                let draw = Independent::new(number, depth, purpose);
-                append_sampled(&receivers, to, |row, surface, normal| {
-                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
-                });
-            }
-            Sampler::Stratified => {
-                let draw = Stratified::new(number, sampling.samples, depth, purpose);
-                append_sampled(&receivers, to, |row, surface, normal| {
-                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
-                });
-            }
-            Sampler::Sobol => {
-                let draw = Sobol::new(number, depth, purpose);
-                append_sampled(&receivers, to, |row, surface, normal| {
-                    sample(surface, normal, draw.two(key(row)).map(whole_unit))
-                });
-            }
-        }
+        let (draws, to) = (draws.draws(&sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
+        with_sampler!(sampling.sampler, D => {
+            let drawn = D::of(draws.sample(), Purpose::EnvironmentPoint);
+            append_sampled(&receivers, to, |row, surface, normal| {
+                let u = drawn.two(draws.key(row)).map(whole_unit);
+                sample_environment_at(&environment, &light, surface, normal, u)
+            });
+        });
     }
 }
 

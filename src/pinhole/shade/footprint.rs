@@ -74,14 +74,15 @@ pub fn compute_footprints(
             // length 1.
             let distance = hits.t[row] * direction.dot(steps.ahead);
             let moved = match steps.angle {
-                None => [0, 1].map(|axis| steps.origin[axis] + steps.direction[axis] * distance),
+                None => {
+                    [steps.origin[0] + steps.direction[0] * distance, steps.origin[1] + steps.direction[1] * distance]
+                }
                 Some(angle) => {
                     <[DVec3; 2]>::from(direction.any_orthonormal_pair()).map(|tangent| tangent * (angle * hits.t[row]))
                 }
             };
-            let [right, down] = moved.map(|moved| step_on_surface(moved, direction, normal));
-            (rx[row], ry[row], rz[row]) = right.into();
-            (dx[row], dy[row], dz[row]) = down.into();
+            (rx[row], ry[row], rz[row]) = step_on_surface(moved[0], direction, normal).into();
+            (dx[row], dy[row], dz[row]) = step_on_surface(moved[1], direction, normal).into();
         }
     }
 }

@@ -3,9 +3,10 @@ use crate::extract::{
     MaterialTable, area_light_evidence, environment_light_evidence, light_sampling_evidence, material_evidence,
     occlusion_evidence, traced_evidence, unless_occlusion,
 };
-use crate::intersect::{NO_SHAPE, RayColumn, RaySlices, Surface, Surfaces, falling_cosine, offset_origin};
+use crate::intersect::{NO_SHAPE, RayColumn, Surface, Surfaces, falling_cosine};
 use crate::plan::{Census, Column, ComponentKind, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::scene::{DirectionalLight, PointLight, SpotLight};
+use crate::shapes::{RaySlices, offset_origin};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
 

@@ -21,7 +21,6 @@ mod checker;
 mod colour;
 mod directional_light;
 mod emissive;
-pub mod emitter;
 mod environment;
 mod environment_light;
 mod far_rows;
@@ -30,6 +29,7 @@ mod gradient;
 mod image_circle;
 mod image_texture;
 mod light;
+mod light_targets;
 mod lookup;
 mod point_light;
 mod radiance;
@@ -83,6 +83,8 @@ pub use light::{
     shadow_t_max, start_light, start_light_stage,
 };
 #[doc(hidden)]
+pub use light_targets::{MAX_TARGETS_SOLID_ANGLE, direction_to_targets};
+#[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 #[doc(hidden)]
 pub use point_light::{irradiance_from_point, point_light_stage, sample_point_lights};
@@ -91,9 +93,8 @@ pub use radiance::Radiance;
 pub use radiance::{start_radiance, start_stage};
 #[doc(hidden)]
 pub use shadow::{
-    ShadowHits, cuboid_shadow_stage, disk_shadow_stage, ellipsoid_shadow_stage, moving_shadow_stage,
-    plane_shadow_stage, rectangle_shadow_stage, sphere_shadow_stage, start_shadow_stage, start_shadows,
-    triangle_shadow_stage,
+    ShadowHits, moving_shadow_stage, plane_shadow_stage, shape_shadow_stage, shape_shadow_stages, sphere_shadow_stage,
+    start_shadow_stage, start_shadows,
 };
 #[doc(hidden)]
 pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine};

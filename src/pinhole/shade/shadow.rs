@@ -1,13 +1,12 @@
 use super::LightRays;
 use super::light::{LIGHTS, either, or_light};
-use crate::extract::{material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion};
-use crate::intersect::{
-    HitColumn, NO_SHAPE, cuboid_evidence, disk_evidence, ellipsoid_evidence, intersect_cuboids, intersect_disks,
-    intersect_ellipsoids, intersect_moving, intersect_planes, intersect_rectangles, intersect_spheres,
-    intersect_triangles, rectangle_evidence, sphere_evidence, triangle_evidence,
+use crate::extract::{
+    kind_evidence, material_evidence, moving_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
+use crate::intersect::{HitColumn, NO_SHAPE, intersect_moving, intersect_shapes};
 use crate::plan::{Census, Column, Evidence, Stage, TileSystems, column};
-use crate::scene::{DirectionalLight, Plane, PointLight, SpotLight};
+use crate::scene::{DirectionalLight, PointLight, SpotLight};
+use crate::shapes::{Listed, PlacedPlane, PlacedSphere, ShapeVisitor, visit_shapes};
 use bevy_ecs::prelude::*;
 
 column! {
@@ -54,53 +53,37 @@ pub fn start_shadow_stage() -> Stage {
     Stage::new("Clear shadow hits", TileSystems::ClearShadows, start_shadows).when(shadow_evidence)
 }
 
-// ANCHOR: sphere_shadow_stage
+// ANCHOR: shape_shadow_stage
+/// The stage that intersects shadow rays with one kind of shape.
+pub fn shape_shadow_stage<S: Listed>() -> Stage {
+    let intersect = intersect_shapes::<S, LightRays, ShadowHits>;
+    Stage::new(S::NAMES.shadow, TileSystems::TraceShadowRays, intersect)
+        .when(|scene| kind_evidence::<S>(scene).and(|| shadow_evidence(scene)))
+}
+// ANCHOR_END: shape_shadow_stage
+
 /// The stage that intersects shadow rays with spheres.
 pub fn sphere_shadow_stage() -> Stage {
-    Stage::new("Trace shadow rays: spheres", TileSystems::TraceShadowRays, intersect_spheres::<LightRays, ShadowHits>)
-        .when(|scene| sphere_evidence(scene).and(|| shadow_evidence(scene)))
-}
-// ANCHOR_END: sphere_shadow_stage
-
-/// The stage that intersects shadow rays with ellipsoids.
-pub fn ellipsoid_shadow_stage() -> Stage {
-    let intersect = intersect_ellipsoids::<LightRays, ShadowHits>;
-    Stage::new("Trace shadow rays: ellipsoids", TileSystems::TraceShadowRays, intersect)
-        .when(|scene| ellipsoid_evidence(scene).and(|| shadow_evidence(scene)))
+    shape_shadow_stage::<PlacedSphere>()
 }
 
 /// The stage that intersects shadow rays with planes.
 pub fn plane_shadow_stage() -> Stage {
-    Stage::new("Trace shadow rays: planes", TileSystems::TraceShadowRays, intersect_planes::<LightRays, ShadowHits>)
-        .when(|scene| Evidence::of::<Plane>(scene, "plane").and(|| shadow_evidence(scene)))
+    shape_shadow_stage::<PlacedPlane>()
 }
 
-/// The stage that intersects shadow rays with disks.
-pub fn disk_shadow_stage() -> Stage {
-    let intersect = intersect_disks::<LightRays, ShadowHits>;
-    Stage::new("Trace shadow rays: disks", TileSystems::TraceShadowRays, intersect)
-        .when(|scene| disk_evidence(scene).and(|| shadow_evidence(scene)))
-}
-
-/// The stage that intersects shadow rays with rectangles.
-pub fn rectangle_shadow_stage() -> Stage {
-    let intersect = intersect_rectangles::<LightRays, ShadowHits>;
-    Stage::new("Trace shadow rays: rectangles", TileSystems::TraceShadowRays, intersect)
-        .when(|scene| rectangle_evidence(scene).and(|| shadow_evidence(scene)))
-}
-
-/// The stage that intersects shadow rays with cuboids.
-pub fn cuboid_shadow_stage() -> Stage {
-    let intersect = intersect_cuboids::<LightRays, ShadowHits>;
-    Stage::new("Trace shadow rays: cuboids", TileSystems::TraceShadowRays, intersect)
-        .when(|scene| cuboid_evidence(scene).and(|| shadow_evidence(scene)))
-}
-
-/// The stage that intersects shadow rays with triangles.
-pub fn triangle_shadow_stage() -> Stage {
-    let intersect = intersect_triangles::<LightRays, ShadowHits>;
-    Stage::new("Trace shadow rays: triangles", TileSystems::TraceShadowRays, intersect)
-        .when(|scene| triangle_evidence(scene).and(|| shadow_evidence(scene)))
+/// The stages that trace shadow rays for each registered shape, and whether it is one that only a non-uniform scale
+/// makes.
+pub fn shape_shadow_stages() -> Vec<(bool, fn() -> Stage)> {
+    struct Collected(Vec<(bool, fn() -> Stage)>);
+    impl ShapeVisitor for Collected {
+        fn visit<S: Listed>(&mut self) {
+            self.0.push((S::UNEVEN == Some(true), shape_shadow_stage::<S>));
+        }
+    }
+    let mut collected = Collected(Vec::new());
+    visit_shapes(&mut collected);
+    collected.0
 }
 
 /// The stage that intersects shadow rays with moving shapes, each at the time of the ray that hit the surface.

@@ -1,11 +1,12 @@
 use super::Footprints;
 use crate::extract::{
-    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, face_axes, filtered_by_uv_evidence,
-    most_of, texture_evidence,
+    ShapeSpaces, TextureMap, TextureMapping, TextureMaps, UvSlopes, by_uv_evidence, filtered_by_uv_evidence,
+    texture_evidence,
 };
 use crate::intersect::{Hits, MaterialRows, SurfaceUvs, Surfaces};
 use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use crate::rays::WorldRays;
+use crate::shapes::{face_axes, most_of};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::{DMat3, DVec3};
@@ -77,12 +78,13 @@ impl TexturePoints {
     }
 }
 
-/// An offset transformed by a matrix; an infinite offset stays infinite, without becoming NaN.
+/// Both offsets transformed by a matrix.
 #[inline(always)]
-fn mapped(matrix: DMat3, step: DVec3) -> DVec3 {
-    ended(matrix * step)
+fn both(matrix: DMat3, [right, down]: [DVec3; 2]) -> [DVec3; 2] {
+    [ended(matrix * right), ended(matrix * down)]
 }
 
+/// An infinite offset stays infinite, without becoming NaN.
 #[inline(always)]
 fn ended(step: DVec3) -> DVec3 {
     if step.is_finite() { step } else { DVec3::INFINITY }
@@ -132,8 +134,9 @@ pub fn compute_texture_points(
                     let steps = slopes.as_ref().map_or([DVec3::ZERO; 2], |slopes| {
                         let at = in_space(&spaces, shape, rays.point_at(row, hits.t[row]), steps);
                         let normal = surfaces.get(row).normal.as_dvec3();
-                        [0, 1]
-                            .map(|axis| ended(slopes.slope[shape].step(at.point, normal, steps[axis], at.steps[axis])))
+                        let slope = &slopes.slope[shape];
+                        let step = |axis: usize| ended(slope.step(at.point, normal, steps[axis], at.steps[axis]));
+                        [step(0), step(1)]
                     });
                     TexturePoint { point: uv, steps }
                 }
@@ -154,17 +157,17 @@ pub fn compute_texture_points(
 #[inline(always)]
 fn in_space(spaces: &ShapeSpaces, shape: usize, point: DVec3, steps: [DVec3; 2]) -> TexturePoint {
     let matrix = spaces.shape_from_world[shape];
-    TexturePoint { point: matrix * (point - spaces.origin[shape]), steps: steps.map(|step| mapped(matrix, step)) }
+    TexturePoint { point: matrix * (point - spaces.origin[shape]), steps: both(matrix, steps) }
 }
 // ANCHOR_END: in_space
 
 fn on_face(face: DMat3, at: TexturePoint) -> TexturePoint {
-    TexturePoint { point: face * at.point, steps: at.steps.map(|step| mapped(face, step)) }
+    TexturePoint { point: face * at.point, steps: both(face, at.steps) }
 }
 
 #[inline(always)]
 fn on_texture(map: &TextureMap, at: TexturePoint) -> TexturePoint {
-    TexturePoint { point: map.matrix * at.point + map.shift, steps: at.steps.map(|step| mapped(map.matrix, step)) }
+    TexturePoint { point: map.matrix * at.point + map.shift, steps: both(map.matrix, at.steps) }
 }
 
 /// The stage that runs [`compute_texture_points`].

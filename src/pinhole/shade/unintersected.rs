@@ -1,7 +1,7 @@
 //! Shapes that no stage on offer intersects.
 
 use super::shadow::ShadowHits;
-use crate::extract::{ShapeTable, shape_name};
+use crate::extract::{MovingTable, ShapeTable, listed_kind, shape_name};
 use crate::intersect::{Hits, Surfaces};
 use crate::plan::{Census, ColumnKind, Plan, Stage, TableKind};
 use crate::scene::SceneError;
@@ -29,9 +29,13 @@ pub fn check_shapes_are_intersected(scene: &Census<'_>, offer: &[Stage], plan: &
             continue;
         }
         let shapes = scene.table::<ShapeTable>()?;
-        let missing = shapes.kind.iter().enumerate().find(|(_, kind)| !intersects(column, kind.table()));
-        if let Some((shape, kind)) = missing {
-            let value = format!("in the table of {}", kind.table().name);
+        let tables = shapes
+            .kind
+            .iter()
+            .map(|&kind| listed_kind(kind).map_or_else(TableKind::of::<MovingTable>, |listed| listed.table));
+        let missing = tables.enumerate().find(|(_, table)| !intersects(column, *table));
+        if let Some((shape, table)) = missing {
+            let value = format!("in the table of {}", table.name);
             return Err(SceneError::new(shape_name(scene, shape), "shape", value, accepted));
         }
     }

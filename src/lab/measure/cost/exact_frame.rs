@@ -6,13 +6,11 @@ use crate::measure::oracle_sphere::Sphere;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Result;
-use pinhole::extract::{
-    CameraAxes, CuboidTable, DiskTable, Ellipsoid, EllipsoidTable, Planar, PlaneTable, RectangleTable, ShapeKind,
-    ShapeTable, Slabs, SphereTable, TriangleRow, TriangleTable, camera_entity,
-};
+use pinhole::extract::{CameraAxes, ShapeTable, camera_entity, shape_bodies};
 use pinhole::plan::{Census, Table};
 use pinhole::render::Inspection;
 use pinhole::scene::{OrthographicCamera, PerspectiveCamera};
+use pinhole::shapes::{Body, Ellipsoid, PlacedPlane, PlacedSphere, Planar, ShapeKind, Slabs, TriangleRow};
 
 /// What the frame is compared with.
 pub(super) struct Exact {
@@ -41,27 +39,20 @@ impl Exact {
         let axes = CameraAxes::extract(census)?.world_from_camera;
         let PerspectiveCamera { fov, axis } = scene.get::<PerspectiveCamera>(camera).copied().unwrap_or_default();
         let half_height = scene.get::<OrthographicCamera>(camera).map(|camera| camera.view_height / 2.0);
-        let (shapes, spheres) = (ShapeTable::extract(census)?, SphereTable::extract(census)?);
-        let (planes, ellipsoids) = (PlaneTable::extract(census)?, EllipsoidTable::extract(census)?);
-        let (disks, rectangles) = (DiskTable::extract(census)?, RectangleTable::extract(census)?);
-        let (cuboids, triangles) = (CuboidTable::extract(census)?, TriangleTable::extract(census)?);
-        let shape = |(kind, &row): (&ShapeKind, &u32)| {
-            Some(match (kind, row as usize) {
-                (ShapeKind::Sphere, row) => {
-                    ExactShape::Sphere(Sphere { centre: spheres.centre(row), radius: spheres.radius[row] })
-                }
-                (ShapeKind::Plane, row) => {
-                    ExactShape::Plane(Plane { normal: planes.normal[row], offset: planes.offset[row] })
-                }
-                (ShapeKind::Ellipsoid, row) => ExactShape::Ellipsoid(ellipsoids.ellipsoid[row]),
-                (ShapeKind::Disk, row) => ExactShape::Disk(disks.planar[row]),
-                (ShapeKind::Rectangle, row) => ExactShape::Rectangle(rectangles.planar[row]),
-                (ShapeKind::Cuboid, row) => ExactShape::Cuboid(cuboids.slabs[row]),
-                (ShapeKind::Triangle, row) => ExactShape::Triangle(triangles.triangle[row], triangles.normal[row]),
-                (ShapeKind::Moving, _) => return None,
+        let shape = |body: Body| {
+            Some(match body {
+                Body::Sphere(PlacedSphere { centre, radius }, ()) => ExactShape::Sphere(Sphere { centre, radius }),
+                Body::Plane(PlacedPlane { normal, offset }, ()) => ExactShape::Plane(Plane { normal, offset }),
+                Body::Ellipsoid(ellipsoid, ()) => ExactShape::Ellipsoid(ellipsoid),
+                Body::Disk(disk, ()) => ExactShape::Disk(disk.planar),
+                Body::Rectangle(rectangle, ()) => ExactShape::Rectangle(rectangle.planar),
+                Body::Cuboid(slabs, ()) => ExactShape::Cuboid(slabs),
+                Body::Triangle(triangle, face) => ExactShape::Triangle(triangle, face.normal),
             })
         };
-        let shapes = shapes.kind.iter().zip(&shapes.row).map(shape).collect::<Option<Vec<_>>>().unwrap_or_default();
+        let moves = ShapeTable::extract(census)?.kind.contains(&ShapeKind::Moving);
+        let bodies = if moves { Vec::new() } else { shape_bodies(census)? };
+        let shapes = bodies.into_iter().map(shape).collect::<Option<Vec<_>>>().unwrap_or_default();
         Ok(Self { camera: ExactCamera::new(width, height, fov.0, axis, axes), half_height, shapes })
     }
 }

@@ -8,6 +8,7 @@ use bevy_ecs::schedule::SingleThreadedExecutor;
 use pinhole::extract::{PlaneTable, SphereTable};
 use pinhole::plan::{Column, Sample, Shared, Slot, Stage, Table};
 use pinhole::rays::{Tile, WorldRays};
+use pinhole::shapes::{PlacedPlane, PlacedSphere};
 
 /// A world with one tile, and stages that run on it in the order given.
 ///
@@ -72,21 +73,10 @@ impl Bench {
 
 /// The table of these spheres; a sphere's shape number is its place.
 pub fn sphere_table(spheres: &[Sphere]) -> SphereTable {
-    let part = |of: fn(&Sphere) -> f64| spheres.iter().map(of).collect();
-    SphereTable {
-        x: part(|sphere| sphere.centre.x),
-        y: part(|sphere| sphere.centre.y),
-        z: part(|sphere| sphere.centre.z),
-        radius: part(|sphere| sphere.radius),
-        shape: (0..spheres.len() as u32).collect(),
-    }
+    spheres.iter().map(|&Sphere { centre, radius }| PlacedSphere { centre, radius }).collect()
 }
 
 /// The table of these planes; a plane's shape number is its place.
 pub fn plane_table(planes: &[Plane]) -> PlaneTable {
-    PlaneTable {
-        normal: planes.iter().map(|plane| plane.normal).collect(),
-        offset: planes.iter().map(|plane| plane.offset).collect(),
-        shape: (0..planes.len() as u32).collect(),
-    }
+    planes.iter().map(|&Plane { normal, offset }| PlacedPlane { normal, offset }).collect()
 }

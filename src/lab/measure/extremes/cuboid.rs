@@ -11,8 +11,9 @@ use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::cuboid::{face_by_epsilon, hit_f32, hit_widened_f32};
 use crate::naive::shadow::{start_at_hit, start_off_surface};
 use glam::Vec3;
-use pinhole::extract::{CuboidTable, Slabs};
-use pinhole::intersect::{Hits, cuboid_face, cuboid_stage, cuboid_t, offset_origin, start_stage};
+use pinhole::extract::CuboidTable;
+use pinhole::intersect::{Hits, cuboid_stage, start_stage};
+use pinhole::shapes::{Slabs, cuboid_face, cuboid_t, offset_origin};
 use std::ops::Range;
 
 /// Cuboids and rays that the stage gets at once.
@@ -85,8 +86,7 @@ pub fn trials() -> Vec<Trial> {
 
 /// The table of these cuboids; a cuboid's shape number is its place.
 fn table(slabs: Vec<Slabs>) -> CuboidTable {
-    let shape = (0..slabs.len() as u32).collect();
-    CuboidTable { slabs, shape }
+    slabs.into_iter().collect()
 }
 
 /// The exact distance, rounded to f64 once, and the axis of the face.

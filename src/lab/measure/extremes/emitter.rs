@@ -10,10 +10,11 @@ use crate::naive::emitter::{
     versine_by_difference_f32,
 };
 use glam::DVec3;
-use pinhole::extract::{Emitter, Parallelogram, Planar};
-use pinhole::intersect::rectangle_t;
-use pinhole::shade::emitter::{LightPoint, cone_versine, distance_to, parallelogram_area_point, point_on};
 use pinhole::shade::shadow_t_max;
+use pinhole::shapes::emitter::{
+    EmittingDisk, EmittingTriangle, LightPoint, Parallelogram, cone_versine, parallelogram_area_point,
+};
+use pinhole::shapes::{Emitter, PlacedSphere, Planar, distance_to, point_on, rectangle_t};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -157,7 +158,7 @@ fn check_touching(range: Range<u64>) -> Tally {
         let (normal, axis) = (DVec3::Y, DVec3::Y * (radius * (1.0 + apart)));
         let truth = PI / ((1.0 + apart) * (1.0 + apart));
         tally.count(true);
-        let sphere = Emitter::Sphere { centre: axis, radius };
+        let sphere = Emitter::Sphere(PlacedSphere { centre: axis, radius });
         let pinhole = grid().map(|u| {
             let point = point_on(&sphere, DVec3::ZERO, u);
             normal.dot(point.to / point.to.length()).max(0.0) / point.pdf
@@ -178,11 +179,14 @@ fn check_ends(range: Range<u64>) -> Tally {
         let mut vector = || draws.unit_vector() * draws.power_of_ten(-3.0, 3.0);
         let (centre, a, b, away) = (vector(), vector(), vector(), vector());
         let light = match index % 5 {
-            0 => Emitter::Sphere { centre, radius: a.length() },
+            0 => Emitter::Sphere(PlacedSphere { centre, radius: a.length() }),
             1 => Emitter::Rectangle(Parallelogram::new(centre, [a, a.cross(b).normalize() * b.length()], away)),
             2 => Emitter::Rectangle(Parallelogram::new(centre, [a, b], away)),
-            3 => Emitter::Disk(Parallelogram::about_ellipse(centre, [a, b], away)),
-            _ => Emitter::Triangle { corners: [centre, centre + a, centre + b], normal: a.cross(b).normalize() },
+            3 => Emitter::Disk(EmittingDisk(Parallelogram::about_ellipse(centre, [a, b], away))),
+            _ => {
+                let corners = [centre, centre + a, centre + b];
+                Emitter::Triangle(EmittingTriangle { corners, normal: a.cross(b).normalize() })
+            }
         };
         // Beside a point of the light.
         let on = away + point_on(&light, away, [0.3, 0.6]).to;

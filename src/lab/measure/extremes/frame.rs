@@ -79,7 +79,7 @@ fn check_frame(scene: &World, rays: usize, tally: &mut Tally) {
         tally.scores[0].check(false);
         return;
     };
-    let sphere = ExactSphere { centre: table.centre(0), radius: table.radius[0] };
+    let sphere = ExactSphere { centre: table.row[0].centre, radius: table.row[0].radius };
     let tile = frame.world.entity(frame.tiles[0]);
     let (Some(world), Some(hits)) = (tile.get::<WorldRays>(), tile.get::<Hits>()) else { return };
     for row in 0..rays {

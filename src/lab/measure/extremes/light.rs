@@ -12,10 +12,11 @@ use pinhole::extract::{
     DirectionalLightTable, MaterialKind, MaterialTable, PointLightTable, SpotLightTable, versine_of_half,
 };
 use pinhole::follow;
-use pinhole::intersect::{MaterialRows, Surface, Surfaces, offset_bound};
+use pinhole::intersect::{MaterialRows, Surface, Surfaces};
 use pinhole::material::{BlinnPhongTable, PhongTable, blinn_phong_peak, highlight, mirror_cosine, phong_peak};
 use pinhole::scene::Degrees;
 use pinhole::shade::{self, LightRays, Radiance, spot_falloff, versine};
+use pinhole::shapes::offset_bound;
 use std::ops::Range;
 
 const HIGHLIGHT: [Method; 2] = [

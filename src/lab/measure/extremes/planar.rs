@@ -10,8 +10,9 @@ use crate::measure::planar_aim::{At, View, edge_on, planar_shot};
 use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::planar::{hit_disk_f32, hit_rectangle_f32};
 use crate::naive::shadow::{start_at_hit, start_off_surface};
-use pinhole::extract::{DiskTable, Planar, RectangleTable};
-use pinhole::intersect::{Hits, disk_stage, disk_t, offset_origin, rectangle_stage, rectangle_t, start_stage};
+use pinhole::extract::{DiskTable, RectangleTable};
+use pinhole::intersect::{Hits, disk_stage, rectangle_stage, start_stage};
+use pinhole::shapes::{PlacedDisk, PlacedRectangle, Planar, disk_t, offset_origin, rectangle_t};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -64,10 +65,12 @@ impl Kind {
     }
 
     fn insert(self, bench: &mut Bench, planar: Vec<Planar>) {
-        let shape = (0..planar.len() as u32).collect();
+        let planar = planar.into_iter();
         match self {
-            Self::Disk => bench.insert(DiskTable { planar, shape }),
-            Self::Rectangle => bench.insert(RectangleTable { planar, shape }),
+            Self::Disk => bench.insert(planar.map(|planar| PlacedDisk { planar }).collect::<DiskTable>()),
+            Self::Rectangle => {
+                bench.insert(planar.map(|planar| PlacedRectangle { planar }).collect::<RectangleTable>())
+            }
         }
     }
 
@@ -194,8 +197,8 @@ fn check_starts(kind: Kind, view: View, range: Range<u64>) -> Tally {
     for index in range {
         let (ray, planar) = planar_shot(view, index);
         match kind {
-            Kind::Disk => stages.disks(DiskTable { planar: vec![planar], shape: vec![0] }),
-            Kind::Rectangle => stages.rectangles(RectangleTable { planar: vec![planar], shape: vec![0] }),
+            Kind::Disk => stages.disks([PlacedDisk { planar }].into_iter().collect()),
+            Kind::Rectangle => stages.rectangles([PlacedRectangle { planar }].into_iter().collect()),
         }
         let side = side_of_planar(ray.origin.as_dvec3(), &planar);
         let mut draws = Draws::new(view.seed + 1000, index);

@@ -6,7 +6,8 @@ use crate::measure::oracle_plane::{self, Plane};
 use crate::measure::ray_aim::{AimedRay, plane_of_any_offset};
 use crate::naive::plane::hit_f32;
 use glam::Vec3;
-use pinhole::intersect::{Hits, plane_stage, plane_t, start_stage};
+use pinhole::intersect::{Hits, plane_stage, start_stage};
+use pinhole::shapes::plane_t;
 use std::ops::Range;
 
 /// Planes and rays that the stage gets at once.

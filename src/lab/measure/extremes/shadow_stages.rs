@@ -7,11 +7,12 @@ use crate::measure::ray_aim::{AimedRay, Draws};
 use glam::{DVec3, Vec3};
 use pinhole::extract::{
     CuboidTable, DiskTable, EllipsoidTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, RectangleTable,
-    ShapeKind, ShapeTable, TriangleTable,
+    ShapeTable, TriangleTable,
 };
 use pinhole::intersect::{self, Hits, MaterialRows, NO_SHAPE, Surface, Surfaces};
 use pinhole::plan::{Column, Stage};
 use pinhole::shade::{self, LightRays, ShadowHits};
+use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, ShapeKind, Slabs, TriangleRow};
 
 /// A shadow ray as the stages made it, and what they found along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,31 +49,31 @@ impl ShadowStages {
     /// The stages for ellipsoids, a light still to be placed.
     pub fn of_ellipsoids() -> Self {
         let of_hits = [intersect::ellipsoid_stage(), intersect::classify_stage(), intersect::ellipsoid_surface_stage()];
-        Self::of(&of_hits, shade::ellipsoid_shadow_stage())
+        Self::of(&of_hits, shade::shape_shadow_stage::<Ellipsoid>())
     }
 
     /// The stages for disks, a light still to be placed.
     pub fn of_disks() -> Self {
         let of_hits = [intersect::disk_stage(), intersect::classify_stage(), intersect::disk_surface_stage()];
-        Self::of(&of_hits, shade::disk_shadow_stage())
+        Self::of(&of_hits, shade::shape_shadow_stage::<PlacedDisk>())
     }
 
     /// The stages for rectangles, a light still to be placed.
     pub fn of_rectangles() -> Self {
         let of_hits = [intersect::rectangle_stage(), intersect::classify_stage(), intersect::rectangle_surface_stage()];
-        Self::of(&of_hits, shade::rectangle_shadow_stage())
+        Self::of(&of_hits, shade::shape_shadow_stage::<PlacedRectangle>())
     }
 
     /// The stages for cuboids, a light still to be placed.
     pub fn of_cuboids() -> Self {
         let of_hits = [intersect::cuboid_stage(), intersect::classify_stage(), intersect::cuboid_surface_stage()];
-        Self::of(&of_hits, shade::cuboid_shadow_stage())
+        Self::of(&of_hits, shade::shape_shadow_stage::<Slabs>())
     }
 
     /// The stages for triangles, a light still to be placed.
     pub fn of_triangles() -> Self {
         let of_hits = [intersect::triangle_stage(), intersect::classify_stage(), intersect::triangle_surface_stage()];
-        Self::of(&of_hits, shade::triangle_shadow_stage())
+        Self::of(&of_hits, shade::shape_shadow_stage::<TriangleRow>())
     }
 
     fn of(to_surface: &[Stage], shadow_stage: Stage) -> Self {

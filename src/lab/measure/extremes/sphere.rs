@@ -6,7 +6,8 @@ use super::{Group, Method, Score, Tally, Trial};
 use crate::measure::oracle_sphere::{self, Sphere};
 use crate::measure::ray_aim::{self, AimedRay};
 use crate::naive::sphere::{hit_f32, hit_f64_plain, hit_haines_f32};
-use pinhole::intersect::{Hits, sphere_stage, sphere_t, start_stage};
+use pinhole::intersect::{Hits, sphere_stage, start_stage};
+use pinhole::shapes::sphere_t;
 use std::ops::Range;
 
 /// How far t may be off, relative to itself, in u.

@@ -8,8 +8,8 @@ use super::{transform_placement, transform_surface};
 use crate::measure::oracle_ellipsoid;
 use crate::measure::ray_aim::AimedRay;
 use crate::naive::ellipsoid::{hit_f32, hit_renormalised};
-use pinhole::extract::Ellipsoid;
-use pinhole::intersect::{Hits, ellipsoid_stage, ellipsoid_t, start_stage};
+use pinhole::intersect::{Hits, ellipsoid_stage, start_stage};
+use pinhole::shapes::{Ellipsoid, ellipsoid_t};
 use std::ops::Range;
 
 /// Ellipsoids and rays that the stage gets at once.

@@ -2,7 +2,7 @@
 
 use crate::measure::ray_aim::{AimedRay, BAND_IN_QUANTA, Draws, rounded_ray};
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use pinhole::extract::Ellipsoid;
+use pinhole::shapes::Ellipsoid;
 
 /// One direction quantum: the spacing of f32 numbers just below 1.
 const QUANTUM: f64 = 1.0 / (1_u64 << 24) as f64;
@@ -131,7 +131,5 @@ pub fn shot(view: View, index: u64) -> (AimedRay, Stretched) {
 
 /// The table of these ellipsoids; an ellipsoid's shape number is its place.
 pub fn ellipsoid_table(ellipsoids: impl IntoIterator<Item = Ellipsoid>) -> pinhole::extract::EllipsoidTable {
-    let ellipsoid: Vec<Ellipsoid> = ellipsoids.into_iter().collect();
-    let shape = (0..ellipsoid.len() as u32).collect();
-    pinhole::extract::EllipsoidTable { ellipsoid, shape }
+    ellipsoids.into_iter().collect()
 }

@@ -117,7 +117,7 @@ fn check_planes(range: Range<u64>) -> Tally {
             tally.scores[0].check(false);
             continue;
         };
-        let normals = [table.normal[0], normal_as_direction(map.matrix3, normal)].map(|normal| normal.as_vec3());
+        let normals = [table.row[0].normal, normal_as_direction(map.matrix3, normal)].map(|normal| normal.as_vec3());
         let enclosed = Some(normal_through::<Enclosure>(&chain, normal));
         match angles(normals, enclosed, || Some(normal_through::<Dyadic>(&chain, normal))) {
             Some([pinhole, naive]) => {
@@ -141,7 +141,7 @@ fn check_pixels(range: Range<u64>) -> Tally {
         let (radius, on_unit) = (draws.between(0.5, 2.0), draws.unit_vector());
         let (world, _) = scene(Sphere { radius }, &chain);
         let table = EllipsoidTable::extract(&Census::of(&world));
-        let ellipsoid = table.as_ref().ok().and_then(|table| table.ellipsoid.first().copied());
+        let ellipsoid = table.as_ref().ok().and_then(|table| table.row.first().copied());
         tally.count(ellipsoid.is_some());
         let Some(ellipsoid) = ellipsoid else {
             // A draw that happens to be nearly even is a sphere.

@@ -12,7 +12,8 @@ use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::ellipsoid::normal_as_direction;
 use crate::naive::shadow::start_off_surface;
 use glam::Vec3;
-use pinhole::intersect::{Surface, offset_origin};
+use pinhole::intersect::Surface;
+use pinhole::shapes::offset_origin;
 use std::ops::Range;
 
 const METHODS: [Method; 5] = [

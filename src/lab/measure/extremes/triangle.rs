@@ -7,8 +7,8 @@ use super::{triangle_limits, triangle_mesh, triangle_surface};
 use crate::measure::oracle_triangle;
 use crate::measure::ray_aim::AimedRay;
 use crate::naive::triangle::{hit_f32, hit_woop_f32};
-use pinhole::extract::TriangleRow;
-use pinhole::intersect::{Hits, start_stage, triangle_stage, triangle_t};
+use pinhole::intersect::{Hits, start_stage, triangle_stage};
+use pinhole::shapes::{TriangleRow, triangle_t};
 use std::ops::Range;
 
 /// Triangles and rays that the stage gets at once.
@@ -97,7 +97,7 @@ fn check_among(bench: &mut Bench, shots: &[(AimedRay, Corners)], exact: &[Option
     bench.run();
     let hits = bench.column::<Hits>();
     for (row, &ray) in rays.iter().enumerate() {
-        let nearest = table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
+        let nearest = table.row.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
         score.check(hits.t[row].to_bits() == nearest.to_bits());
         if hits.shape[row] == row as u32 {
             score.check_t(Some(hits.t[row]), exact[row]);

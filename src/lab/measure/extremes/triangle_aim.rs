@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::TriangleTable;
 use pinhole::plan::{Census, Table};
 use pinhole::scene::{ChildOf, Matte, PerspectiveCamera, Placement, SceneError, Triangle};
+use pinhole::shapes::TriangleFace;
 
 /// One direction quantum: the spacing of f32 numbers just below 1.
 const QUANTUM: f64 = 1.0 / (1_u64 << 24) as f64;
@@ -98,7 +99,7 @@ fn band(draws: &mut Draws, aim: SampleLights, origin: Vec3, target: DVec3) -> Ai
 pub fn triangle_table(triangles: impl IntoIterator<Item = Corners>) -> TriangleTable {
     let mut table = TriangleTable::default();
     for (number, corners) in triangles.into_iter().enumerate() {
-        table.push(corners, [DVec2::ZERO, DVec2::X, DVec2::Y], number as u32);
+        table.push(TriangleFace::of(corners, [DVec2::ZERO, DVec2::X, DVec2::Y]), number as u32);
     }
     table
 }
@@ -167,7 +168,7 @@ impl Mesh {
 
 /// A ray at an edge or a corner of a mesh, and the corners of the edge, or the corner twice.
 pub fn ray_at(draws: &mut Draws, table: &TriangleTable, origin: Vec3) -> (AimedRay, [DVec3; 2]) {
-    let corners = table.triangle[(draws.unit() * table.triangle.len() as f64) as usize].corners;
+    let corners = table.row[(draws.unit() * table.row.len() as f64) as usize].corners;
     let first = (draws.unit() * 3.0) as usize;
     let second = if draws.unit() < 0.5 { first } else { (first + 1) % 3 };
     let (a, b) = (corners[first], corners[second]);

@@ -8,8 +8,8 @@ use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::triangle::hit_f32;
 use glam::{DVec3, Vec3};
-use pinhole::extract::TriangleRow;
 use pinhole::intersect::{Hits, NO_SHAPE, start_stage, triangle_stage};
+use pinhole::shapes::TriangleRow;
 
 /// Rays and triangles of one block.
 const BLOCK: usize = 16;
@@ -112,8 +112,7 @@ fn no_rays() -> Trial {
         let hits = bench.column::<Hits>();
         tally.count(true);
         for (component, &ray) in rays.iter().enumerate() {
-            let nearest =
-                table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
+            let nearest = table.row.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
             let nothing = hits.t[component] == f64::INFINITY && hits.shape[component] == NO_SHAPE;
             tally.scores[0].check(if component == bad {
                 nothing

@@ -92,7 +92,7 @@ fn check_mesh(
     tally: &mut Tally,
 ) {
     bench.insert(table.clone());
-    let rounded: Vec<[Vec3; 3]> = table.triangle.iter().map(|triangle| triangle.corners.map(|c| c.as_vec3())).collect();
+    let rounded: Vec<[Vec3; 3]> = table.row.iter().map(|triangle| triangle.corners.map(|c| c.as_vec3())).collect();
     let rays: Vec<(AimedRay, [DVec3; 2])> = range.map(|index| aimed(view, table, centre, index)).collect();
     for rays in rays.chunks(AT_ONCE) {
         bench.aim(&rays.iter().map(|&(ray, _)| ray).collect::<Vec<_>>());
@@ -101,14 +101,11 @@ fn check_mesh(
         for (row, &(ray, at)) in rays.iter().enumerate() {
             let hit = hits.shape[row] != NO_SHAPE;
             tally.count(hit);
-            let nearest =
-                table.triangle.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
-            let must =
-                view.inside || hit || table.triangle.iter().any(|triangle| exact(ray, triangle.corners).is_some());
+            let nearest = table.row.iter().map(|triangle| by_function(ray, triangle)).fold(f64::INFINITY, f64::min);
+            let must = view.inside || hit || table.row.iter().any(|triangle| exact(ray, triangle.corners).is_some());
             tally.scores[0].check(hits.t[row].to_bits() == nearest.to_bits() && hit == must);
-            let found = table.triangle.get(hits.shape[row] as usize);
-            let about =
-                table.triangle.iter().filter(|triangle| at.iter().all(|corner| triangle.corners.contains(corner)));
+            let found = table.row.get(hits.shape[row] as usize);
+            let about = table.row.iter().filter(|triangle| at.iter().all(|corner| triangle.corners.contains(corner)));
             for triangle in about.chain(found) {
                 let t = by_function(ray, triangle);
                 tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
@@ -141,7 +138,7 @@ fn check_on_edges(range: Range<u64>) -> Tally {
         let mut eighth = |most: f64| draws.between(-most, most + 1.0).floor() / 8.0;
         let origin = DVec3::new(eighth(2.0), eighth(2.0), eighth(2.0));
         let fraction = eighth(4.0) + 0.5;
-        let face = &table.triangle[(draws.unit() * 8.0) as usize];
+        let face = &table.row[(draws.unit() * 8.0) as usize];
         let target = face.corners[0] * fraction + face.corners[1] * (1.0 - fraction);
         let ray = AimedRay { origin: origin.as_vec3(), direction: (target - origin).as_vec3() };
         bench.aim(&[ray]);
@@ -149,13 +146,13 @@ fn check_on_edges(range: Range<u64>) -> Tally {
         let hit = bench.column::<Hits>().shape[0] != NO_SHAPE;
         tally.count(hit);
         tally.scores[0].check(hit);
-        for triangle in &table.triangle {
+        for triangle in &table.row {
             let t = by_function(ray, triangle);
             tally.scores[1].check_t(Some(t).filter(|t| t.is_finite()), exact(ray, triangle.corners));
         }
         let strictly =
             |corners| hit_inside_strictly(ray.origin.as_dvec3(), ray.direction.as_dvec3(), corners).is_some();
-        tally.scores[2].check(table.triangle.iter().any(|triangle| strictly(triangle.corners)));
+        tally.scores[2].check(table.row.iter().any(|triangle| strictly(triangle.corners)));
     }
     tally
 }

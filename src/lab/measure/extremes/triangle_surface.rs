@@ -12,8 +12,8 @@ use crate::measure::ray_aim::{AimedRay, Draws};
 use crate::naive::shadow::{start_after_constant, start_at_hit, start_off_surface};
 use crate::naive::triangle::normal_by_winding;
 use glam::DVec3;
-use pinhole::extract::TriangleRow;
-use pinhole::intersect::{Surface, TriangleHit, shading_normal};
+use pinhole::intersect::{Surface, shading_normal};
+use pinhole::shapes::{TriangleHit, TriangleRow};
 use std::cmp::Ordering;
 use std::ops::Range;
 

@@ -12,11 +12,11 @@ use glam::{DVec3, Vec3};
 use pinhole::Result;
 use pinhole::extract::{CameraAxes, ImageFrame, PerspectiveProjection, PlaneTable, SphereTable, eye};
 use pinhole::film::Curve;
-use pinhole::intersect::{plane_t, sphere_t};
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::inspect;
 use pinhole::scene::*;
+use pinhole::shapes::{plane_t, sphere_t};
 
 /// Pixels of a picture of the scene.
 const SIZE: [u32; 2] = [144, 81];
@@ -139,16 +139,17 @@ fn painted(scene: &World, rays: &[AimedRay], width: u32) -> Result<Picture> {
     let colour = |ray: &AimedRay| {
         let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let mut nearest = (f64::INFINITY, DVec3::ZERO);
-        for row in 0..spheres.radius.len() {
-            let (centre, t) = (spheres.centre(row), sphere_t(o, d, spheres.centre(row), spheres.radius[row]));
+        for row in 0..spheres.row.len() {
+            let (centre, t) =
+                (spheres.row[row].centre, sphere_t(o, d, spheres.row[row].centre, spheres.row[row].radius));
             if t < nearest.0 {
                 nearest = (t, (o + t * d - centre).normalize());
             }
         }
-        for row in 0..planes.offset.len() {
-            let t = plane_t(o, d, planes.normal[row], planes.offset[row]);
+        for row in 0..planes.row.len() {
+            let t = plane_t(o, d, planes.row[row].normal, planes.row[row].offset);
             if t < nearest.0 {
-                nearest = (t, planes.normal[row]);
+                nearest = (t, planes.row[row].normal);
             }
         }
         if nearest.0.is_infinite() { [0.05; 3] } else { (nearest.1 * 0.5 + 0.5).as_vec3().to_array() }

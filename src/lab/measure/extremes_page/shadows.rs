@@ -7,10 +7,11 @@ use glam::Vec3;
 use pinhole::Result;
 use pinhole::extract::{PlaneTable, SphereTable};
 use pinhole::film::{Curve, FilmTile};
-use pinhole::intersect::{Surfaces, plane_t, sphere_t};
+use pinhole::intersect::Surfaces;
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::render::inspect;
 use pinhole::shade::LightRays;
+use pinhole::shapes::{plane_t, sphere_t};
 
 /// The frame's own picture, and the same where every light ray starts as `start` has it; nothing where no light falls.
 ///
@@ -41,9 +42,9 @@ pub fn with_start(
         let direction = Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]);
         let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
         let counts = |t: f64| t > f64::from(t_min) && t < f64::from(rays.t_max[ray]);
-        let of_sphere = |row: usize| counts(sphere_t(o, d, spheres.centre(row), spheres.radius[row]));
-        let of_plane = |row: usize| counts(plane_t(o, d, planes.normal[row], planes.offset[row]));
-        let blocked = (0..spheres.radius.len()).any(of_sphere) || (0..planes.offset.len()).any(of_plane);
+        let of_sphere = |row: usize| counts(sphere_t(o, d, spheres.row[row].centre, spheres.row[row].radius));
+        let of_plane = |row: usize| counts(plane_t(o, d, planes.row[row].normal, planes.row[row].offset));
+        let blocked = (0..spheres.row.len()).any(of_sphere) || (0..planes.row.len()).any(of_plane);
         if !blocked {
             for (part, brings) in naive[row].iter_mut().zip([rays.r[ray], rays.g[ray], rays.b[ray]]) {
                 *part += brings;

@@ -5,34 +5,20 @@ use glam::{DQuat, DVec3};
 use pinhole::extract::camera_entity;
 use pinhole::plan::entities;
 use pinhole::scene::*;
+use pinhole::shapes::{Listed, SceneShape, ShapeVisitor, visit_shapes};
 
 /// Everything 2ᵏ times as large and as far away, every light 4ᵏ times as strong: the same picture in other units.
 pub fn scale(scene: &mut World, k: i32) {
     let scale = libm::ldexp(1.0, k);
     for entity in entities::<()>(scene) {
         let mut entity = scene.entity_mut(entity);
+        visit_shapes(&mut Scaled(&mut entity, scale));
         if let Some(mut placement) = entity.get_mut::<Placement>() {
             placement.position *= scale;
         }
         if let Some(mut look) = entity.get_mut::<LookAt>() {
             look.eye *= scale;
             look.target *= scale;
-        }
-        if let Some(mut sphere) = entity.get_mut::<Sphere>() {
-            sphere.radius *= scale;
-        }
-        if let Some(mut disk) = entity.get_mut::<Disk>() {
-            disk.radius *= scale;
-        }
-        if let Some(mut rectangle) = entity.get_mut::<Rectangle>() {
-            rectangle.width *= scale;
-            rectangle.depth *= scale;
-        }
-        if let Some(mut cuboid) = entity.get_mut::<Cuboid>() {
-            cuboid.size *= scale;
-        }
-        if let Some(mut triangle) = entity.get_mut::<Triangle>() {
-            triangle.vertices = triangle.vertices.map(|vertex| vertex * scale);
         }
         if let Some(mut checker) = entity.get_mut::<Checker>().filter(|texture| texture.by == TextureBy::Space) {
             checker.size *= scale;
@@ -71,6 +57,18 @@ pub fn scale(scene: &mut World, k: i32) {
         }
         if let Some(mut light) = entity.get_mut::<SpotLight>() {
             light.intensity = stronger(light.intensity);
+        }
+    }
+}
+
+/// An entity whose shape is scaled.
+struct Scaled<'e, 'w>(&'e mut EntityWorldMut<'w>, f64);
+
+impl ShapeVisitor for Scaled<'_, '_> {
+    fn visit<S: Listed>(&mut self) {
+        // One component may be listed as two shapes, and is scaled as the one that needs no uneven scale.
+        if let Some(mut shape) = self.0.get_mut::<S::Component>().filter(|_| S::UNEVEN != Some(true)) {
+            shape.scale(self.1);
         }
     }
 }
@@ -177,7 +175,7 @@ mod tests {
             assert_eq!(pinhole::extract::eye(&Census::of(&moved)), Ok(DVec3::new(1.0, 2.0, 7.0)));
             // From the eye nothing has moved, also not what hangs on a parent.
             let of = |world: &World| SphereTable::extract(&Census::of(world)).expect("spheres");
-            assert_eq!(of(&moved).x, of(&scene(with_child)).x);
+            assert_eq!(of(&moved).row, of(&scene(with_child)).row);
 
             let mut turned = scene(with_child);
             let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -186,13 +184,13 @@ mod tests {
             let census = &Census::of(&turned);
             let axes = CameraAxes::extract(census).expect("axes").world_from_camera;
             assert!((axes.y_axis + DVec3::X).length() < 1e-15);
-            let normal = PlaneTable::extract(census).expect("planes").normal[0];
+            let normal = PlaneTable::extract(census).expect("planes").row[0].normal;
             assert!((normal + DVec3::X).length() < 1e-7);
 
             let mut large = scene(with_child);
             scale(&mut large, 3);
             assert_eq!(place(&large), DVec3::X * 4.0);
-            assert_eq!(of(&large).radius[0], 8.0);
+            assert_eq!(of(&large).row[0].radius, 8.0);
             assert_eq!(has_children(&large), with_child);
         }
     }

@@ -4,15 +4,13 @@ use crate::measure::film_bits::FilmBits;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Result;
-use pinhole::extract::{
-    CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapeKind, ShapeTable, SphereTable,
-    TriangleTable,
-};
+use pinhole::extract::{ShapeTable, shape_bodies};
 use pinhole::film::FilmTile;
-use pinhole::intersect::{Hits, NO_SHAPE, face_of_point};
+use pinhole::intersect::{Hits, NO_SHAPE};
 use pinhole::plan::{Census, Stage, Table};
 use pinhole::rays::{Tile, WorldRays};
 use pinhole::render::{first_bounce_only, inspect};
+use pinhole::shapes::{Body, RayHit, ShapeKind};
 use serde::Serialize;
 
 /// The side of a tile.
@@ -49,7 +47,7 @@ impl Frame {
         let frame = inspect(scene, &first_bounce_only(offer), SIDE)?;
         let tiles = || frame.tiles.iter().map(|&tile| frame.world.entity(tile));
         let (width, height) = (frame.image.width, frame.image.height);
-        let shapes = Shapes::of(scene)?;
+        let shapes = Shapes { all: ShapeTable::extract(&Census::of(scene))?, body: shape_bodies(&Census::of(scene))? };
         let film = FilmBits::of_tiles(width, height, tiles().filter_map(|tile| tile.get::<FilmTile>()));
         let pixel_hits = tiles().flat_map(|tile| pixel_hits(&tile, &shapes)).collect();
         let mut middle: Vec<(u32, DVec3)> = tiles().flat_map(|tile| on_line(&tile, height / 2)).collect();
@@ -62,53 +60,7 @@ impl Frame {
 /// The shapes of a scene, for the normals where its stages ask for none.
 struct Shapes {
     all: ShapeTable,
-    spheres: SphereTable,
-    planes: PlaneTable,
-    ellipsoids: EllipsoidTable,
-    disks: DiskTable,
-    rectangles: RectangleTable,
-    cuboids: CuboidTable,
-    triangles: TriangleTable,
-}
-
-impl Shapes {
-    fn of(scene: &World) -> Result<Self> {
-        let census = &Census::of(scene);
-        Ok(Self {
-            all: ShapeTable::extract(census)?,
-            spheres: SphereTable::extract(census)?,
-            planes: PlaneTable::extract(census)?,
-            ellipsoids: EllipsoidTable::extract(census)?,
-            disks: DiskTable::extract(census)?,
-            rectangles: RectangleTable::extract(census)?,
-            cuboids: CuboidTable::extract(census)?,
-            triangles: TriangleTable::extract(census)?,
-        })
-    }
-
-    /// Along the normal of a shape at a point, of no particular length.
-    fn normal(&self, shape: u32, point: DVec3) -> DVec3 {
-        let shape = shape as usize;
-        let row = self.all.row[shape] as usize;
-        match self.all.kind[shape] {
-            ShapeKind::Sphere => point - self.spheres.centre(row),
-            ShapeKind::Plane => self.planes.normal[row],
-            ShapeKind::Ellipsoid => {
-                let ellipsoid = &self.ellipsoids.ellipsoid[row];
-                let map = ellipsoid.unit_from_world;
-                map.transpose() * (map * (point - ellipsoid.centre))
-            }
-            ShapeKind::Disk => self.disks.planar[row].normal,
-            ShapeKind::Rectangle => self.rectangles.planar[row].normal,
-            ShapeKind::Cuboid => {
-                let slabs = &self.cuboids.slabs[row];
-                slabs.normal[face_of_point(slabs, point - slabs.centre)]
-            }
-            ShapeKind::Triangle => self.triangles.normal[row],
-            // Where it was depends on each ray's time: no normal is compared.
-            ShapeKind::Moving => DVec3::ZERO,
-        }
-    }
+    body: Vec<Body>,
 }
 
 fn pixel_hits(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<PixelHit> {
@@ -116,9 +68,11 @@ fn pixel_hits(tile: &EntityRef<'_>, shapes: &Shapes) -> Vec<PixelHit> {
     let cosine = |row: usize| match hits.shape[row] {
         NO_SHAPE => 1.0,
         shape => {
-            let normal = shapes.normal(shape, rays.point_at(row, hits.t[row]));
-            let length = normal.length();
-            if length > 0.0 { normal.dot(rays.direction_of(row)).abs() / length } else { 1.0 }
+            let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+            let hit = RayHit { origin, direction, t, displacement: DVec3::ZERO };
+            // Where it was depends on each ray's time: no normal is compared.
+            let moves = shapes.all.kind[shape as usize] == ShapeKind::Moving;
+            if moves { 1.0 } else { shapes.body[shape as usize].surface(&hit).normal.dot(direction).abs() }
         }
     };
     (0..hits.t.len()).map(|row| PixelHit { t: hits.t[row], shape: hits.shape[row], cosine: cosine(row) }).collect()

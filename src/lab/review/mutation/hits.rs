@@ -2,9 +2,10 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{EllipsoidTable, PlaneTable, ShapeTable, SphereTable};
-use pinhole::intersect::{EllipsoidRows, Hits, MaterialRows, PlaneRows, SphereRows, Surfaces, ellipsoid_t};
+use pinhole::intersect::{Hits, MaterialRows, ShapeRows, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::shapes::{Ellipsoid, PlacedPlane, PlacedSphere, ellipsoid_t};
 
 /// Nothing farther than 8 units is hit.
 pub fn near_end(mut tiles: Query<&mut Hits>) {
@@ -16,11 +17,11 @@ pub fn near_end(mut tiles: Query<&mut Hits>) {
 /// Where the ray leaves a sphere for where it enters.
 pub fn far_root(spheres: Res<Shared<SphereTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
-        for (row, sphere) in pairs(rays.rows(), spheres.radius.len()) {
-            let (direction, f) = (rays.direction_of(row), spheres.centre(sphere) - rays.origin_of(row));
+        for (row, sphere) in pairs(rays.rows(), spheres.row.len()) {
+            let (direction, f) = (rays.direction_of(row), spheres.row[sphere].centre - rays.origin_of(row));
             let s = f.dot(direction) / direction.dot(direction);
             let across = f - s * direction;
-            let discriminant = spheres.radius[sphere] * spheres.radius[sphere] - across.dot(across);
+            let discriminant = spheres.row[sphere].radius * spheres.row[sphere].radius - across.dot(across);
             let t = s + discriminant.max(0.0).sqrt();
             if discriminant >= 0.0 && t > 0.0 && t < hits.t[row] {
                 (hits.t[row], hits.shape[row]) = (t, spheres.shape[sphere]);
@@ -33,7 +34,7 @@ pub fn far_root(spheres: Res<Shared<SphereTable>>, mut tiles: Query<(&WorldRays,
 pub fn ellipsoid_unit_ray(ellipsoids: Res<Shared<EllipsoidTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for (row, number) in pairs(rays.rows(), ellipsoids.shape.len()) {
-            let ellipsoid = &ellipsoids.ellipsoid[number];
+            let ellipsoid = &ellipsoids.row[number];
             let (origin, direction) = (rays.origin_of(row), rays.direction_of(row));
             let stretched = (ellipsoid.unit_from_world * direction).length();
             let t = ellipsoid_t(origin, direction, ellipsoid) * stretched;
@@ -48,12 +49,12 @@ pub fn ellipsoid_unit_ray(ellipsoids: Res<Shared<EllipsoidTable>>, mut tiles: Qu
 pub fn normal_as_direction(
     ellipsoids: Res<Shared<EllipsoidTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &EllipsoidRows, &mut Surfaces)>,
+    mut tiles: Query<(&WorldRays, &Hits, &ShapeRows<Ellipsoid>, &mut Surfaces)>,
 ) {
     for (rays, hits, list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let ellipsoid = &ellipsoids.ellipsoid[shapes.row[hits.shape[row] as usize] as usize];
+            let ellipsoid = &ellipsoids.row[shapes.row[hits.shape[row] as usize] as usize];
             let from_centre = rays.point_at(row, hits.t[row]) - ellipsoid.centre;
             let mut surface = surfaces.get(row);
             surface.normal = from_centre.normalize().as_vec3();
@@ -65,9 +66,9 @@ pub fn normal_as_direction(
 /// n·x = −k for n·x = k.
 pub fn plane_sign(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
-        for (row, plane) in pairs(rays.rows(), planes.normal.len()) {
-            let normal = planes.normal[plane];
-            let t = (-planes.offset[plane] - normal.dot(rays.origin_of(row))) / normal.dot(rays.direction_of(row));
+        for (row, plane) in pairs(rays.rows(), planes.row.len()) {
+            let normal = planes.row[plane].normal;
+            let t = (-planes.row[plane].offset - normal.dot(rays.origin_of(row))) / normal.dot(rays.direction_of(row));
             if t > 0.0 && t < hits.t[row] {
                 (hits.t[row], hits.shape[row]) = (t, planes.shape[plane]);
             }
@@ -87,7 +88,7 @@ pub fn zero_is_none(mut tiles: Query<(&Hits, &mut MaterialRows)>) {
 }
 
 /// Normals that point into the sphere.
-pub fn normal_inward(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
+pub fn normal_inward(mut tiles: Query<(&ShapeRows<PlacedSphere>, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let mut surface = surfaces.get(row as usize);
@@ -98,14 +99,14 @@ pub fn normal_inward(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
 }
 
 /// One epsilon for all hits.
-pub fn constant_epsilon(mut tiles: Query<(&PlaneRows, &mut Surfaces)>) {
+pub fn constant_epsilon(mut tiles: Query<(&ShapeRows<PlacedPlane>, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         list.row.iter().for_each(|&row| surfaces.bound[row as usize] = 1e-4);
     }
 }
 
 /// No epsilon at all.
-pub fn no_epsilon(mut tiles: Query<(&SphereRows, &mut Surfaces)>) {
+pub fn no_epsilon(mut tiles: Query<(&ShapeRows<PlacedSphere>, &mut Surfaces)>) {
     for (list, mut surfaces) in &mut tiles {
         list.row.iter().for_each(|&row| surfaces.bound[row as usize] = 0.0);
     }

@@ -139,8 +139,8 @@ pub fn behind_counts(planes: Res<Shared<PlaneTable>>, mut tiles: Query<(&LightRa
         for ray in 0..rays.rows() {
             let origin = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = DVec3::from(Vec3::new(rays.dx[ray], rays.dy[ray], rays.dz[ray]));
-            for (plane, normal) in planes.normal.iter().enumerate() {
-                let t = ((planes.offset[plane] - normal.dot(origin)) / normal.dot(direction)).abs();
+            for (plane, row) in planes.row.iter().enumerate() {
+                let t = ((row.offset - row.normal.dot(origin)) / row.normal.dot(direction)).abs();
                 if t < hits.t[ray] {
                     (hits.t[ray], hits.shape[ray]) = (t, planes.shape[plane]);
                 }

@@ -16,12 +16,12 @@ use pinhole::rays::{
     screen_stage, time_stage, world_stage,
 };
 use pinhole::shade::{
-    area_light_stage, background_stage, checker_stage, colour_stage, cuboid_shadow_stage, directional_light_stage,
-    disk_shadow_stage, ellipsoid_shadow_stage, emissive_stage, environment_stage, footprint_stage, gradient_stage,
-    image_stage, light_stage, moving_shadow_stage, plane_shadow_stage, point_light_stage, rectangle_shadow_stage,
-    sphere_shadow_stage, spot_light_stage, start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage,
-    triangle_shadow_stage, unlit_stage,
+    area_light_stage, background_stage, checker_stage, colour_stage, directional_light_stage, emissive_stage,
+    environment_stage, footprint_stage, gradient_stage, image_stage, light_stage, moving_shadow_stage,
+    plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
+    start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
+use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, Slabs, TriangleRow};
 use pinhole::{intersect, shade};
 
 /// A row of the table.
@@ -115,12 +115,12 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("spot-without-fading", spot_light_stage, "edge as bright as the middle", REFLECTION, Bug::After(|| light::spot_without_fading.into_configs())),
     bug("endless-t-max", start_shadow_stage, "t_max without end", MOST, Bug::After(|| light::endless_t_max.into_configs())),
     bug("spheres-ignored", sphere_shadow_stage, "not looked for", MOST, Bug::Instead(|| light::spheres_ignored.into_configs())),
-    bug("ellipsoids-ignored", ellipsoid_shadow_stage, "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
-    bug("triangles-ignored", triangle_shadow_stage, "not looked for", MICROFACETS, Bug::Instead(|| triangles::ignored.into_configs())),
+    bug("ellipsoids-ignored", shape_shadow_stage::<Ellipsoid>, "not looked for", SCALED, Bug::Instead(|| light::ellipsoids_ignored.into_configs())),
+    bug("triangles-ignored", shape_shadow_stage::<TriangleRow>, "not looked for", MICROFACETS, Bug::Instead(|| triangles::ignored.into_configs())),
     bug("behind-counts", plane_shadow_stage, "t below 0 counts", MOST, Bug::Instead(|| light::behind_counts.into_configs())),
-    bug("disks-ignored", disk_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
-    bug("rectangles-ignored", rectangle_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
-    bug("cuboids-ignored", cuboid_shadow_stage, "not looked for", SHAPES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
+    bug("disks-ignored", shape_shadow_stage::<PlacedDisk>, "not looked for", SHAPES, Bug::Instead(|| light::disks_ignored.into_configs())),
+    bug("rectangles-ignored", shape_shadow_stage::<PlacedRectangle>, "not looked for", SHAPES, Bug::Instead(|| light::rectangles_ignored.into_configs())),
+    bug("cuboids-ignored", shape_shadow_stage::<Slabs>, "not looked for", SHAPES, Bug::Instead(|| light::cuboids_ignored.into_configs())),
     bug("movers-ignored", moving_shadow_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", unlit_stage, "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", light_stage, "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),

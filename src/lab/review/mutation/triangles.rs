@@ -2,15 +2,16 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::{ShapeTable, TriangleTable};
-use pinhole::intersect::{Hits, ShadingNormals, Surfaces, TriangleHit, TriangleRows};
+use pinhole::intersect::{Hits, ShadingNormals, ShapeRows, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
+use pinhole::shapes::{TriangleHit, TriangleRow};
 
 /// Two edges asked for where there are three: u and v above 0, and not their sum below 1.
 pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&WorldRays, &mut Hits)>) {
     for (rays, mut hits) in &mut tiles {
         for row in 0..rays.rows() {
-            for (triangle, &number) in triangles.triangle.iter().zip(&triangles.shape) {
+            for (triangle, &number) in triangles.row.iter().zip(&triangles.shape) {
                 let ([a, b, c], direction) = (triangle.corners, rays.direction_of(row));
                 let (e1, e2, s) = (b - a, c - a, rays.origin_of(row) - a);
                 let (p, q) = (direction.cross(e2), s.cross(e1));
@@ -28,12 +29,12 @@ pub fn two_edges(triangles: Res<Shared<TriangleTable>>, mut tiles: Query<(&World
 pub fn next_corner(
     triangles: Res<Shared<TriangleTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &TriangleRows, &mut Surfaces)>,
+    mut tiles: Query<(&WorldRays, &Hits, &ShapeRows<TriangleRow>, &mut Surfaces)>,
 ) {
     for (rays, hits, list, mut surfaces) in &mut tiles {
         for &row in &list.row {
             let row = row as usize;
-            let triangle = &triangles.triangle[shapes.row[hits.shape[row] as usize] as usize];
+            let triangle = &triangles.row[shapes.row[hits.shape[row] as usize] as usize];
             let mut triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), triangle);
             triangle_hit.weights.rotate_left(1);
             let mut surface = surfaces.get(row);

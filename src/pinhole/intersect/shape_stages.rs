@@ -1,0 +1,83 @@
+//! The two stages of each kind of shape: rays are intersected with it, and the surfaces of those that hit it computed.
+
+use super::rows::ShapeRows;
+use super::surface::{Surface, SurfaceUvs};
+use super::view::{SurfaceView, SurfaceViewItem};
+use super::{HitColumn, Hits, RayColumn};
+use crate::extract::{ShapeTable, ShapesOf, UvSpaceTable, kind_evidence};
+use crate::plan::{Shared, Stage, TileSystems};
+use crate::rays::WorldRays;
+use crate::shapes::{Listed, RayHit, ShapeVisitor, visit_shapes};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// Intersects any column of rays with all shapes of one kind and keeps the closest hits.
+pub fn intersect_shapes<S: Listed, R: RayColumn, H: HitColumn>(
+    shapes: Res<Shared<ShapesOf<S>>>,
+    mut tiles: Query<(&R, &mut H)>,
+) {
+    for (rays, mut hits) in &mut tiles {
+        let (t, shape) = hits.hit_components();
+        S::keep_closest(&shapes.row, &shapes.shape, rays.ray_components(), t, shape);
+    }
+}
+
+/// Fills the surface of every row that hit a shape of one kind.
+pub fn fill_surfaces<S: Listed>(
+    shapes: Res<Shared<ShapesOf<S>>>,
+    all: Res<Shared<ShapeTable>>,
+    uv_spaces: Option<Res<Shared<UvSpaceTable>>>,
+    mut tiles: Query<SurfaceView<ShapeRows<S>>>,
+) {
+    for SurfaceViewItem { rays, hits, list, mut surfaces, mut uvs, mut sides } in &mut tiles {
+        for &row in &list.row {
+            let row = row as usize;
+            let number = hits.shape[row] as usize;
+            let (shape, material) = (all.row[number] as usize, all.material[number]);
+            let (shape, beside) = (&shapes.row[shape], &shapes.beside[shape]);
+            let (origin, direction, t) = (rays.origin_of(row), rays.direction_of(row), hits.t[row]);
+            let hit = RayHit { origin, direction, t, displacement: DVec3::ZERO };
+            let surface = shape.surface(beside, &hit);
+            surfaces.set(row, Surface::of(surface, material));
+            if let Some(sides) = &mut sides {
+                sides.outside[row] = u32::from(surface.outside);
+            }
+            if let Some(uvs) = &mut uvs {
+                let own = match &uv_spaces {
+                    Some(spaces) if S::HAS_UV_SPACE => spaces.point(number, hit.point()),
+                    _ => DVec3::ZERO,
+                };
+                uvs.set(row, shape.uv(beside, &hit, surface.at, own));
+            }
+        }
+    }
+}
+
+/// The stage that intersects camera rays with one kind of shape.
+pub fn intersect_stage<S: Listed>() -> Stage {
+    let intersect = intersect_shapes::<S, WorldRays, Hits>;
+    Stage::new(S::NAMES.intersect, TileSystems::Intersect, intersect).when(kind_evidence::<S>)
+}
+
+/// The stage that fills the surfaces of one kind of shape.
+pub fn surface_stage<S: Listed>() -> Stage {
+    let stage = Stage::new(S::NAMES.surface, TileSystems::Surface, fill_surfaces::<S>).when(kind_evidence::<S>);
+    if S::HAS_UV_SPACE { stage.table_with::<UvSpaceTable, SurfaceUvs>() } else { stage.without_table::<UvSpaceTable>() }
+}
+
+/// What makes a stage.
+pub type MakeStage = fn() -> Stage;
+
+/// The stages that intersect camera rays, and those that fill surfaces, for each registered shape; and whether it is one
+/// that only a non-uniform scale makes.
+pub fn shape_stages() -> Vec<(bool, [MakeStage; 2])> {
+    struct Collected(Vec<(bool, [MakeStage; 2])>);
+    impl ShapeVisitor for Collected {
+        fn visit<S: Listed>(&mut self) {
+            self.0.push((S::UNEVEN == Some(true), [intersect_stage::<S>, surface_stage::<S>]));
+        }
+    }
+    let mut collected = Collected(Vec::new());
+    visit_shapes(&mut collected);
+    collected.0
+}

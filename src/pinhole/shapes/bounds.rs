@@ -1,0 +1,34 @@
+//! The axis-aligned bounding box of each finite shape.
+
+use glam::DVec3;
+
+/// An axis-aligned box that contains a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner of minimum x, y and z.
+    pub least: DVec3,
+    /// The corner of maximum x, y and z.
+    pub most: DVec3,
+}
+
+impl Bounds {
+    /// A box with this half size about a centre, enlarged by more than rounding can have lost: by 2⁻²⁴ of the largest
+    /// extent, which holds for shapes up to ten million times as long as they are thick, and by 2⁻⁵⁰ of the position.
+    pub fn about(centre: DVec3, half_size: DVec3) -> Self {
+        const OF_SIZE: f64 = 1.0 / (1_u64 << 24) as f64;
+        const OF_POSITION: f64 = 1.0 / (1_u64 << 50) as f64;
+        let half_size =
+            half_size + DVec3::splat(half_size.max_element() * OF_SIZE) + (centre.abs() + half_size) * OF_POSITION;
+        Self { least: centre - half_size, most: centre + half_size }
+    }
+
+    /// Whether two boxes have a point in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        !(other.most.cmplt(self.least) | self.most.cmplt(other.least)).any()
+    }
+
+    /// The centre and radius of the sphere through its corners.
+    pub fn sphere_around(&self) -> (DVec3, f64) {
+        (0.5 * (self.least + self.most), 0.5 * (self.most - self.least).length())
+    }
+}

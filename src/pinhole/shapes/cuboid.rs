@@ -1,0 +1,285 @@
+use super::bounds::Bounds;
+use super::double_double_planar::double_double_cuboid_t;
+use super::emitter::EmittingCuboid;
+use super::offset::l1_norm;
+use super::planar::unit_in_f32;
+use super::ray_block::Intersection;
+use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
+use super::space::{Pose, normal_world_from_object};
+use super::uv::cuboid_uv;
+use super::uv_slope::UvSlope;
+use crate::scene::{Cuboid, SceneError, positive_length, triple};
+use glam::{DMat3, DVec3};
+
+/// The greatest ratio of a cuboid's longest to its shortest edge.
+///
+/// Normals whose components are exact in f32 rotate a face by up to 2⁻²⁵, which moves its far end by that fraction of
+/// the cuboid's length: with this ratio, by less than a third of the thickness.
+const LARGEST_RATIO: f64 = 1e7;
+/// The factor by which its bounding sphere is enlarged, so that no rounding leads outside it.
+const RADIUS_MARGIN: f64 = 1.0 + 1.0 / 1024.0;
+
+/// The points x of render space with |nᵢ · (x − C)| ≤ hᵢ for three normals: a box, or three slabs at any angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slabs {
+    /// C, relative to the eye.
+    pub centre: DVec3,
+    /// The outward normals n of the faces at the entity's +x, +y and +z, of length 1 to within f32, with components
+    /// exact in f32, so that the normals of surfaces and of faces are the same numbers.
+    pub normal: [DVec3; 3],
+    /// h, from the centre to the faces, in units of the length of n.
+    pub half: [f64; 3],
+    /// The radius of a bounding sphere about the centre.
+    pub bounding_radius: f64,
+}
+
+impl Slabs {
+    /// The slabs whose faces have these normals and are half an edge from the centre.
+    pub fn new(centre: DVec3, normals: [DVec3; 3], half_edges: [DVec3; 3]) -> Self {
+        let normal = normals.map(unit_in_f32);
+        let half = [0, 1, 2].map(|axis| normal[axis].dot(half_edges[axis]));
+        let bounding_radius = half_edges.iter().map(|edge| edge.length()).sum::<f64>() * RADIUS_MARGIN;
+        Self { centre, normal, half, bounding_radius }
+    }
+
+    /// The offsets from the centre to the midpoints of the faces at the ends of the three edges.
+    pub fn half_edges(&self) -> [DVec3; 3] {
+        [0, 1, 2].map(|axis| {
+            let along = self.normal[(axis + 1) % 3].cross(self.normal[(axis + 2) % 3]);
+            along * (self.half[axis] / self.normal[axis].dot(along))
+        })
+    }
+}
+
+impl SceneShape for Cuboid {
+    const NAME: &'static str = "Cuboid";
+    const WORD: &'static str = "cuboid";
+
+    fn scale(&mut self, by: f64) {
+        self.size *= by;
+    }
+}
+
+impl Shape for Slabs {
+    type Component = Cuboid;
+    type Beside = ();
+    type Emitter = EmittingCuboid;
+
+    const HAS_INSIDE: bool = true;
+
+    fn place(&Cuboid { size }: &Cuboid, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
+        let who = placed.who;
+        for part in size.to_array() {
+            positive_length(who, "size", part).map_err(|scene_error| SceneError {
+                value: triple(size),
+                accepted: format!("each part must be{}", scene_error.accepted.trim_start_matches("it must be")),
+                ..scene_error
+            })?;
+        }
+        let Pose { world_from_entity, entity_from_world } = placed.pose;
+        let half_edges = world_from_entity.matrix3 * DMat3::from_diagonal(size / 2.0);
+        let edges = [0, 1, 2].map(|axis| half_edges.col(axis));
+        let normals = DVec3::AXES.map(|axis| normal_world_from_object(entity_from_world, axis));
+        let slabs = Self::new(placed.position, normals, edges);
+        let longest = edges.map(DVec3::length).iter().copied().fold(0.0, f64::max);
+        let thinnest = slabs.half.iter().copied().fold(f64::INFINITY, f64::min);
+        positive_length(who, "longest placed edge", longest)?;
+        positive_length(who, "placed thickness", thinnest)?;
+        let ratio = longest / thinnest;
+        if ratio > LARGEST_RATIO {
+            let value = format!("{}, placed {ratio:.1e} times as long as thick", triple(size));
+            let accepted = format!("a cuboid may be at most {LARGEST_RATIO:e} times as long as thick");
+            return Err(SceneError::new(who, "size", value, accepted));
+        }
+        Ok((slabs, ()))
+    }
+
+    #[inline(always)]
+    fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection {
+        cuboid_intersection(origin, direction, self)
+    }
+
+    fn precise_t(&self, origin: DVec3, direction: DVec3) -> f64 {
+        double_double_cuboid_t(origin, direction, self).0
+    }
+
+    #[inline(always)]
+    fn culling_sphere(&self) -> Option<(DVec3, f64)> {
+        Some((self.centre, self.bounding_radius))
+    }
+
+    #[inline(always)]
+    fn surface(&self, (): &(), hit: &RayHit) -> SurfacePoint {
+        cuboid_surface(hit, cuboid_face(hit.origin, hit.direction, self), self)
+    }
+
+    #[inline(always)]
+    fn uv(&self, (): &(), hit: &RayHit, at: DVec3, _own: DVec3) -> [f64; 2] {
+        cuboid_uv(self, at.x as usize, hit.t * hit.direction - (self.centre - hit.origin))
+    }
+
+    fn uv_slope(&self, (): &(), _uv_from_world: DMat3) -> UvSlope {
+        UvSlope::Faces([0, 1, 2].map(|axis| self.normal[axis] / self.half[axis]))
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        let [x, y, z] = self.half_edges();
+        Some(Bounds::about(self.centre, x.abs() + y.abs() + z.abs()))
+    }
+
+    fn contains(&self, point: DVec3) -> bool {
+        (0..3).all(|axis| self.normal[axis].dot(point - self.centre).abs() < self.half[axis])
+    }
+
+    fn emitter(&self, (): &()) -> Option<EmittingCuboid> {
+        Some(EmittingCuboid::new(self.centre, self.half_edges()))
+    }
+}
+
+/// 2⁻⁵³, the unit roundoff of f64.
+const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
+/// Half of u: the largest relative error of a t that counts as certain.
+const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
+
+/// A t with an interval that contains its exact value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Interval {
+    t: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Interval {
+    #[inline(always)]
+    fn new(t: f64, error: f64) -> Self {
+        Self { t, least: t - error, most: t + error }
+    }
+
+    /// The larger of each number; a NaN is never taken over, for comparisons with it are false.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        Self { t: larger(self.t, other.t), least: larger(self.least, other.least), most: larger(self.most, other.most) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        Self {
+            t: smaller(self.t, other.t),
+            least: smaller(self.least, other.least),
+            most: smaller(self.most, other.most),
+        }
+    }
+}
+
+// ANCHOR: slab
+/// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R > 0.
+///
+/// A ray parallel to the slab divides by 0 and gets −∞ to ∞ inside and ∞ to ∞, or −∞ to −∞, outside, which is correct.
+/// If rounding leaves the sign of n·R uncertain, or whether the ray lies in a face, the interval is all of ℝ.
+#[inline(always)]
+fn slab(f: DVec3, direction: DVec3, normal: DVec3, half: f64) -> [Interval; 2] {
+    let (of_f, of_direction) = (normal * f, normal * direction);
+    let (middle, approach) = (of_f.x + of_f.y + of_f.z, of_direction.x + of_direction.y + of_direction.z);
+    let (sum, sum_of_approach) = (l1_norm(of_f), l1_norm(of_direction));
+    // The magnitude, not the negative: −0 and 0 must both give speed 0.
+    let (towards, speed) = (if approach < 0.0 { -middle } else { middle }, approach.abs());
+    let (over_near, over_far) = (towards - half, towards + half);
+    let (near, far) = (over_near / speed, over_far / speed);
+
+    let lost = 8.0 * EPSILON * (sum + half);
+    let relative = EPSILON * (4.0 * sum_of_approach / speed + 4.0);
+    let (along, in_a_face) = (sum_of_approach == 0.0, (over_near.abs() <= lost) | (over_far.abs() <= lost));
+    let unsure = if along { in_a_face } else { relative.is_nan() | (relative >= 0.25) };
+    let error = |t: f64| if along { 0.0 } else { 2.0 * (lost / speed + relative * t.abs()) };
+    let bounds = |t: f64| {
+        if unsure { Interval { t, least: f64::NEG_INFINITY, most: f64::INFINITY } } else { Interval::new(t, error(t)) }
+    };
+    [bounds(near), bounds(far)]
+}
+// ANCHOR_END: slab
+
+// ANCHOR: cuboid_intersection
+/// Intersects O + tR with a cuboid, in f64: the ray is inside between entering the last slab and leaving the first.
+#[inline(always)]
+pub fn cuboid_intersection(origin: DVec3, direction: DVec3, slabs: &Slabs) -> Intersection {
+    let f = slabs.centre - origin;
+    let [near_x, far_x] = slab(f, direction, slabs.normal[0], slabs.half[0]);
+    let [near_y, far_y] = slab(f, direction, slabs.normal[1], slabs.half[1]);
+    let [near_z, far_z] = slab(f, direction, slabs.normal[2], slabs.half[2]);
+    let enters = near_x.max(near_y).max(near_z);
+    let leaves = far_x.min(far_y).min(far_z);
+
+    let surely_not = (enters.least > leaves.most) | (leaves.most < 0.0);
+    let surely_inside = enters.most <= leaves.least;
+    let from_outside = enters.least > 0.0;
+    let from_inside = (enters.most < 0.0) & (leaves.least > 0.0);
+    let (t, open) =
+        if from_outside { (enters.t, enters.most - enters.least) } else { (leaves.t, leaves.most - leaves.least) };
+    let sure = surely_inside & (from_outside | from_inside) & (open <= SMALL * t);
+    Intersection { t: if surely_not { f64::INFINITY } else { t }, uncertain: !surely_not & !sure }
+}
+
+/// The smallest t > 0 at which O + tR intersects a face of a cuboid, or infinity; uncertain cases are decided in
+/// double-double.
+#[inline(always)]
+pub fn cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) -> f64 {
+    let intersection = cuboid_intersection(origin, direction, slabs);
+    if intersection.uncertain { double_double_cuboid_t(origin, direction, slabs).0 } else { intersection.t }
+}
+// ANCHOR_END: cuboid_intersection
+
+/// The axis of the face that O + tR hits first; at an edge or a vertex, the first of the axes.
+pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
+    let f = slabs.centre - origin;
+    let along = |axis: usize| slab(f, direction, slabs.normal[axis], slabs.half[axis]);
+    let all = [along(0), along(1), along(2)];
+    let from_outside = all.iter().any(|[near, _]| near.least > 0.0);
+    let from_inside = all.iter().all(|[near, _]| near.most < 0.0);
+    let is_first = |axis: usize| {
+        let before = |other: usize| match (from_outside, from_inside) {
+            (true, _) => all[axis][0].least > all[other][0].most,
+            (_, true) => all[axis][1].most < all[other][1].least,
+            _ => false,
+        };
+        before((axis + 1) % 3) && before((axis + 2) % 3)
+    };
+    (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| double_double_cuboid_t(origin, direction, slabs).1)
+}
+
+/// The axis of the face that a point lies on or is nearest to, relative to the cuboid's half extents.
+pub fn face_of_point(slabs: &Slabs, from_centre: DVec3) -> usize {
+    let coordinate = |axis: usize| (slabs.normal[axis].dot(from_centre) / slabs.half[axis]).abs();
+    let first = usize::from(coordinate(1) > coordinate(0));
+    if coordinate(2) > coordinate(first) { 2 } else { first }
+}
+
+// ANCHOR: cuboid_surface
+/// The surface where a ray hits the face of a cuboid across an axis.
+///
+/// The normal faces the ray on either side.
+/// From inside, a hit within rounding error of another face is moved away from that face by the bounds of both, since
+/// its shadow rays might otherwise start behind it.
+#[inline(always)]
+pub fn cuboid_surface(hit: &RayHit, axis: usize, slabs: &Slabs) -> SurfacePoint {
+    let (mut point, normal) = (hit.point(), slabs.normal[axis]);
+    let bound = hit.bound(point, l1_norm(slabs.centre) + slabs.half[axis]);
+    let outside = normal.dot(hit.direction) * normal.dot(point - slabs.centre) <= 0.0;
+    if !outside {
+        let room = 2.0 * f64::from(bound);
+        for other in [(axis + 1) % 3, (axis + 2) % 3] {
+            let (across, half) = (slabs.normal[other], slabs.half[other]);
+            let along = across.dot(point - slabs.centre);
+            let lacking = room - (half - along.abs());
+            if lacking > 0.0 && room < half {
+                // Parallel to the other two faces, so that only this distance changes.
+                let edge = slabs.normal[3 - axis - other].cross(normal);
+                point -= edge * (lacking * along.signum() / across.dot(edge));
+            }
+        }
+    }
+    let normal = if normal.dot(hit.direction) > 0.0 { -normal } else { normal };
+    SurfacePoint { point, normal, bound, outside, at: DVec3::X * axis as f64 }
+}
+// ANCHOR_END: cuboid_surface

@@ -1,0 +1,161 @@
+use super::emitting::{Emitting, LeavingSpot, LightPoint, angle_of, pdf_from_area};
+use crate::shapes::offset::l1_norm;
+use glam::DVec3;
+
+/// A triangle that subtends less than this many sr is sampled by area, since the width of a thin one would have no
+/// digits left.
+pub(super) const LEAST_SOLID_ANGLE: f64 = 1e-9;
+
+/// A triangle as a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmittingTriangle {
+    /// Relative to the eye.
+    pub corners: [DVec3; 3],
+    /// The unit normal on its own side.
+    pub normal: DVec3,
+}
+
+impl Emitting for EmittingTriangle {
+    const IS_CLOSED: bool = false;
+
+    fn area(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        0.5 * (b - a).cross(c - a).length()
+    }
+
+    #[inline(always)]
+    fn faces(&self, point: DVec3) -> bool {
+        self.normal.dot(point - self.corners[0]) > 0.0
+    }
+
+    #[inline(always)]
+    fn point(&self, from: DVec3, u: [f64; 2]) -> LightPoint {
+        triangle_point(&self.corners, from, u)
+    }
+
+    #[inline(always)]
+    fn pdf(&self, from: DVec3, at: DVec3) -> f64 {
+        triangle_pdf(&self.corners, from, at - from)
+    }
+
+    #[inline(always)]
+    fn distance(&self, from: DVec3, direction: DVec3) -> f64 {
+        self.normal.dot(self.corners[0] - from) / self.normal.dot(direction)
+    }
+
+    #[inline(always)]
+    fn spot(&self, u: [f64; 2]) -> LeavingSpot {
+        let [a, b, c] = self.corners;
+        let root = u[0].sqrt();
+        let position = a * (1.0 - root) + b * (root * (1.0 - u[1])) + c * (root * u[1]);
+        let size = self.corners.into_iter().map(l1_norm).fold(0.0, f64::max);
+        LeavingSpot { position, normal: self.normal, size }
+    }
+}
+
+/// A triangle as seen from the lit point: projected on the unit sphere about that point.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleSeen {
+    corners: [DVec3; 3],
+    cross: DVec3,
+    /// The directions to the first two corners.
+    first: DVec3,
+    second: DVec3,
+    /// Perpendicular to the direction to the first corner, towards the third.
+    to_third: DVec3,
+    /// Cosine and sine of the angle at the first corner.
+    alpha: [f64; 2],
+    /// The tangent of half the angle from the first corner to the second.
+    tan_half: f64,
+    /// Its solid angle, in sr.
+    pub solid_angle: f64,
+}
+
+/// The solid angle of the triangle with corners at these offsets (Van Oosterom and Strackee 1983).
+///
+/// For unit vectors a, b, c its half has the tangent |a · (b × c)| / (1 + a · b + b · c + c · a).
+#[inline(always)]
+pub fn triangle_solid_angle(corners: &[DVec3; 3]) -> f64 {
+    let [a, b, c] = *corners;
+    let [la, lb, lc] = corners.map(|corner| corner.length());
+    // From the edges, whose cross product keeps the area of a distant triangle.
+    let volume = a.dot((b - a).cross(c - a)).abs();
+    let rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * angle_of(volume, rest)
+}
+
+impl TriangleSeen {
+    /// The triangle with corners at these offsets from the lit point, and its solid angle in sr.
+    #[inline(always)]
+    pub fn new(corners: [DVec3; 3], solid_angle: f64) -> Self {
+        let [a, b, c] = corners;
+        // From the edges: the cross product of two nearly equal offsets would lose their difference.
+        let (across_b, across_c) = (a.cross(b - a), a.cross(c - a));
+        let (sine, cosine) = (across_b.cross(across_c).length(), across_b.dot(across_c));
+        let whole = (sine * sine + cosine * cosine).sqrt();
+        Self {
+            corners,
+            cross: (b - a).cross(c - a),
+            first: a.normalize(),
+            second: b.normalize(),
+            to_third: across_c.cross(a).normalize_or_zero(),
+            alpha: [cosine / whole, sine / whole],
+            tan_half: across_b.length() / (a.length() * b.length() + a.dot(b)),
+            solid_angle,
+        }
+    }
+
+    /// The offset to a point of the triangle, uniform in solid angle (Arvo 1995).
+    ///
+    /// The first number cuts off a subtriangle of that fraction of the solid angle, E, by a great circle from b to the
+    /// edge ac: with the angle α at a, tan(ab/2) tan(ac'/2) sin(α − E/2) = sin(E/2), which loses no digits however
+    /// small the triangle.
+    /// The second selects a point on that circle, where 1 − cos of the angle from b is uniform.
+    #[inline(always)]
+    pub fn at(&self, u: [f64; 2]) -> DVec3 {
+        let (sine, cosine) = libm::sincos(0.5 * u[0] * self.solid_angle);
+        let tan = sine / (self.tan_half * (self.alpha[1] * cosine - self.alpha[0] * sine));
+        let tan = if tan >= 0.0 { tan.min(f64::MAX.sqrt()) } else { 0.0 };
+        let end = (self.first * (1.0 - tan * tan) + self.to_third * (2.0 * tan)) / (1.0 + tan * tan);
+        let versine = u[1] * 0.5 * (end - self.second).length_squared();
+        let away = (end - self.second * self.second.dot(end)).normalize_or_zero();
+        let direction = self.second * (1.0 - versine) + away * (versine * (2.0 - versine)).max(0.0).sqrt();
+        direction * (self.cross.dot(self.corners[0]) / self.cross.dot(direction))
+    }
+}
+
+/// Samples a point on a triangle: uniform in solid angle, or over its area where it subtends hardly any.
+#[inline(always)]
+pub fn triangle_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
+    let there = corners.map(|corner| corner - from);
+    let solid_angle = triangle_solid_angle(&there);
+    if solid_angle < LEAST_SOLID_ANGLE {
+        return triangle_area_point(corners, from, u);
+    }
+    LightPoint { to: TriangleSeen::new(there, solid_angle).at(u), pdf: 1.0 / solid_angle }
+}
+
+/// The pdf of a direction sampled by [`triangle_point`], in 1/sr; `to` is the offset to the triangle's point there.
+#[inline(always)]
+pub fn triangle_pdf(corners: &[DVec3; 3], from: DVec3, to: DVec3) -> f64 {
+    let solid_angle = triangle_solid_angle(&corners.map(|corner| corner - from));
+    if solid_angle < LEAST_SOLID_ANGLE { triangle_area_pdf(corners, to) } else { 1.0 / solid_angle }
+}
+
+/// Samples a point uniformly over a triangle's area: √u runs from the first corner to the opposite edge.
+#[inline(always)]
+pub fn triangle_area_point(corners: &[DVec3; 3], from: DVec3, u: [f64; 2]) -> LightPoint {
+    let [a, b, c] = *corners;
+    let far = u[0].sqrt();
+    let to = (a - from) + ((b - a) * (1.0 - u[1]) + (c - a) * u[1]) * far;
+    LightPoint { to, pdf: triangle_area_pdf(corners, to) }
+}
+
+/// The pdf of [`triangle_area_point`], in 1/sr.
+#[inline(always)]
+pub fn triangle_area_pdf(corners: &[DVec3; 3], to: DVec3) -> f64 {
+    let [a, b, c] = *corners;
+    let cross = (b - a).cross(c - a);
+    let doubled = cross.length();
+    pdf_from_area(to, cross / doubled, 0.5 * doubled)
+}

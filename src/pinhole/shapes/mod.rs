@@ -1,0 +1,85 @@
+//! Shapes: what a shape is, the shapes there are, and the mathematics of each.
+//!
+//! Reads: a shape's component and its placement; rays, each by its origin and direction in f64.
+//! Gives: the shape in render space, the closest t > 0 with its error bound, the surface there, its bounds, its points
+//! as a light.
+//! Space: render space, with the axes of world space and the eye at its origin.
+//!
+//! [`Shape`] is all that the rest of the renderer asks of one; `with_shapes` lists those that implement it, one line each.
+//! A further shape is a file of this folder, its lines here, and its component and its word in `scene`.
+
+/// The registered shapes, one line each; a further shape is added with a line, and everything else is generic over it.
+///
+/// A line holds its name as a kind, the type that implements [`Shape`]($crate::shapes::Shape), its noun for a field, and
+/// the noun's plural.
+/// The order is that of the stages; it does not affect any picture.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! with_shapes {
+    ($then:ident) => {
+        $then! {
+            Sphere($crate::shapes::PlacedSphere) sphere "spheres",
+            Ellipsoid($crate::shapes::Ellipsoid) ellipsoid "ellipsoids",
+            Plane($crate::shapes::PlacedPlane) plane "planes",
+            Disk($crate::shapes::PlacedDisk) disk "disks",
+            Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
+            Cuboid($crate::shapes::Slabs) cuboid "cuboids",
+            Triangle($crate::shapes::TriangleRow) triangle "triangles",
+        }
+    };
+}
+pub use with_shapes;
+
+mod bounds;
+mod cuboid;
+mod disk;
+mod double_double;
+mod double_double_planar;
+mod ellipsoid;
+pub mod emitter;
+mod exact_sum;
+mod kind;
+mod offset;
+mod planar;
+mod plane;
+mod ray_block;
+mod rectangle;
+mod registry;
+mod shape;
+mod space;
+mod sphere;
+mod triangle;
+mod triangle_edges;
+mod triangle_exact;
+mod triangle_hit;
+mod triangle_row;
+mod uv;
+mod uv_slope;
+
+pub use bounds::Bounds;
+pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, face_of_point};
+pub use disk::{PlacedDisk, disk_intersection, disk_t};
+pub use double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t, double_double_sphere_t};
+pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
+pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
+pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
+pub use kind::ShapeKind;
+pub use offset::{l1_norm, offset_bound, offset_origin};
+pub use planar::{Crossing, Planar, crossing};
+pub use plane::{PlacedPlane, plane_t};
+pub use ray_block::{Intersection, RaySlices, nearness};
+pub(crate) use ray_block::{LANES, RayBlock, vector};
+pub use rectangle::{PlacedRectangle, rectangle_intersection, rectangle_t};
+pub use registry::{
+    Body, Emitter, LeavingPoint, Listed, ShapeVisitor, distance_to, leaving_point, pdf_towards, point_on, visit_shapes,
+};
+pub use shape::{Placed, RayHit, SceneShape, Shape, ShapeNames, SurfacePoint};
+pub use space::{Pose, direction_object_from_world, normal_world_from_object, point_object_from_world};
+pub use sphere::{PlacedSphere, sphere_intersection, sphere_t};
+pub use triangle::{TriangleFace, placed_normals};
+pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersection, triangle_t};
+pub use triangle_exact::exact_triangle_t;
+pub use triangle_hit::{TriangleHit, triangle_surface};
+pub use triangle_row::TriangleRow;
+pub use uv::{cuboid_uv, face_axes, planar_uv, plane_axes, sphere_uv};
+pub use uv_slope::{UvSlope, most_of};

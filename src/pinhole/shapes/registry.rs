@@ -1,0 +1,186 @@
+//! What is made from the list of shapes: where a row may be of any kind, its kind is looked up here and nowhere else.
+
+use super::emitter::{Emitting, LightPoint};
+use super::kind::ShapeKind;
+use super::ray_block::{RayBlock, keep_closest};
+use super::shape::{RayHit, Shape, ShapeNames, SurfacePoint};
+use super::uv::face_axes;
+use super::uv_slope::{UvSlope, most_of, round_step};
+use glam::DVec3;
+
+/// A shape of the list.
+pub trait Listed: Shape {
+    /// Its kind.
+    const KIND: ShapeKind;
+    /// The names of what exists once for each shape.
+    const NAMES: ShapeNames;
+
+    /// The shape as one of any kind.
+    fn into_body(self, beside: Self::Beside) -> Body;
+
+    /// The shape as a light of any kind; none where it cannot be sampled.
+    fn listed_emitter(&self, beside: &Self::Beside) -> Option<Emitter>;
+}
+
+/// Something to be done once for each registered shape.
+pub trait ShapeVisitor {
+    /// Does it for one of them.
+    fn visit<S: Listed>(&mut self);
+}
+
+/// The probability of starting a ray inside a closed shape that emits on both sides, where there is seldom anything.
+const INWARD: f64 = 1.0 / 16.0;
+
+/// A sampled point at which a ray leaves a light.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LeavingPoint {
+    /// The position in render space.
+    pub position: DVec3,
+    /// The unit normal of the side that the ray starts on.
+    pub normal: DVec3,
+    /// Power per unit of radiance and cosine: the area over the probability of the side.
+    pub area: f64,
+    /// The largest magnitude in the computation of its position, for its error bound.
+    pub size: f64,
+}
+
+macro_rules! registry {
+    ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
+        $(impl Listed for $shape {
+            const KIND: ShapeKind = ShapeKind::$kind;
+            const NAMES: ShapeNames = ShapeNames {
+                table: $plural,
+                rows: concat!(stringify!($field), " rows"),
+                intersect: concat!("Intersect ", $plural),
+                surface: concat!("Compute surfaces: ", $plural),
+                shadow: concat!("Trace shadow rays: ", $plural),
+            };
+
+            fn into_body(self, beside: Self::Beside) -> Body {
+                Body::$kind(self, beside)
+            }
+
+            fn listed_emitter(&self, beside: &Self::Beside) -> Option<Emitter> {
+                self.emitter(beside).map(Emitter::$kind)
+            }
+        })+
+
+        /// Does something for every registered shape, in the order of the list.
+        pub fn visit_shapes(visitor: &mut impl ShapeVisitor) {
+            $(visitor.visit::<$shape>();)+
+        }
+
+        /// A shape of any kind, with what its surface needs.
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(clippy::large_enum_variant, reason = "few shapes move, and each is read where it stands")]
+        pub enum Body {
+            $(#[doc = concat!("One of the ", $plural, ".")] $kind($shape, <$shape as Shape>::Beside),)+
+        }
+
+        impl Body {
+            /// The smallest t > 0 at which O + tR intersects it, or infinity.
+            pub fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
+                match self { $(Self::$kind(shape, _) => shape.t(origin, direction),)+ }
+            }
+
+            /// Intersects a block of rays with it and keeps the closest hits.
+            #[inline(always)]
+            pub(crate) fn keep_closest(&self, rays: &RayBlock, number: u32, t: &mut [f64], shape: &mut [u32]) {
+                match self { $(Self::$kind(one, _) => keep_closest(rays, one, number, t, shape),)+ }
+            }
+
+            /// The surface where a ray hits it.
+            pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
+                match self { $(Self::$kind(shape, beside) => shape.surface(beside, hit),)+ }
+            }
+        }
+
+        /// The shape of an area light that can be sampled, in render space.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Emitter {
+            $(#[doc = concat!("One of the ", $plural, ".")] $kind(<$shape as Shape>::Emitter),)+
+        }
+
+        impl Emitter {
+            /// The area that emits, on one side, in square scene units.
+            pub fn area(&self) -> f64 {
+                match self { $(Self::$kind(emitter) => Emitting::area(emitter),)+ }
+            }
+
+            /// Whether a point is on the side of the shape's own normal, which is the outside of a closed shape.
+            #[inline(always)]
+            pub fn faces(&self, point: DVec3) -> bool {
+                match self { $(Self::$kind(emitter) => emitter.faces(point),)+ }
+            }
+        }
+
+        /// The point of a light for a point of the unit square.
+        #[inline(always)]
+        pub fn point_on(emitter: &Emitter, from: DVec3, u: [f64; 2]) -> LightPoint {
+            match emitter { $(Emitter::$kind(emitter) => emitter.point(from, u),)+ }
+        }
+
+        /// The pdf with which [`point_on`] samples the direction to a point of the light, in 1/sr.
+        #[inline(always)]
+        pub fn pdf_towards(emitter: &Emitter, from: DVec3, at: DVec3) -> f64 {
+            match emitter { $(Emitter::$kind(emitter) => emitter.pdf(from, at),)+ }
+        }
+
+        /// The distance to a light along a ray sampled towards it; rounding of the direction may make the ray miss
+        /// slightly.
+        ///
+        /// In units of the direction's length.
+        #[inline(always)]
+        pub fn distance_to(emitter: &Emitter, from: DVec3, direction: DVec3) -> f64 {
+            match emitter { $(Emitter::$kind(emitter) => emitter.distance(from, direction),)+ }
+        }
+
+        /// Samples a point on an emitter uniformly over its area, and one of its sides by `side`.
+        #[inline(always)]
+        pub fn leaving_point(emitter: &Emitter, one_sided: bool, u: [f64; 2], side: f64) -> LeavingPoint {
+            match emitter { $(Emitter::$kind(emitter) => leaving(emitter, one_sided, u, side),)+ }
+        }
+
+        fn own_uv_step(kind: ShapeKind, numbers: [f64; 2], own: DVec3, step: DVec3) -> DVec3 {
+            match kind {
+                $(ShapeKind::$kind => <$shape as Shape>::uv_step(numbers, own, step),)+
+                ShapeKind::Moving => DVec3::ZERO,
+            }
+        }
+    };
+}
+with_shapes!(registry);
+
+#[inline(always)]
+fn leaving<E: Emitting>(emitter: &E, one_sided: bool, u: [f64; 2], side: f64) -> LeavingPoint {
+    let spot = emitter.spot(u);
+    let away = match (one_sided, E::IS_CLOSED) {
+        (true, _) => 0.0,
+        (_, true) => INWARD,
+        _ => 0.5,
+    };
+    let (normal, random) = if side < away { (-spot.normal, away) } else { (spot.normal, 1.0 - away) };
+    LeavingPoint { position: spot.position, normal, area: emitter.area() / random, size: spot.size }
+}
+
+impl UvSlope {
+    /// The change of u and v where a hit moves by an offset, given in world and object space; `own` is the hit in
+    /// object space, `normal` the surface normal in world space.
+    ///
+    /// Not finite where it is undefined, such as at the poles of a sphere.
+    #[inline(always)]
+    pub fn step(&self, own: DVec3, normal: DVec3, step: DVec3, own_step: DVec3) -> DVec3 {
+        match self {
+            Self::Nowhere => DVec3::ZERO,
+            Self::Planar([u, v]) => DVec3::new(u.dot(step), v.dot(step), 0.0),
+            Self::Round => round_step(own, own_step),
+            Self::Faces(slopes) => {
+                let axis = most_of(DVec3::from(slopes.map(|slope| normal.dot(slope) / slope.length())));
+                let [u, v] = face_axes(axis, own[axis] < 0.0);
+                let moved = DVec3::from(slopes.map(|slope| 0.5 * slope.dot(step)));
+                DVec3::new(u.dot(moved), v.dot(moved), 0.0)
+            }
+            Self::Own(kind, numbers) => own_uv_step(*kind, *numbers, own, own_step),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+use super::bounds::Bounds;
+use super::emitter::Emitting;
+use super::offset::{l1_norm, offset_bound};
+use super::ray_block::{Intersection, RaySlices, keep_closest_rows};
+use super::space::Pose;
+use super::uv_slope::UvSlope;
+use crate::scene::SceneError;
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DVec3};
+use std::fmt::Debug;
+
+/// A component that makes an entity a shape.
+pub trait SceneShape: Component<Mutability = Mutable> + Copy + Default {
+    /// Its type's name, such as `Disk`.
+    const NAME: &'static str;
+    /// Its name in messages, such as `disk`.
+    const WORD: &'static str;
+
+    /// Multiplies all of its lengths.
+    fn scale(&mut self, by: f64);
+
+    /// Components that the tests of all shapes try: the default, and what is harder, such as thin parts.
+    fn examples() -> Vec<Self> {
+        vec![Self::default()]
+    }
+}
+
+/// Where a shape's entity is placed.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// The entity in messages, such as `disk "table top"`.
+    pub who: &'a str,
+    /// Between its object space and world space, at the moment when the shutter opens.
+    pub pose: Pose,
+    /// The origin of its object space, relative to the eye.
+    pub position: DVec3,
+    /// The scale of its own placement, without those of its parents.
+    pub scale: DVec3,
+    /// Whether a parent is placed too.
+    pub has_parent: bool,
+}
+
+/// A ray and the distance at which it hits a shape, in the frame in which the shape is at rest.
+#[derive(Clone, Copy, Debug)]
+pub struct RayHit {
+    /// The ray's origin, less the shape's displacement.
+    pub origin: DVec3,
+    /// Its direction.
+    pub direction: DVec3,
+    /// The distance t in r(t) = O + tR.
+    pub t: f64,
+    /// How far the shape has moved since the shutter opened; 0 for shapes that keep still.
+    pub displacement: DVec3,
+}
+
+impl RayHit {
+    /// r(t).
+    #[inline(always)]
+    pub fn point(&self) -> DVec3 {
+        self.origin + self.t * self.direction
+    }
+
+    /// [`offset_bound`] at a point, for a shape whose own numbers have this size.
+    #[inline(always)]
+    pub fn bound(&self, point: DVec3, shape_size: f64) -> f32 {
+        let moved = self.displacement;
+        offset_bound(point + moved, self.origin + moved, shape_size + l1_norm(moved))
+    }
+
+    // ANCHOR: facing
+    /// The surface at a point whose normal is flipped if necessary to face the ray; unflipped, it is on the outside.
+    #[inline(always)]
+    pub fn facing(&self, point: DVec3, normal: DVec3, shape_size: f64) -> SurfacePoint {
+        let from_behind = normal.dot(self.direction) > 0.0;
+        let normal = if from_behind { -normal } else { normal };
+        SurfacePoint { point, normal, bound: self.bound(point, shape_size), outside: !from_behind, at: DVec3::ZERO }
+    }
+    // ANCHOR_END: facing
+}
+
+/// The surface where a ray hits a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The hit point.
+    pub point: DVec3,
+    /// The unit geometric normal, facing the ray.
+    pub normal: DVec3,
+    /// The error bound of the hit point along the normal, as [`offset_bound`] gives it.
+    pub bound: f32,
+    /// Whether the ray arrived on the shape's outward side.
+    pub outside: bool,
+    /// Where on the shape it is, in coordinates of the shape's own that its u and v are computed from; 0 if they are not.
+    pub at: DVec3,
+}
+
+/// All that the renderer asks of a shape; everything else is generic over it.
+///
+/// A value is the shape as the intersection kernels read it: a row of its table, in render space, in f64.
+/// The types that implement it are listed at the head of this folder.
+pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
+    /// The component of the scene that it is made from.
+    type Component: SceneShape;
+    /// What its surface needs besides, kept apart from what intersection reads; often nothing.
+    type Beside: Clone + Debug + Default + PartialEq + Send + Sync + 'static;
+    /// The shape as a light that is sampled; [`NeverSampled`](super::NeverSampled) for shapes whose emission is found by
+    /// BSDF sampling only.
+    type Emitter: Emitting;
+
+    /// What it is called where the plan counts the entities that need its stages.
+    const NOUN: &'static str = Self::Component::WORD;
+    /// For a component that has a shape of its own where the placement's scale is not uniform: whether this is that one.
+    const UNEVEN: Option<bool> = None;
+    /// Whether it can be made of glass: it has an inside, alone or together with others.
+    const HAS_INSIDE: bool;
+    /// Whether several usually make up one surface, such as the triangles of a mesh.
+    const IS_PART: bool = false;
+    /// Whether its u and v are those of a point in its uv space.
+    const HAS_UV_SPACE: bool = false;
+
+    /// The shape of a component and its placement.
+    ///
+    /// Errors: a number of the component, or of the placed shape, that is not accepted.
+    fn place(component: &Self::Component, placed: &Placed<'_>) -> Result<(Self, Self::Beside), SceneError>;
+
+    /// The smallest t > 0 at which O + tR intersects it, in f64, and whether rounding leaves that uncertain.
+    fn intersection(&self, origin: DVec3, direction: DVec3) -> Intersection;
+
+    /// The same t with more precision, or infinity; only asked where f64 is uncertain.
+    fn precise_t(&self, origin: DVec3, direction: DVec3) -> f64;
+
+    /// The smallest t > 0 at which O + tR intersects it, or infinity.
+    #[inline(always)]
+    fn t(&self, origin: DVec3, direction: DVec3) -> f64 {
+        let intersection = self.intersection(origin, direction);
+        if intersection.uncertain { self.precise_t(origin, direction) } else { intersection.t }
+    }
+
+    /// The centre and radius of a sphere around it, which rays are tested against first; none where that gains nothing.
+    #[inline(always)]
+    fn culling_sphere(&self) -> Option<(DVec3, f64)> {
+        None
+    }
+
+    /// Intersects all rays with all of these shapes, which have these numbers, and keeps the closest hits.
+    fn keep_closest(shapes: &[Self], numbers: &[u32], rays: RaySlices<'_>, t: &mut [f64], shape: &mut [u32]) {
+        keep_closest_rows(shapes, numbers, rays, t, shape);
+    }
+
+    /// The surface where a ray hits it.
+    fn surface(&self, beside: &Self::Beside, hit: &RayHit) -> SurfacePoint;
+
+    /// u and v where a ray hits it: at [`SurfacePoint::at`], and at `own` in its uv space, which is given where
+    /// [`Self::HAS_UV_SPACE`] says so.
+    fn uv(&self, beside: &Self::Beside, hit: &RayHit, at: DVec3, own: DVec3) -> [f64; 2];
+
+    /// The linear map from world space to its uv space, which is its object space unless it says otherwise.
+    fn uv_from_world(_component: &Self::Component, entity_from_world: DMat3) -> DMat3 {
+        entity_from_world
+    }
+
+    /// The gradients of u and v along it; `uv_from_world` is the linear map to its uv space.
+    fn uv_slope(&self, beside: &Self::Beside, uv_from_world: DMat3) -> UvSlope;
+
+    /// The change of u and v along an offset from a hit, both in object space, for a shape whose slope is
+    /// [`UvSlope::Own`] with these numbers.
+    #[inline(always)]
+    fn uv_step(_numbers: [f64; 2], _own: DVec3, _step: DVec3) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    /// A box around it; none where it is infinite.
+    fn bounds(&self) -> Option<Bounds>;
+
+    /// The centre and radius of a sphere around it; none where it is infinite.
+    fn bounding_sphere(&self) -> Option<(DVec3, f64)> {
+        self.bounds().map(|bounds| bounds.sphere_around())
+    }
+
+    /// Whether a point is inside; false for a shape that has no inside of its own.
+    fn contains(&self, _point: DVec3) -> bool {
+        false
+    }
+
+    /// The shape as a light that is sampled; none where it cannot be.
+    fn emitter(&self, _beside: &Self::Beside) -> Option<Self::Emitter> {
+        None
+    }
+}
+
+/// The names of a registered shape's table, column and stages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShapeNames {
+    /// Its table.
+    pub table: &'static str,
+    /// The column that lists the rows which hit it.
+    pub rows: &'static str,
+    /// The stage that intersects rays with it.
+    pub intersect: &'static str,
+    /// The stage that computes its surface.
+    pub surface: &'static str,
+    /// The stage that traces shadow rays against it.
+    pub shadow: &'static str,
+}
