@@ -1,9 +1,7 @@
 use super::bsdf::{connections_stage, direct_light_stage, mis_stage, sample_from_lights_stage, sample_stage};
 use super::bsdf_rows::classify_bsdf_stage;
 use super::specular::{specular_from_lights_stage, specular_stage, split_stage};
-use crate::material::{
-    BlinnPhongTable, Bsdf, BsdfClass, MatteTable, MetalTable, MirrorTable, PhongTable, SmoothGlass, for_each_bsdf,
-};
+use crate::material::{Bsdf, BsdfClass, for_each_bsdf};
 use crate::plan::Stage;
 
 /// What the stages of a BSDF are for.
@@ -68,7 +66,7 @@ macro_rules! all_stages {
     ($($kind:ident($table:ident, $name:literal),)+) => {
         /// The stages of all BSDFs, one BSDF after another.
         pub fn bsdf_stages() -> Vec<BsdfStage> {
-            [$(stages_of::<$table>()),+].concat()
+            [$(stages_of::<crate::material::$table>()),+].concat()
         }
     };
 }

@@ -1,17 +1,14 @@
-use super::{
-    BlinnPhongTable, Bsdf, BsdfClass, MatteTable, MetalTable, MirrorTable, Named, PhongTable, SmoothGlass, StageNames,
-    for_each_bsdf,
-};
+use super::{Bsdf, BsdfClass, Named, StageNames, for_each_bsdf};
 
 macro_rules! kinds {
     ($($kind:ident($table:ident, $name:literal),)+) => {
         /// The kinds of material: one for each BSDF.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum MaterialKind {
-            $(#[doc = concat!("A row of [`", stringify!($table), "`].")] $kind,)+
+            $(#[doc = concat!("A row of [`", stringify!($table), "`](crate::material::", stringify!($table), ").")] $kind,)+
         }
 
-        $(impl Named for $table {
+        $(impl Named for crate::material::$table {
             const KIND: MaterialKind = MaterialKind::$kind;
             const NAMES: StageNames = StageNames {
                 sample: concat!("Sample BSDFs: ", $name),
@@ -28,9 +25,9 @@ macro_rules! kinds {
         impl MaterialKind {
             /// The number of kinds.
             pub const COUNT: usize = [$(MaterialKind::$kind),+].len();
-            const CLASSES: [BsdfClass; Self::COUNT] = [$(<$table>::CLASS),+];
-            const LAMBERTIAN: [bool; Self::COUNT] = [$(<$table>::LAMBERTIAN),+];
-            const TRANSMITS: [bool; Self::COUNT] = [$(<$table>::TRANSMITS),+];
+            const CLASSES: [BsdfClass; Self::COUNT] = [$(<crate::material::$table>::CLASS),+];
+            const LAMBERTIAN: [bool; Self::COUNT] = [$(<crate::material::$table>::LAMBERTIAN),+];
+            const TRANSMITS: [bool; Self::COUNT] = [$(<crate::material::$table>::TRANSMITS),+];
         }
     };
 }

@@ -1,9 +1,6 @@
 //! The materials of a scene, by what the list of BSDFs says of their components.
 
-use super::{
-    BlinnPhongTable, Bsdf, BsdfClass, ErasedBsdf, Interior, MaterialKind, MatteTable, MetalTable, MirrorTable,
-    PhongTable, SmoothGlass, for_each_bsdf,
-};
+use super::{Bsdf, BsdfClass, ErasedBsdf, Interior, MaterialKind, for_each_bsdf};
 use crate::check::kind_and_name;
 use crate::plan::{Census, TableKind, united};
 use crate::scene::{Rgb, SceneError};
@@ -106,7 +103,7 @@ impl Registration {
 macro_rules! registered {
     ($($kind:ident($table:ident, $name:literal),)+) => {
         /// All BSDFs, in the order of their kinds.
-        pub static REGISTERED: &[Registration] = &[$(Registration::of::<$table>()),+];
+        pub static REGISTERED: &[Registration] = &[$(Registration::of::<crate::material::$table>()),+];
     };
 }
 
