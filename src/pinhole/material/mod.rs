@@ -32,6 +32,7 @@ mod mirror;
 mod multiple_scattering;
 mod phong;
 mod registered;
+mod rough_glass;
 mod table;
 
 /// Every BSDF: its kind, its table, and its name in the names of stages and columns; a new one is a line here.
@@ -44,6 +45,7 @@ macro_rules! for_each_bsdf {
             Mirror(MirrorTable, "mirror"),
             Glass(SmoothGlass, "glass"),
             Metal(MetalTable, "metal"),
+            RoughGlass(RoughGlassTable, "rough glass"),
         }
     };
 }
@@ -68,4 +70,5 @@ pub use registered::{
     REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,
 };
 pub(crate) use registered::{components_in_words, interior_of, one_material};
+pub use rough_glass::RoughGlassTable;
 pub use table::{MaterialTable, NO_ROW};

@@ -6,6 +6,7 @@ mod matte;
 mod metal;
 mod mirror;
 mod phong;
+mod rough_glass;
 
 pub use blinn_phong::BlinnPhong;
 pub use glass::Glass;
@@ -15,6 +16,7 @@ pub use matte::{Matte, UsesMaterial};
 pub use metal::Metal;
 pub use mirror::Mirror;
 pub use phong::Phong;
+pub use rough_glass::RoughGlass;
 
 use super::file::Word;
 
@@ -26,4 +28,5 @@ pub(super) const MATERIALS: &[Word] = &[
     Word::of::<Mirror>("mirror"),
     Word::of::<Glass>("glass"),
     Word::of::<Metal>("metal"),
+    Word::of::<RoughGlass>("rough_glass"),
 ];
