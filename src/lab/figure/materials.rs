@@ -5,7 +5,7 @@ use super::gallery::{Exhibit, gallery_foot, hang};
 use super::picture::Picture;
 use super::svg::Drawing;
 use bevy_ecs::prelude::*;
-use pinhole::scene::{Glass, Integrator, Metal, Mirror, RoughGlass, Sampling};
+use pinhole::scene::{Glass, Integrator, Metal, Mirror, Principled, Rgb, RoughGlass, Sampling};
 use pinhole::{Chapter, Result};
 
 /// Three in a row.
@@ -40,5 +40,18 @@ pub fn draw_rough_glass(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
         of(0.15, "frosted: what is behind is blurred")?,
         of(0.5, "rough: only light comes through")?,
     ];
+    Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
+}
+
+/// The three balls as dielectric, as a mixture, and as metal, each rougher from left to right.
+pub fn draw_principled(chapter: &Chapter, figure: &Figure) -> Result<Drawing> {
+    let of = |metallic: f64, line: &str| {
+        let material = |roughness| Principled { base_colour: Rgb::new(0.9, 0.35, 0.15), metallic, roughness };
+        let balls = [("smooth ball", 0.1), ("brushed ball", 0.4), ("rough ball", 0.8)];
+        let materials = balls.map(|(name, roughness)| (name, material(roughness)));
+        exhibit(chapter, &materials, [format!("metallic {metallic}"), line.into()])
+    };
+    let exhibits =
+        [of(0.0, "coloured below a clear surface")?, of(0.5, "half of each")?, of(1.0, "coloured by its surface")?];
     Ok(hang(figure, &exhibits, 3, &gallery_foot(chapter, figure, SIZE)))
 }

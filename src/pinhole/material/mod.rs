@@ -31,6 +31,7 @@ mod metal;
 mod mirror;
 mod multiple_scattering;
 mod phong;
+mod principled;
 mod registered;
 mod rough_glass;
 mod table;
@@ -46,6 +47,7 @@ macro_rules! for_each_bsdf {
             Glass(SmoothGlass, "glass"),
             Metal(MetalTable, "metal"),
             RoughGlass(RoughGlassTable, "rough glass"),
+            Principled(PrincipledTable, "principled"),
         }
     };
 }
@@ -66,6 +68,7 @@ pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
 pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
 pub use phong::{PhongTable, mirror_cosine, phong_peak};
+pub use principled::PrincipledTable;
 pub use registered::{
     REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,
 };

@@ -6,6 +6,7 @@ mod matte;
 mod metal;
 mod mirror;
 mod phong;
+mod principled;
 mod rough_glass;
 
 pub use blinn_phong::BlinnPhong;
@@ -16,6 +17,7 @@ pub use matte::{Matte, UsesMaterial};
 pub use metal::Metal;
 pub use mirror::Mirror;
 pub use phong::Phong;
+pub use principled::Principled;
 pub use rough_glass::RoughGlass;
 
 use super::file::Word;
@@ -29,4 +31,5 @@ pub(super) const MATERIALS: &[Word] = &[
     Word::of::<Glass>("glass"),
     Word::of::<Metal>("metal"),
     Word::of::<RoughGlass>("rough_glass"),
+    Word::of::<Principled>("principled"),
 ];
