@@ -66,6 +66,14 @@ fn normals_per_direction(half: DVec3, to_light: DVec3, to_eye: DVec3, eta: f64) 
     eta * eta * to_light.dot(half).abs() / (sum * sum)
 }
 
+/// The fraction that a microfacet transmits, computed on the side of the lower index, where no angle is critical.
+#[inline(always)]
+fn transmitted(half: DVec3, to_light: DVec3, to_eye: DVec3, eta: f64) -> f64 {
+    let on_thin_side =
+        if eta >= 1.0 { fresnel(to_eye.dot(half), eta) } else { fresnel(-to_light.dot(half), 1.0 / eta) };
+    1.0 - on_thin_side
+}
+
 /// The part of radiance that is kept on the way through: 1/η², and 1 for importance.
 #[inline(always)]
 fn scale(site: &Site) -> f64 {
@@ -109,7 +117,7 @@ impl Bsdf for RoughGlassTable {
             return [fresnel(facing, eta) * ggx_brdf(to_light, to_eye, alpha); 3];
         }
         let Some(half) = refracting_normal(to_light, to_eye, eta) else { return [0.0; 3] };
-        let through = (1.0 - fresnel(to_eye.dot(half), eta)) * scale(site);
+        let through = transmitted(half, to_light, to_eye, eta) * scale(site);
         let below = DVec3::new(to_light.x, to_light.y, -to_light.z);
         let masked = visible_normal_pdf(half, to_eye, alpha) * ggx_g1(below, alpha) / below.z;
         [through * masked * normals_per_direction(half, to_light, to_eye, eta); 3]
@@ -126,7 +134,7 @@ impl Bsdf for RoughGlassTable {
             return fresnel(facing, eta) * visible_pdf(to_light, to_eye, alpha);
         }
         let Some(half) = refracting_normal(to_light, to_eye, eta) else { return 0.0 };
-        let of_normal = (1.0 - fresnel(to_eye.dot(half), eta)) * visible_normal_pdf(half, to_eye, alpha);
+        let of_normal = transmitted(half, to_light, to_eye, eta) * visible_normal_pdf(half, to_eye, alpha);
         of_normal * normals_per_direction(half, to_light, to_eye, eta)
     }
 
