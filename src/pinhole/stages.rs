@@ -144,7 +144,7 @@ const LIST: &[Part] = &[Part(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
-    (DirectLight, shade::far_rows_stage),
+    (DirectLight, shade::transmissive_rows_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
 ], surface_points), Part(&[

@@ -117,7 +117,7 @@ fn systems_say_what_stages_touch() {
     let [reads, reads_if, _, writes, ..] = touched(&stage);
     assert_eq!(
         (reads, reads_if),
-        (vec!["surface", "material rows", "light"], vec!["shading", "rows lit from behind"]),
+        (vec!["surface", "material rows", "light"], vec!["shading", "transmissive rows"]),
         "a stage that appends"
     );
     assert_eq!((writes, stage.appends), (vec!["light", "light pdf"], true));

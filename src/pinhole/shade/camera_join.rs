@@ -1,6 +1,6 @@
 use super::light::{ShadowRay, shadow_t_max};
 use super::receivers::{LightRay, LightRows, append_sampled};
-use super::{FarRows, LightRays};
+use super::{LightRays, TransmissiveRows};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
@@ -89,7 +89,7 @@ pub struct ConnectionView {
     surfaces: &'static Surfaces,
     shading: Option<&'static ShadingNormals>,
     list: &'static MaterialRows,
-    far: Option<&'static FarRows>,
+    far: Option<&'static TransmissiveRows>,
     points: Option<&'static JoinPoints>,
     rays: &'static mut LightRays,
 }

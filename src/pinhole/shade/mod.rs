@@ -23,7 +23,6 @@ mod directional_light;
 mod emissive;
 mod environment;
 mod environment_light;
-mod far_rows;
 mod footprint;
 mod gradient;
 mod image_circle;
@@ -38,6 +37,7 @@ mod shadow;
 mod spot_light;
 mod surface_colour;
 mod texture_point;
+mod transmissive_rows;
 mod unintersected;
 mod unlit;
 mod view;
@@ -67,8 +67,6 @@ pub use environment::{
 };
 #[doc(hidden)]
 pub use environment_light::{environment_direction, environment_light_stage, environment_pdf, sample_environment};
-#[doc(hidden)]
-pub use far_rows::{FarRows, far_rows_stage, list_far_rows};
 #[doc(hidden)]
 pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_surface};
 #[doc(hidden)]
@@ -102,6 +100,8 @@ pub use spot_light::{sample_spot_lights, spot_falloff, spot_light_stage, versine
 pub use surface_colour::{colour_stage, colour_surfaces};
 #[doc(hidden)]
 pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+#[doc(hidden)]
+pub use transmissive_rows::{TransmissiveRows, list_transmissive_rows, transmissive_rows_stage};
 #[doc(hidden)]
 pub use unintersected::check_shapes_are_intersected;
 #[doc(hidden)]

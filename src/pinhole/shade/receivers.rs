@@ -1,7 +1,7 @@
 //! The surfaces for which lights are sampled, and the shadow rays that are appended for them.
 
 use super::light::ShadowRay;
-use super::{FarRows, LightPdfs, LightRays};
+use super::{LightPdfs, LightRays, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surface, Surfaces};
 use crate::plan::Column;
 use glam::DVec3;
@@ -28,7 +28,7 @@ impl<'a> LightRows<'a> {
         surfaces: &'a Surfaces,
         shading: Option<&'a ShadingNormals>,
         list: &'a MaterialRows,
-        far: Option<&'a FarRows>,
+        far: Option<&'a TransmissiveRows>,
     ) -> Self {
         Self { surfaces, shading, rows: &list.row, far: far.map_or(&[], |far| &far.row) }
     }
