@@ -16,4 +16,5 @@ mod scenes;
 mod shapes;
 mod stages;
 mod textures;
+mod ties;
 mod words;

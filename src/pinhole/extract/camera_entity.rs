@@ -1,28 +1,45 @@
 use super::check::kind_and_name;
-use crate::plan::{Census, counted, entities};
+use crate::plan::{Census, counted, declared, entities};
 use crate::scene::{
     EquirectangularCamera, FisheyeCamera, OrthographicCamera, PerspectiveCamera, SceneError, called, some_of,
 };
 use bevy_ecs::prelude::*;
 
-/// The components that are cameras, each with its article and its entities; a new kind is added with a line.
-const CAMERAS: [(&str, fn(&World) -> Vec<Entity>); 4] = [
-    ("a PerspectiveCamera", entities::<With<PerspectiveCamera>>),
-    ("an OrthographicCamera", entities::<With<OrthographicCamera>>),
-    ("a FisheyeCamera", entities::<With<FisheyeCamera>>),
-    ("an EquirectangularCamera", entities::<With<EquirectangularCamera>>),
+/// The components that are cameras, each with its article; a new kind is added with a line.
+const CAMERAS: [CameraKind; 4] = [
+    CameraKind::of::<PerspectiveCamera>("a PerspectiveCamera"),
+    CameraKind::of::<OrthographicCamera>("an OrthographicCamera"),
+    CameraKind::of::<FisheyeCamera>("a FisheyeCamera"),
+    CameraKind::of::<EquirectangularCamera>("an EquirectangularCamera"),
 ];
+
+/// A kind of camera.
+struct CameraKind {
+    name: &'static str,
+    enabled: fn(&World) -> Vec<Entity>,
+    declared: fn(&World) -> Vec<Entity>,
+}
+
+impl CameraKind {
+    const fn of<C: Component>(name: &'static str) -> Self {
+        Self { name, enabled: entities::<With<C>>, declared: declared::<With<C>> }
+    }
+}
 
 /// The one camera of the scene.
 pub fn camera_entity(scene: &World) -> Result<Entity, SceneError> {
-    let kinds = CAMERAS.iter().flat_map(|&(kind, carrying)| carrying(scene).into_iter().map(move |own| (kind, own)));
+    let kinds = CAMERAS.iter().flat_map(|kind| (kind.enabled)(scene).into_iter().map(move |own| (kind.name, own)));
     let kinds: Vec<(&str, Entity)> = kinds.collect();
     let cameras: Vec<Entity> = kinds.iter().map(|&(_, camera)| camera).collect();
     let accepted = "exactly one entity must carry a PerspectiveCamera, an OrthographicCamera, a FisheyeCamera or an \
                     EquirectangularCamera";
     match cameras[..] {
         [camera] => Ok(camera),
-        [] => Err(SceneError::new("the scene", "camera", "missing", accepted)),
+        [] => {
+            let disabled = CAMERAS.iter().flat_map(|kind| (kind.declared)(scene)).next();
+            let value = disabled.map_or("missing".into(), |own| format!("{}, which is disabled", called(scene, own)));
+            Err(SceneError::new("the scene", "camera", value, accepted))
+        }
         [one, ..] if cameras.iter().all(|&other| other == one) => {
             let kinds: Vec<&str> = kinds.iter().map(|&(kind, _)| kind).collect();
             let value = format!("{} at once, on {}", kinds.join(" and "), called(scene, one));

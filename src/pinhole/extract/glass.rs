@@ -1,10 +1,13 @@
+use super::TriangleTable;
 use super::check::kind_and_name;
+use super::closed_mesh::{OpenMesh, open_mesh};
 use super::material::used_material;
-use super::shape_kind::{one_shape, shape_entities};
+use super::shape_kind::{one_shape, shape_entities, shape_name};
 use crate::material::{interior_of, material_entities};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, called};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeMap;
 
 /// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +44,7 @@ impl Table for GlassTable {
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
         let listed = one_shape(scene, shape)?;
-        if listed.has_inside {
+        if (listed.has_inside)(scene, shape) {
             continue;
         }
         let Some(material) = used_material(scene, shape).filter(|&own| matches!(interior_of(scene, own), Ok(Some(_))))
@@ -52,5 +55,27 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
         let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
-    Ok(())
+    check_meshes(scene)
+}
+
+/// Checks that the triangles of each kind of glass close around an interior.
+fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
+    let (triangles, shapes) = (scene.table::<TriangleTable>()?, shape_entities(scene));
+    let mut meshes: BTreeMap<Entity, Vec<usize>> = BTreeMap::new();
+    for (row, &shape) in triangles.shape.iter().enumerate() {
+        let material = shapes.get(shape as usize).and_then(|&shape| used_material(scene, shape));
+        if let Some(material) = material.filter(|&own| matches!(interior_of(scene, own), Ok(Some(_)))) {
+            meshes.entry(material).or_default().push(row);
+        }
+    }
+    let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(&triangles, rows)?, *material)));
+    let Some((OpenMesh { row, turned }, material)) = open.min_by_key(|(open, _)| open.row) else { return Ok(()) };
+    let why = if turned {
+        "this triangle shows another side than its neighbour: swap two of its vertices"
+    } else {
+        "this triangle has an edge that no other triangle of the same glass has"
+    };
+    let value = format!("the glass {}", called(scene, material));
+    let accepted = format!("glass needs a shape with an interior, and {why}");
+    Err(SceneError::new(shape_name(scene, triangles.shape[row] as usize), "material", value, accepted))
 }

@@ -1,16 +1,17 @@
 //! Materials whose BSDF no stage on offer samples.
 
-use crate::extract::{followed_evidence, shape_entities, shape_name};
+use crate::extract::{camera_entity, followed_evidence, integrator_of, shape_entities, shape_name};
 use crate::material::{BsdfClass, REGISTERED, material_kind};
 use crate::plan::{Census, Stage, TileSystems};
-use crate::scene::{SceneError, UsesMaterial};
+use crate::scene::{SceneError, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 
 /// Checks that where paths are traced, a stage on offer samples the BSDF of every specular or glossy material in the
 /// scene: a chapter offers the stages taught so far, and other materials would be black without a warning.
 ///
-/// Errors: the first shape of a material that no stage on offer samples.
+/// Errors: the first shape of a material that no stage on offer samples; a sky whose light none finds.
 pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
+    check_sky_is_followed(scene, offer)?;
     let shapes = shape_entities(scene);
     for own in REGISTERED.iter().filter(|own| own.class != BsdfClass::Diffuse) {
         let table = (own.table)();
@@ -30,4 +31,16 @@ pub fn check_materials_are_followed(scene: &Census<'_>, offer: &[Stage]) -> Resu
         }
     }
     Ok(())
+}
+
+/// Checks that a sky which lights the scene is found by paths, where no integrator is named.
+fn check_sky_is_followed(scene: &Census<'_>, offer: &[Stage]) -> Result<(), SceneError> {
+    let chosen = integrator_of(scene);
+    let goes_on = offer.iter().any(|stage| stage.set == TileSystems::RemainingBounces);
+    let Some(camera) = camera_entity(scene).ok().filter(|_| chosen.without_sky.is_some() && !goes_on) else {
+        return Ok(());
+    };
+    let value = format!("path tracing ({})", chosen.reason);
+    let accepted = "no stage on offer continues paths: name RayCasting on the camera, or offer stages::all()";
+    Err(SceneError::new(format!("camera {}", called(scene, camera)), "integrator", value, accepted))
 }

@@ -9,7 +9,7 @@
 //! directions and weight light samples are generic over it, and nothing outside its file asks which material it is.
 //!
 //! ```
-//! use pinhole::material::{Bsdf, Site, SpecularBsdf, fresnel};
+//! use pinhole::material::fresnel;
 //!
 //! // Glass reflects 4 % of the light at normal incidence and all of it at grazing incidence.
 //! assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-15);

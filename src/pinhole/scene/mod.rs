@@ -45,6 +45,7 @@ mod memory;
 mod motion;
 mod name;
 mod open_file;
+mod orientation;
 mod placement;
 mod plane;
 mod point_light;
@@ -85,7 +86,7 @@ pub use equirectangular::EquirectangularCamera;
 pub use file::FileProblem;
 pub use file::SceneFile;
 #[doc(hidden)]
-pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, scene_text, words};
+pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, in_words_of_files, scene_text, words};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
 #[doc(hidden)]
@@ -108,6 +109,7 @@ pub use motion::{Motion, Shutter};
 pub use name::{called, some_of};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
+pub use orientation::{axis_angle, euler_xyz};
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
