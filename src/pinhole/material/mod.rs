@@ -5,7 +5,7 @@
 //! Space: directions are unit vectors in the frame of the surface, whose normal is +z, but for specular BSDFs, which
 //! reflect and refract the rays of render space as they are.
 //!
-//! A BSDF implements [`Bsdf`] and stands in one list, [`for_each_bsdf`]; the stages that evaluate direct light, sample
+//! A BSDF implements [`Bsdf`] and stands in one list, `for_each_bsdf`; the stages that evaluate direct light, sample
 //! directions and weight light samples are generic over it, and nothing outside its file asks which material it is.
 //!
 //! ```
