@@ -2,6 +2,8 @@
 
 #[path = "follow/broken.rs"]
 mod broken;
+#[path = "follow/bsdfs.rs"]
+mod bsdfs;
 #[path = "follow/caustics.rs"]
 mod caustics;
 #[path = "follow/far.rs"]

@@ -13,6 +13,8 @@ const ORDER: &[(&str, &[&str])] = &[
         &[
             "scene",
             "plan",
+            "check",
+            "material",
             "shapes",
             "extract",
             "sample",

@@ -12,6 +12,8 @@
 //! assert!(stages::all().len() > 90);
 //! ```
 
+use crate::follow::{BsdfRole, BsdfStage};
+use crate::material::BsdfClass;
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
 use std::any::TypeId;
@@ -40,7 +42,7 @@ enum Group {
     Bounces,
     PathContinuation,
     SpecularReflection,
-    RoughMetal,
+    GlossyReflection,
     Glass,
     AreaLights,
     AmbientOcclusion,
@@ -48,12 +50,13 @@ enum Group {
     LightTracing,
     Film,
 }
+use BsdfRole::*;
 use Group::*;
 
 /// A stage on offer, and the group that it belongs to.
 type Grouped = (Group, fn() -> Stage);
 
-/// Stages in order, and then those of every registered shape.
+/// Stages in order, and then those of every registered shape or BSDF.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
@@ -74,6 +77,34 @@ fn surface_points() -> Vec<Grouped> {
 fn shadow_rays() -> Vec<Grouped> {
     let stages = shade::shape_shadow_stages().into_iter();
     stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+}
+
+/// The stages of all BSDFs for one purpose; specular BSDFs come before the others.
+fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
+    let group = |stage: &BsdfStage| match (role, stage.class) {
+        (MisWeights, _) => Mis,
+        (Connections | SampleFromLights, _) => LightTracing,
+        (_, _) if stage.transmits => Glass,
+        (_, BsdfClass::Specular) => SpecularReflection,
+        (_, BsdfClass::Glossy) => GlossyReflection,
+        (Evaluate, BsdfClass::Diffuse) => Highlights,
+        (_, BsdfClass::Diffuse) => PathContinuation,
+    };
+    let mut stages: Vec<BsdfStage> = follow::bsdf_stages().into_iter().filter(|own| own.role == role).collect();
+    stages.sort_by_key(|own| own.class != BsdfClass::Specular);
+    stages.iter().map(|own| (group(own), own.stage)).collect()
+}
+
+fn bsdf_rows() -> Vec<Grouped> {
+    of_bsdfs(Classify)
+}
+
+fn direct_light_of_bsdfs() -> Vec<Grouped> {
+    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
+}
+
+fn bsdf_samples() -> Vec<Grouped> {
+    [Split, Sample, SampleFromLights].into_iter().flat_map(of_bsdfs).collect()
 }
 
 /// All stages in the order of the data flow.
@@ -109,10 +140,11 @@ const LIST: &[Part] = &[Part(&[
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
-    (SpecularReflection, follow::classify_materials_stage),
+], bsdf_rows), Part(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
+    (DirectLight, shade::transmissive_rows_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
 ], surface_points), Part(&[
@@ -134,6 +166,10 @@ const LIST: &[Part] = &[Part(&[
     // Layers of the film are recorded.
     (Film, film::layers_stage),
 
+    // The medium along each ray is found, and absorbs light.
+    (Glass, follow::start_media_stage),
+    (Glass, follow::absorb_stage),
+
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
     (Lights, shade::directional_light_stage),
@@ -150,13 +186,7 @@ const LIST: &[Part] = &[Part(&[
     (Motion, shade::moving_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
-    (Mis, follow::mis_matte_stage),
-    (Mis, follow::mis_phong_stage),
-    (Mis, follow::mis_blinn_phong_stage),
-    (Mis, follow::mis_metal_stage),
-    (Highlights, shade::blinn_phong_stage),
-    (Highlights, shade::phong_stage),
-    (RoughMetal, follow::metal_light_stage),
+], direct_light_of_bsdfs), Part(&[
     (DirectLight, shade::light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
@@ -164,17 +194,7 @@ const LIST: &[Part] = &[Part(&[
     (Unlit, shade::unlit_stage),
 
     // BSDFs are sampled to continue the path, or it is terminated.
-    (Glass, follow::start_media_stage),
-    (Glass, follow::absorb_stage),
-    (Glass, follow::glass_stage),
-    (SpecularReflection, follow::mirror_stage),
-    (Glass, follow::glass_sample_stage),
-    (LightTracing, follow::glass_light_stage),
-    (LightTracing, follow::matte_light_stage),
-    (PathContinuation, follow::matte_stage),
-    (PathContinuation, follow::phong_sample_stage),
-    (PathContinuation, follow::blinn_phong_sample_stage),
-    (RoughMetal, follow::metal_stage),
+], bsdf_samples), Part(&[
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
@@ -198,7 +218,7 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let all = LIST.iter().flat_map(|Part(stages, of_shapes)| stages.iter().copied().chain(of_shapes()));
+    let all = LIST.iter().flat_map(|Part(stages, of_each)| stages.iter().copied().chain(of_each()));
     let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }
@@ -306,9 +326,9 @@ pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
 
-/// Rough metal: its BSDF sampled, and evaluated for direct light.
-pub fn rough_metal() -> Vec<Stage> {
-    of(RoughMetal)
+/// Glossy materials such as rough metal: their BSDFs sampled, and evaluated for direct light.
+pub fn glossy_reflection() -> Vec<Stage> {
+    of(GlossyReflection)
 }
 
 /// Glass: reflection and refraction, and the light that it absorbs.

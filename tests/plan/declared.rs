@@ -115,7 +115,11 @@ fn systems_say_what_stages_touch() {
 
     let stage = point_light_stage();
     let [reads, reads_if, _, writes, ..] = touched(&stage);
-    assert_eq!((reads, reads_if), (vec!["surface", "material rows", "light"], vec!["shading"]), "a stage that appends");
+    assert_eq!(
+        (reads, reads_if),
+        (vec!["surface", "material rows", "light"], vec!["shading", "transmissive rows"]),
+        "a stage that appends"
+    );
     assert_eq!((writes, stage.appends), (vec!["light", "light pdf"], true));
 
     let stage = remaining_bounces_stage();

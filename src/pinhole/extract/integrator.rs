@@ -1,8 +1,7 @@
 use super::camera_entity::camera_of;
 use super::emissive::emissive_evidence;
-use super::material::material_evidence;
+use super::material::{glossy_evidence, material_evidence, specular_evidence};
 use super::sky::sky_evidence;
-use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Census, Evidence};
 use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
@@ -23,9 +22,9 @@ pub struct ChosenIntegrator {
 // ANCHOR: integrator_of
 /// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Rough metal, and other materials in the light of emitting surfaces or of a sky that is not black, need sampled
-/// points and directions, hence path tracing; mirrors and glass lit by lights without an area need none, hence
-/// Whitted's method; everything else is seen by ray casting.
+/// Glossy materials such as rough metal, and others in the light of emitting surfaces or of a sky that is not black,
+/// need sampled points and directions, hence path tracing; mirrors and glass lit by lights without an area need none,
+/// hence Whitted's method; everything else is seen by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
         if let Some((camera, integrator)) = named_integrator(scene) {
@@ -45,10 +44,10 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
 
 /// The same for a scene whose sky is black or that has no material to be lit by it.
 fn chosen_without_sky(scene: &Census<'_>) -> (Integrator, String) {
-    let metal = metal_evidence(scene);
+    let glossy = glossy_evidence(scene);
     let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
-    let specular = mirror_evidence(scene).or(glass_evidence(scene));
-    let by_bsdf = metal.or(emitters);
+    let specular = specular_evidence(scene);
+    let by_bsdf = glossy.or(emitters);
     if by_bsdf.needed {
         return (Integrator::PATH, by_bsdf.reason);
     }

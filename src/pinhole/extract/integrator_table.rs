@@ -1,7 +1,7 @@
 use super::camera_entity::camera_of;
 use super::check::{at_most_one, kind_and_name, positive_length};
-use super::glass::{GlassTable, glass_evidence};
 use super::integrator::integrator_of;
+use super::{GlassTable, glass_evidence};
 use crate::plan::{Census, Table};
 use crate::scene::{Integrator, LightStrategy, SceneError};
 use bevy_ecs::prelude::*;

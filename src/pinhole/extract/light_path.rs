@@ -1,8 +1,6 @@
 use super::area_light::light_distribution;
 use super::shape_kind::listed_kind;
-use super::{
-    AreaLightTable, MaterialKind, MaterialTable, NO_ROW, PointLightTable, ShapeTable, SpotLightTable, luminance,
-};
+use super::{AreaLightTable, MaterialTable, NO_ROW, PointLightTable, ShapeTable, SpotLightTable, luminance};
 use crate::plan::{Census, Table};
 use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
@@ -108,7 +106,7 @@ fn targets(scene: &Census<'_>) -> Result<Vec<Target>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_specular = |shape: &usize| match shapes.material[*shape] {
         NO_ROW => false,
-        material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
+        material => materials.kind[material as usize].is_specular(),
     };
     let mut found = Vec::new();
     for shape in (0..shapes.kind.len()).filter(is_specular) {

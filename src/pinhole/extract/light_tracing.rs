@@ -1,8 +1,7 @@
 use super::camera_entity::camera_of;
 use super::check::{at_most_one, kind_and_name, number};
 use super::{
-    ImageFrame, adaptive_of, area_light_evidence, glass_evidence, integrator_of, material_evidence, mirror_evidence,
-    motion_evidence,
+    ImageFrame, adaptive_of, area_light_evidence, integrator_of, material_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, ComponentKind, Evidence, Table};
 use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
@@ -72,11 +71,7 @@ pub fn traced_evidence(scene: &Census<'_>) -> Evidence {
     if !requested.needed {
         return requested;
     }
-    let specular = || {
-        let (mirrors, glass) = (mirror_evidence(scene), glass_evidence(scene));
-        mirrors.or(glass)
-    };
-    requested.and(specular).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
+    requested.and(|| specular_evidence(scene)).and(|| material_evidence(scene)).and(|| started_on_evidence(scene))
 }
 
 /// Evidence of a light on which light paths can start.

@@ -23,11 +23,9 @@
 mod adaptive;
 mod area_light;
 mod background;
-mod blinn_phong;
 mod camera;
 mod camera_entity;
 mod camera_join;
-mod check;
 mod closed_mesh;
 mod directional_light;
 mod emissive;
@@ -49,13 +47,9 @@ mod lens;
 mod light_path;
 mod light_tracing;
 mod material;
-mod material_kind;
-mod metal;
-mod mirror;
 mod motion;
 mod moving;
 mod on_camera;
-mod phong;
 mod pixel_steps;
 mod point_light;
 mod pose;
@@ -77,7 +71,6 @@ mod velocity;
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
-pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
 pub use camera::{
     CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
     eye, half_extent, tan_half,
@@ -90,7 +83,7 @@ pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
 pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
 pub use fisheye::{ImageCircle, fisheye_evidence};
-pub use glass::{GlassTable, glass_evidence};
+pub use glass::GlassTable;
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::{Texels, read_exr};
@@ -105,13 +98,12 @@ pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, lens_evidence};
 pub use light_path::{LightPathTable, LightSource, MOST_TARGETS, Target};
 pub use light_tracing::{LightTracingTable, shadowed_point_evidence, started_on_evidence, traced_evidence};
-pub use material::{MaterialTable, material_evidence, matte_evidence};
-pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
-pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
-pub use mirror::{MirrorTable, mirror_evidence};
+pub use material::{
+    bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,
+    material_kind_evidence, matte_evidence, specular_evidence,
+};
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
-pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use point_light::PointLightTable;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
@@ -137,6 +129,8 @@ pub use uv_slope::UvSlopes;
 pub use uv_space::UvSpaceTable;
 pub use velocity::{moves_while_open, velocity_of};
 
+use crate::check;
+pub use crate::material::{MaterialKind, MaterialTable, NO_ROW};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
 

@@ -1,5 +1,5 @@
-use super::{cosine_direction, frame_of};
 use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
+use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};

@@ -5,8 +5,7 @@ use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, wh
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
-    glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence, shadowed_point_evidence, shape_name,
-    traced_evidence,
+    integrator_of, light_sampling_evidence, shadowed_point_evidence, shape_name, specular_evidence, traced_evidence,
 };
 use crate::plan::{Census, Evidence, ExtractedTable, Plan};
 use crate::scene::{DirectionalLight, Environment, Integrator};
@@ -157,7 +156,7 @@ fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
 
 /// The paths of light that the integrator cannot sample in this scene at all.
 fn missing_paths(scene: &Census<'_>) -> Vec<String> {
-    let (points, bends) = (point_evidence(scene), glass_evidence(scene).or(mirror_evidence(scene)));
+    let (points, bends) = (point_evidence(scene), specular_evidence(scene));
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }

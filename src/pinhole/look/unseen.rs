@@ -1,8 +1,6 @@
 //! Light and materials that the camera's integrator leaves out, and the integrator that includes them.
 
-use crate::extract::{
-    emissive_evidence, glass_evidence, integrator_of, matte_evidence, metal_evidence, mirror_evidence,
-};
+use crate::extract::{emissive_evidence, glossy_evidence, integrator_of, matte_evidence, specular_evidence};
 use crate::plan::Census;
 use crate::scene::Integrator;
 use crate::shade::point_evidence;
@@ -10,8 +8,8 @@ use crate::shade::point_evidence;
 /// A sentence for each kind of light or material in the scene that its integrator does not render.
 pub fn unseen(scene: &Census<'_>) -> Vec<String> {
     let (material, emitters) = (matte_evidence(scene), emissive_evidence(scene));
-    let (specular, metal) = (mirror_evidence(scene).or(glass_evidence(scene)), metal_evidence(scene));
-    let lit_by_area = emitters.needed && (material.needed || metal.needed);
+    let (specular, glossy) = (specular_evidence(scene), glossy_evidence(scene));
+    let lit_by_area = emitters.needed && (material.needed || glossy.needed);
     let mut warnings = Vec::new();
     match integrator_of(scene).integrator {
         Integrator::RayCasting => {
@@ -30,11 +28,11 @@ pub fn unseen(scene: &Census<'_>) -> Vec<String> {
             }
         }
         Integrator::Whitted { .. } => {
-            if metal.needed {
+            if glossy.needed {
                 warnings.push(format!(
-                    "Whitted's method shows only lights without an area in rough metal ({}); Integrator::Path \
+                    "Whitted's method shows only lights without an area on glossy surfaces ({}); Integrator::Path \
                      shows the rest",
-                    metal.reason
+                    glossy.reason
                 ));
             }
             if lit_by_area {
@@ -45,7 +43,7 @@ pub fn unseen(scene: &Census<'_>) -> Vec<String> {
             }
         }
         Integrator::AmbientOcclusion { .. } => {
-            let all = specular.or(metal);
+            let all = specular.or(glossy);
             if all.needed {
                 warnings.push(format!(
                     "ambient occlusion renders mirrors, glass and metal like all other surfaces ({}); Integrator::Path \

@@ -1,5 +1,6 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, ShadowRay, append_rays, cosine_of};
+use super::light::{ShadowRay, cosine_of};
+use super::receivers::{LightRay, LightRows, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{DirectionalLightTable, material_evidence, unless_occlusion};
 use crate::intersect::Surface;
@@ -27,8 +28,8 @@ fn shadow_ray_along(surface: &Surface, normal: DVec3, to_light: DVec3) -> Shadow
 
 /// Appends shadow rays to directional lights, light after light; they have no end.
 pub fn sample_directional_lights(lights: Res<Shared<DirectionalLightTable>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for (light, &irradiance) in lights.irradiance.iter().enumerate() {
             append_rays(
                 &receivers,

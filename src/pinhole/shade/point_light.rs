@@ -1,5 +1,6 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, RayLists, append_rays, shadow_ray_to, shadow_t_max};
+use super::light::{shadow_ray_to, shadow_t_max};
+use super::receivers::{LightRay, LightRows, RayLists, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{PointLightTable, material_evidence, unless_occlusion};
 use crate::plan::{Evidence, Shared, Stage, TileSystems};
@@ -20,8 +21,8 @@ pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared:
 
 /// Appends shadow rays to point lights, light after light.
 pub fn sample_point_lights(lights: Res<Shared<PointLightTable>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for light in 0..lights.position.len() {
             sample_rows(&receivers, &lights, light, (&mut rays, pdfs.as_deref_mut()));
         }

@@ -1,4 +1,5 @@
-use super::light::{LightRay, LightRows, append_rays, shadow_ray_to, shadow_t_max};
+use super::light::{shadow_ray_to, shadow_t_max};
+use super::receivers::{LightRay, LightRows, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use super::{LightRays, irradiance_from_point};
 use crate::extract::{SpotLightTable, material_evidence, unless_occlusion};
@@ -37,8 +38,8 @@ pub fn spot_falloff(versine: f64, inner: f64, outer: f64) -> f64 {
 
 /// Appends shadow rays to spot lights, light after light; a surface outside the cone gets none.
 pub fn sample_spot_lights(lights: Res<Shared<SpotLightTable>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for (light, &position) in lights.position.iter().enumerate() {
             let (axis, inner, outer) = (lights.axis[light], lights.inner[light], lights.outer[light]);
             append_rays(

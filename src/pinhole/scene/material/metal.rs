@@ -1,4 +1,4 @@
-use super::Rgb;
+use crate::scene::Rgb;
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -1,12 +1,3 @@
-//! The part that the materials with highlights have in common.
-
-use super::{LightRays, Radiance, ShadowHits};
-use crate::extract::{MaterialKind, MaterialTable};
-use crate::intersect::{NO_SHAPE, ShadingNormals, Surfaces};
-use crate::plan::Column;
-use crate::rays::WorldRays;
-use glam::DVec3;
-
 // ANCHOR: highlight
 /// The BRDF of a highlight, a lobe of N cosⁿ of the angle from its axis, in 1/sr.
 ///
@@ -17,53 +8,12 @@ pub fn highlight(peak: f64, exponent: f64, cosine: f64) -> f64 {
 }
 // ANCHOR_END: highlight
 
-/// The columns of a tile from which highlights are computed.
-pub(super) struct HighlightRow<'a> {
-    pub eye: &'a WorldRays,
-    pub surfaces: &'a Surfaces,
-    pub shading: Option<&'a ShadingNormals>,
-    pub light: &'a LightRays,
-    pub shadow: Option<&'a ShadowHits>,
-}
-
-impl HighlightRow<'_> {
-    /// Adds the highlights of one kind of material, for each shadow ray that is not blocked.
-    ///
-    /// `brdf` gets the row of the kind's table, the normal, the direction to the light and the direction to the eye,
-    /// and returns the BRDF in 1/sr.
-    #[inline(always)]
-    pub fn add_highlights(
-        &self,
-        materials: &MaterialTable,
-        kind: MaterialKind,
-        radiance: &mut Radiance,
-        brdf: impl Fn(usize, [DVec3; 3]) -> [f64; 3],
-    ) {
-        for ray in 0..self.light.rows() {
-            let path = self.light.path[ray] as usize;
-            let surface = self.surfaces.get(path);
-            let material = surface.material as usize;
-            if materials.kind[material] != kind || self.shadow.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
-                continue;
-            }
-            let [to_light, to_eye] = [self.light.direction_of(ray), -self.eye.direction_of(path)];
-            let normal = self.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(path));
-            let brdf = brdf(materials.row[material] as usize, [normal, to_light, to_eye]);
-            let irradiance = self.light.irradiance(ray);
-            let [r, g, b] = [0, 1, 2].map(|part| (brdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
-            radiance.r[path] += r;
-            radiance.g[path] += g;
-            radiance.b[path] += b;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::extract::{blinn_phong_peak, phong_peak};
+    use crate::material::{blinn_phong_peak, half_vector_cosine, mirror_cosine, phong_peak};
     use crate::measure::ray_aim::Draws;
-    use crate::shade::{half_vector_cosine, mirror_cosine};
+    use glam::DVec3;
 
     /// The BRDF stays the same when light and eye are exchanged.
     #[test]

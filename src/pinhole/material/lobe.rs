@@ -1,15 +1,14 @@
-use super::{cosine_direction, cosine_pdf, frame_of, mirror_direction};
-use crate::extract::{BlinnPhongTable, MaterialKind, PhongTable};
+use super::{BsdfSample, cosine_direction, cosine_pdf, frame_of};
 use crate::plan::Table;
-use crate::shade::{half_vector_cosine, highlight, mirror_cosine};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, TAU};
+
+/// The diffuse albedo, specular albedo and exponent of the materials with highlights that tests render.
+pub(super) const HIGHLIGHTS: &[[f64; 3]] = &[[0.4, 0.3, 12.0], [0.05, 0.9, 100.0], [0.0, 1.0, 0.0]];
 
 /// The specular lobe of a material that has one beside its diffuse reflection; directions are unit vectors in the
 /// frame of the surface, whose normal is +z.
 pub trait Lobe: Table {
-    /// The kind of the material.
-    const KIND: MaterialKind;
     /// The specular albedo of a row: red, green, blue.
     fn specular(&self, row: usize) -> [f64; 3];
     /// The lobe of a row without its albedo, in 1/sr.
@@ -25,68 +24,13 @@ pub trait Lobe: Table {
 ///
 /// For a large exponent cos = u^(1/(n+1)) is so close to 1 that 1 − cos² would cancel, so it comes from `expm1`.
 #[inline(always)]
-fn lobe_direction(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DVec3 {
+pub(super) fn lobe_direction(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DVec3 {
     let log = libm::log(u) / (exponent + 1.0);
     let (cosine, sine) = (libm::exp(log), (-libm::expm1(2.0 * log)).sqrt());
     let (y, x) = libm::sincos(TAU * v);
     frame_of(axis) * DVec3::new(x * sine, y * sine, cosine)
 }
 // ANCHOR_END: lobe_direction
-
-impl Lobe for PhongTable {
-    const KIND: MaterialKind = MaterialKind::Phong;
-
-    #[inline(always)]
-    fn specular(&self, row: usize) -> [f64; 3] {
-        self.specular[row]
-    }
-
-    #[inline(always)]
-    fn value(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight(self.peak[row], self.exponent[row], mirror_cosine(DVec3::Z, to_light, to_eye))
-    }
-
-    #[inline(always)]
-    fn pdf(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let exponent = self.exponent[row];
-        highlight((exponent + 1.0) / TAU, exponent, mirror_cosine(DVec3::Z, to_light, to_eye))
-    }
-
-    #[inline(always)]
-    fn sample(&self, row: usize, to_eye: DVec3, numbers: [f64; 2]) -> DVec3 {
-        lobe_direction(DVec3::new(-to_eye.x, -to_eye.y, to_eye.z), self.exponent[row], numbers)
-    }
-}
-
-impl Lobe for BlinnPhongTable {
-    const KIND: MaterialKind = MaterialKind::BlinnPhong;
-
-    #[inline(always)]
-    fn specular(&self, row: usize) -> [f64; 3] {
-        self.specular[row]
-    }
-
-    #[inline(always)]
-    fn value(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight(self.peak[row], self.exponent[row], half_vector_cosine(DVec3::Z, to_light, to_eye))
-    }
-
-    /// Reflection at the half vector h spreads the pdf of h over 4 (ωₒ · h) times the solid angle.
-    #[inline(always)]
-    fn pdf(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let exponent = self.exponent[row];
-        let facing = to_eye.dot((to_light + to_eye).normalize_or_zero());
-        let of_half = highlight((exponent + 1.0) / TAU, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye));
-        if facing > 0.0 { of_half / (4.0 * facing) } else { 0.0 }
-    }
-
-    #[inline(always)]
-    fn sample(&self, row: usize, to_eye: DVec3, numbers: [f64; 2]) -> DVec3 {
-        let half = lobe_direction(DVec3::Z, self.exponent[row], numbers);
-        // A half vector that faces away from the eye is none of any pair of directions.
-        if to_eye.dot(half) > 0.0 { mirror_direction(-to_eye, half) } else { -DVec3::Z }
-    }
-}
 
 /// A material of diffuse reflection and a specular lobe, in the frame of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -121,24 +65,23 @@ impl<'a, L: Lobe> Highlight<'a, L> {
         self.of_lobe * of_lobe + (1.0 - self.of_lobe) * cosine_pdf(to_light.z)
     }
 
-    /// Samples a direction to the light: the direction, its pdf, and BRDF · cosine / pdf; none where it leads below the
-    /// surface.
+    /// Samples a direction to the light; none where it leads below the surface.
     ///
     /// `choice`, a number in [0, 1), selects the specular lobe or the diffuse one.
     #[inline(always)]
-    pub fn sample(&self, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<(DVec3, f64, [f64; 3])> {
+    pub fn sample(&self, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
         let specular = choice < self.of_lobe;
         let to_light = if specular { self.lobes.sample(self.row, to_eye, numbers) } else { cosine_direction(numbers) };
         let pdf = self.pdf(to_light, to_eye);
-        let weights = self.brdf(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
-        (to_light.z > 0.0 && pdf > 0.0).then_some((to_light, pdf, weights))
+        let weight = self.brdf(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        (to_light.z > 0.0 && pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::extract::{blinn_phong_peak, phong_peak};
+    use crate::material::{BlinnPhongTable, PhongTable, blinn_phong_peak, phong_peak};
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::ray_aim::Draws;
     use std::f64::consts::PI;
@@ -200,9 +143,9 @@ mod tests {
         for index in 0..SAMPLES {
             let mut draws = Draws::new(seed, index);
             let sampled = material.sample(eye, [draws.unit(), draws.unit()], draws.unit());
-            let weight = sampled.map_or(0.0, |(_, _, weights)| weights[0]);
+            let weight = sampled.map_or(0.0, |sampled| sampled.weight[0]);
             (sum, squares) = (sum + weight, squares + weight * weight);
-            bins.count(sampled.map_or(RINGS * SECTORS, |(light, _, _)| {
+            bins.count(sampled.map_or(RINGS * SECTORS, |BsdfSample { to_light: light, .. }| {
                 let turn = libm::atan2(light.y, light.x) / TAU;
                 let sector = ((turn - turn.floor()) * SECTORS as f64) as usize;
                 ((light.z * RINGS as f64) as usize).min(RINGS - 1) * SECTORS + sector.min(SECTORS - 1)
@@ -238,9 +181,9 @@ mod tests {
         const LAST: f64 = 1.0 - 1.0 / (1 << 24) as f64;
         let corners = [0.0, 1.0 / (1 << 24) as f64, 0.5, LAST];
         let mut tried = 0;
-        let mut check = |sampled: Option<(DVec3, f64, [f64; 3])>, what: &str| {
+        let mut check = |sampled: Option<BsdfSample>, what: &str| {
             tried += 1;
-            if let Some((light, pdf, weights)) = sampled {
+            if let Some(BsdfSample { to_light: light, pdf, weight: weights }) = sampled {
                 assert!(
                     light.z > 0.0 && (light.length() - 1.0).abs() < 1e-12 && pdf.is_finite(),
                     "{what}: {light} {pdf}"
