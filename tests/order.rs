@@ -13,6 +13,7 @@ const ORDER: &[(&str, &[&str])] = &[
         &[
             "scene",
             "plan",
+            "cameras",
             "shapes",
             "extract",
             "sample",

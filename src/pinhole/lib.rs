@@ -47,22 +47,26 @@
 //!
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
-//! 3. [`shapes`]: what a shape is, and the mathematics of each.
-//! 4. [`extract`]: entities → tables, as structures of arrays.
-//! 5. [`sample`]: samplers, random numbers and reconstruction filters.
-//! 6. [`rays`]: raster → NDC → screen → camera → world.
-//! 7. [`intersect`]: rays → the closest hit and its surface.
-//! 8. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 9. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 10. [`film`]: radiance → pixels → files.
-//! 11. [`render`]: the loop over tiles.
-//! 12. [`look`]: traces, views and statistics.
-//! 13. [`stages`]: all stages, in the order of the data.
-//! 14. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 3. [`cameras`]: what a camera is, and the mathematics of each.
+//! 4. [`shapes`]: what a shape is, and the mathematics of each.
+//! 5. [`extract`]: entities → tables, as structures of arrays.
+//! 6. [`sample`]: samplers, random numbers and reconstruction filters.
+//! 7. [`rays`]: raster → NDC → screen → camera → world.
+//! 8. [`intersect`]: rays → the closest hit and its surface.
+//! 9. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 10. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 11. [`film`]: radiance → pixels → files.
+//! 12. [`render`]: the loop over tiles.
+//! 13. [`look`]: traces, views and statistics.
+//! 14. [`stages`]: all stages, in the order of the data.
+//! 15. [`prelude`]: what a scene or a stage of one's own begins with.
 
 pub mod scene;
 
 pub mod plan;
+
+#[doc(hidden)]
+pub mod cameras;
 
 #[doc(hidden)]
 pub mod shapes;
