@@ -7,6 +7,7 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::cameras::in_image_circle;
 use pinhole::extract::{ImageCircle, ImageFrame, half_extent};
+use pinhole::film::{Film, write_exr};
 use pinhole::plan::{Census, Column, Table};
 use pinhole::rays::{
     CameraRays, RasterPoints, camera_ray_equirectangular, camera_ray_fisheye, ndc_from_raster,
@@ -228,6 +229,27 @@ fn an_environment_seen_all_round_is_its_image() {
     }
     assert!(worst < 1e-15, "{worst}");
     eprintln!("environments: the camera's directions are the image's to {worst:.1e}");
+    // An image of as many pixels, no two of them alike: each is looked up at its texel's centre.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("all.exr");
+    let colour = |x: u32, y: u32| [x as f32 / 64.0, y as f32 / 32.0, ((x * 7 + y * 13) % 32) as f32 / 8.0];
+    let mut image = Film::new(64, 32, 64);
+    for (x, y) in (0..32).flat_map(|y| (0..64).map(move |x| (x, y))) {
+        image.tiles[0].add((y * 64 + x) as usize, colour(x, y));
+    }
+    write_exr(&image, &path).expect("written");
+    let mut world = World::new();
+    world.spawn((EquirectangularCamera, Placement::default(), Resolution { width: 64, height: 32 }));
+    let file = path.to_string_lossy().into_owned();
+    world.spawn(Environment { file, turn: Degrees(0.0), scale: 2.0 });
+    let film = render(&world, &offer(), &one_world(), &()).expect("renders").film;
+    let mut worst = 0.0_f32;
+    for (x, y) in (0..32).flat_map(|y| (0..64).map(move |x| (x, y))) {
+        let (shown, texel) = (film.mean(x, y), colour(x, y));
+        (0..3).for_each(|part| worst = worst.max((shown[part] - 2.0 * texel[part]).abs()));
+    }
+    assert!(worst < 1e-4, "{worst}");
+    eprintln!("environments: 2048 pixels show their texel to {worst:.1e}");
 }
 
 /// Refused, and not.

@@ -130,3 +130,48 @@ fn more_light_than_a_picture_holds_is_its_largest_number() {
     assert_eq!((values, largest), (36, 6 + 1 + 12), "red, one green, and two variances");
     eprintln!("bright: {values} numbers of a file, {largest} of them as large as there are");
 }
+
+/// The variance that a film states of a pixel's mean, against the variance of that mean over many films: samples of a
+/// known spread, some of which count negatively, as a filter with negative lobes has them.
+#[test]
+fn stated_variances_are_those_of_many_films() {
+    const FILMS: u32 = 40_000;
+    let mut tried = 0;
+    for (samples, negative) in [(16, 0.0), (64, 0.0), (16, 0.05), (64, 0.1), (256, 0.1)] {
+        let (mut sum, mut squares, mut stated, mut of_sample) = (0.0, 0.0, 0.0, 0.0);
+        for number in 0..FILMS {
+            let mut film = Film::new(1, 1, 1);
+            film.moments = vec![FilmMoments::new(1)];
+            for sample in 0..samples {
+                let uniform = |salt: u64| {
+                    let pixel = [number, sample];
+                    pinhole::sample::uniform(40 + salt, pixel, 0, pinhole::sample::Purpose::Pixel)
+                };
+                let radiance = [(2.0 + uniform(0)) as f32; 3];
+                film.moments[0].add(&film.tiles[0], 0, radiance);
+                if uniform(1) < negative {
+                    film.tiles[0].add_negative(0, radiance);
+                } else {
+                    film.tiles[0].add(0, radiance);
+                }
+            }
+            let mean = film.tiles[0].shown_f64(0)[0] - 2.5;
+            sum += mean;
+            squares += mean * mean;
+            stated += film.variance_of_mean(0, 0)[0];
+            of_sample += film.moments[0].variance(&film.tiles[0], 0)[0] / f64::from(samples);
+        }
+        let films = f64::from(FILMS);
+        let variance = squares / films - (sum / films) * (sum / films);
+        let [stated, of_sample] = [stated, of_sample].map(|stated| stated / films / variance);
+        eprintln!(
+            "{samples} samples, {negative} of them negative: stated {stated:.3} and, by a sample's, {of_sample:.3} of \
+             the true variance"
+        );
+        // A variance of so many means is known to 0.7 %.
+        assert!((stated - 1.0).abs() < 0.04, "{samples} samples, {negative} negative: stated {stated} of the truth");
+        assert!((of_sample - 1.0).abs() < 0.04, "{samples} samples, {negative} negative: {of_sample} of the truth");
+        tried += FILMS;
+    }
+    eprintln!("variances: {tried} films");
+}

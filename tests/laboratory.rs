@@ -8,5 +8,6 @@ mod entity_per_ray;
 mod exercises;
 mod extremes;
 mod figures;
+mod mutations;
 mod report;
 mod reports;

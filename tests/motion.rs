@@ -6,7 +6,7 @@ use crate::scenes;
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::film::Film;
-use pinhole::intersect::Hits;
+use pinhole::intersect::{Hits, Surfaces};
 use pinhole::plan::{Census, Column, plan};
 use pinhole::rays::{RayTimes, WorldRays};
 use pinhole::render::{inspect, prepare, render};
@@ -137,12 +137,17 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
     for mover in [Mover::Ball, Mover::Coin, Mover::Mat] {
         let velocity = DVec3::new(1.3, -0.7, 2.1);
         let world = before_parallel_rays(mover, [-0.5, 0.2], 0.7, sampled(1, Sampler::Sobol));
-        let world = moving(world, "thing", velocity, 0.25, 1.0);
+        let mut world = moving(world, "thing", velocity, 0.25, 1.0);
+        // So that there is a surface.
+        let thing = named(&mut world, "thing");
+        world.entity_mut(thing).remove::<Emissive>().insert(Matte::default());
+        world.spawn((PointLight::default(), Placement::at(0.0, 0.0, 5.0)));
         let inspection = inspect(&world, &offer(), 32).expect("inspects");
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);
             let times = tile.get::<RayTimes>().expect("times");
             let (rays, found) = (tile.get::<WorldRays>().expect("rays"), tile.get::<Hits>().expect("hits"));
+            let surfaces = tile.get::<Surfaces>().expect("surfaces");
             for row in 0..rays.rows() {
                 assert!((0.0..0.75).contains(&times.time[row]));
                 let time = 0.25 + times.time[row];
@@ -163,6 +168,13 @@ fn each_ray_hits_it_where_it_is_at_its_time() {
                 assert_eq!(found.t[row].is_finite(), expected.is_finite(), "{mover:?} row {row}");
                 if expected.is_finite() {
                     worst = worst.max((found.t[row] - expected).abs() / expected);
+                    let normal = match mover {
+                        Mover::Ball => (origin + expected * direction - centre) / 0.7,
+                        _ => DVec3::Z,
+                    };
+                    // At a silhouette t is known worse, and the normal with it.
+                    let turned = (surfaces.get(row).normal.as_dvec3() - normal).length() * normal.z;
+                    assert!(turned < 1e-5, "{mover:?} row {row}: a normal of {turned}, which is not {normal}");
                     hits += 1;
                 }
                 tried += 1;
@@ -248,8 +260,9 @@ fn parents_take_their_children_along() {
     let sampling = sampled(64, Sampler::Sobol);
     let alone = before_parallel_rays(Mover::Ball, [-0.4, 0.2], 0.5, sampling);
     let alone = moving(alone, "thing", DVec3::new(0.5, -0.25, 0.125), 0.0, 1.0);
-    let mut child = before_parallel_rays(Mover::Ball, [-0.4, 0.2], 0.5, sampling);
-    let orientation = DQuat::from_rotation_z(0.0);
+    let mut child = before_parallel_rays(Mover::Ball, [0.4, -0.2], 0.5, sampling);
+    // Half a turn about z, which is exact: the child is placed the other way round, and moves as it would without.
+    let orientation = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     let group = (Placement { orientation, ..Placement::default() }, Motion { velocity: DVec3::new(0.25, 0.0, 0.125) });
     let group = child.spawn((Name::new("group"), group)).id();
     let child = {

@@ -13,6 +13,8 @@ mod order;
 mod plan;
 mod sampling;
 mod scenes;
+mod shapes;
 mod stages;
 mod textures;
+mod ties;
 mod words;

@@ -174,6 +174,45 @@ fn means_vary_as_theory_says_and_are_unbiased() {
     eprintln!("means: no net varies more than {dearest:.2} times as much as dice");
 }
 
+/// Bounces are independent of each other: (u − ½)(v − ½) of one number each from two bounces has the mean 0, and its mean
+/// over n samples the variance 1/144n, whatever order a sampler takes its points in.
+#[test]
+fn bounces_are_independent() {
+    const SAMPLES: u32 = 64;
+    const PIXELS: u32 = 1500;
+    let (mut tried, mut greatest, mut sum) = (0, 0.0_f64, 0.0);
+    for (one, other) in [(0, 1), (1, 2), (1, 3), (2, 3), (2, 7)] {
+        for purpose in Purpose::ALL {
+            for (word, sampler) in Sampler::ALL {
+                let number = |number: u32, depth: u32, key: PixelKey| {
+                    let index = SampleIndex { number, samples: SAMPLES, depth };
+                    with_sampler!(sampler, D => D::of(index, purpose).one(key))
+                };
+                let mean_of = |pixel: u32| {
+                    let key = PixelKey::new(29, [pixel, 3]);
+                    let product =
+                        |sample| (unit(number(sample, one, key)) - 0.5) * (unit(number(sample, other, key)) - 0.5);
+                    (0..SAMPLES).map(product).sum::<f64>() / f64::from(SAMPLES)
+                };
+                let means: Vec<f64> = (0..PIXELS).map(mean_of).collect();
+                let variance = means.iter().map(|mean| mean * mean).sum::<f64>() / f64::from(PIXELS);
+                let relative = variance * 144.0 * f64::from(SAMPLES);
+                let mean = means.iter().sum::<f64>() / f64::from(PIXELS);
+                let off = mean / (variance / f64::from(PIXELS)).sqrt();
+                let told = format!("{word}, {purpose:?}, bounces {one} and {other}: {relative:.3} times, {off:+.1} SE");
+                // Were the points of two bounces in one order, this would be 36 or more.
+                assert!(relative < 16.0 && off.abs() < 4.5, "{told}");
+                sum += relative;
+                greatest = greatest.max(relative);
+                tried += 1;
+            }
+        }
+    }
+    let mean = sum / f64::from(tried);
+    eprintln!("bounces: {tried} pairs, {mean:.2} times the variance of independent numbers, {greatest:.2} at most");
+    assert!(mean < 1.6, "{mean} times");
+}
+
 /// The slope of the variance: −1 by dice, −2 with one sample a cell, steeper with Owen's scrambling where it is smooth.
 #[test]
 fn slopes_are_those_of_theory() {

@@ -82,6 +82,53 @@ fn a_step_ends_where_the_neighbour_s_point_is() {
     assert!(worst < 0.003, "{worst}");
 }
 
+/// Wide cameras have no image plane whose pixels could be followed, so a footprint is as large as what the pixel's
+/// neighbours span, however it lies.
+#[test]
+fn a_footprint_of_a_wide_camera_is_as_large_as_its_pixel() {
+    let (mut tried, mut worst) = (0, 0.0_f64);
+    for (fisheye, by) in
+        [true, false].into_iter().flat_map(|fisheye| [(fisheye, TextureBy::Uv), (fisheye, TextureBy::Space)])
+    {
+        for number in [2, 4] {
+            for distance in [1.0, 2.5] {
+                let mut world = World::new();
+                let at = DVec3::new(0.4, -0.1, 0.3);
+                let from = at + distance * DVec3::new(1.1, 2.6, 2.7);
+                let look = LookAt { eye: from, target: at, up: DVec3::Y };
+                let (width, height) = if fisheye { (32, 32) } else { (720, 360) };
+                let mut camera = world.spawn((Name::new("camera"), look, Resolution { width, height }));
+                if fisheye {
+                    camera.insert(FisheyeCamera { fov: Degrees(1.0), axis: FovAxis::Smaller });
+                } else {
+                    camera.insert(EquirectangularCamera);
+                }
+                shape(&mut world, number, Checker { by, size: 0.25, ..Checker::default() });
+                let inspection = inspect(&world, &offer(), width).expect("inspects");
+                let tile = inspection.world.entity(inspection.tiles[0]);
+                let (points, hits) = (tile.get::<TexturePoints>().expect("points"), tile.get::<Hits>().expect("hits"));
+                // About the middle, where a pixel is as wide as it is high.
+                let (column, line) = (width as usize / 2, height as usize / 2);
+                for (x, y) in (line - 6..line + 6).flat_map(|y| (column - 6..column + 6).map(move |x| (x, y))) {
+                    let row = y * width as usize + x;
+                    let beside = [row, row + 1, row + width as usize];
+                    if beside.iter().any(|&row| hits.t[row] == f64::INFINITY) {
+                        continue;
+                    }
+                    let [here, right, down] = beside.map(|row| points.get(row).point);
+                    let area = (right - here).cross(down - here).length();
+                    let steps = points.get(row).steps;
+                    let off = (steps[0].cross(steps[1]).length() / area - 1.0).abs();
+                    worst = worst.max(off);
+                    tried += 1;
+                }
+            }
+        }
+    }
+    eprintln!("wide footprints: {tried} of them, the worst {worst:.4} larger or smaller than what neighbours span");
+    assert!(tried > 800 && worst < 0.1, "{tried}, {worst}");
+}
+
 /// A floor to the horizon, all of whose light is its texture's.
 fn floor(checker: Checker, eye: DVec3, size: [u32; 2]) -> World {
     let mut world = World::new();

@@ -13,12 +13,12 @@ use super::subject::Subject;
 use super::summary::Summary;
 use super::warnings::warnings;
 use pinhole::Chapter;
-use pinhole::extract::{LayerTable, adaptive_of, camera_entity, validate};
+use pinhole::extract::{ChosenIntegrator, LayerTable, adaptive_of, camera_entity, integrator_of, validate};
 use pinhole::film::check_place;
 use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
-use pinhole::scene::Sampling;
+use pinhole::scene::{Integrator, Sampling};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE};
 use std::ffi::OsStr;
 use std::path::Path;
@@ -138,6 +138,7 @@ fn render_with(
     let stats = RenderStats::of(subject.name(), &rendered, execution.tile_side);
     let summary = Summary {
         stats: &stats,
+        integrator: chosen_integrator(census),
         outcome: outcome.as_ref(),
         samples,
         target: adaptive_of(census)?.map(|adaptive| adaptive.error),
@@ -154,6 +155,12 @@ fn render_with(
         write!(out, "{stats}")?;
     }
     summary.lines().iter().try_for_each(|line| Ok(writeln!(out, "{line}")?))
+}
+
+/// The integrator and its reason, where the camera names none and rays go beyond the first surface.
+fn chosen_integrator(scene: &Census<'_>) -> Option<String> {
+    let ChosenIntegrator { integrator, reason, is_named, .. } = integrator_of(scene);
+    (!is_named && integrator != Integrator::RayCasting).then(|| format!("{}: {reason}", integrator.in_words()))
 }
 
 /// Says what a reader should know before they wait; a program is told with the rest.

@@ -4,7 +4,7 @@ use super::interrupt::interrupted;
 use bevy_ecs::prelude::*;
 use pinhole::extract::{camera_entity, validate};
 use pinhole::plan::{Census, PlanError, Stage};
-use pinhole::scene::{FileProblem, SceneFile, View};
+use pinhole::scene::{FileProblem, SceneFile, View, in_words_of_files};
 use pinhole::{Chapter, Overrides, stages};
 use std::ffi::OsStr;
 use std::path::Path;
@@ -124,7 +124,7 @@ impl<'c> Subject<'c> {
             pinhole::Error::Plan(PlanError::NoSuchView { .. }) if asked.view.is_none() => file.place_of_word("view"),
             _ => return error.into(),
         };
-        FileProblem { path: file.path.clone(), place, what: error.to_string() }.into()
+        FileProblem { path: file.path.clone(), place, what: in_words_of_files(&error.to_string()) }.into()
     }
 }
 

@@ -18,6 +18,8 @@ const NAMED: usize = 3;
 pub struct Summary<'a> {
     /// What it cost.
     pub stats: &'a RenderStats,
+    /// The integrator and why it was chosen, where the camera names none and rays go beyond the first surface.
+    pub integrator: Option<String>,
     /// The samples, where it took several.
     pub outcome: Option<&'a Outcome>,
     /// How many samples a pixel it was to take.
@@ -56,6 +58,7 @@ impl Summary<'_> {
             0 => format!("{} stages ran, all that are on offer: {} lists them", stats.stages.len(), self.plan),
             left => format!("{} stages ran, {left} left out: {} says why", stats.stages.len(), self.plan),
         });
+        lines.extend(self.integrator.iter().map(|chosen| format!("no integrator is named, so {chosen}")));
         lines.extend(self.ended());
         lines.extend(
             self.next.iter().map(|next| format!("try next: {next}")).filter(|line| line.chars().count() <= WIDEST),
@@ -209,6 +212,7 @@ mod tests {
     fn summary<'a>(stats: &'a RenderStats, outcome: Option<&'a Outcome>) -> Summary<'a> {
         Summary {
             stats,
+            integrator: None,
             outcome,
             samples: 64,
             target: None,
@@ -249,6 +253,17 @@ mod tests {
         assert_eq!(lines[4], "the time is up: 12 of 64 samples a pixel in 0 ms");
         let told = "error 0.02 asked, 0.0213 measured; 12 of 129600 pixels are above it, 3 of them for want of samples";
         assert_eq!(lines[5], told);
+    }
+
+    #[test]
+    fn an_integrator_that_nobody_named_is_told() {
+        let integrator = Some("path tracing: light from the sky, 1 coloured background: \"sky\"".into());
+        let lines = Summary { integrator, ..summary(&stats(5), None) }.lines();
+        assert_eq!(
+            lines[3],
+            "no integrator is named, so path tracing: light from the sky, 1 coloured background: \"sky\""
+        );
+        assert_eq!(lines.len(), 5);
     }
 
     #[test]

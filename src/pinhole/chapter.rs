@@ -1,6 +1,6 @@
-use crate::extract::camera_entity;
+use crate::extract::{camera_entity, integrator_of};
 use crate::look::view_stage;
-use crate::plan::{Column, Stage};
+use crate::plan::{Census, Column, Stage};
 use crate::render::{Execution, Rendered, render};
 use crate::scene::{Adaptive, Filter, Layers, OPEN_END, Resolution, Sampler, Sampling, Statistics, View};
 use crate::{Result, stages};
@@ -94,12 +94,26 @@ impl Chapter {
     }
 
     /// The chapter's scene with the overrides applied to its camera.
+    ///
+    /// The sky illuminates what a path finds it from; in a chapter that offers no path continuation it is only seen,
+    /// and the camera of such a scene says so by naming its integrator.
     pub fn world(&self, overrides: &Overrides) -> World {
         let mut world = World::new();
         (self.scene)(&mut world);
+        if !stages::path_continuation().iter().any(|stage| self.offer.contains(stage)) {
+            name_integrator_without_sky(&mut world);
+        }
         let view = overrides.view.clone().or(self.view.map(String::from));
         Overrides { view, ..overrides.clone() }.put_on_camera(&mut world);
         world
+    }
+}
+
+/// Names the integrator that the scene would have in front of a black sky, where the sky alone makes the difference.
+fn name_integrator_without_sky(world: &mut World) {
+    let Some(integrator) = integrator_of(&Census::of(world)).without_sky else { return };
+    if let Ok(camera) = camera_entity(world) {
+        world.entity_mut(camera).insert(integrator);
     }
 }
 

@@ -60,7 +60,7 @@ pub const CAMERAS: &[Case] = &[
         let camera = named(w, "main");
         w.despawn(camera);
     }),
-    ("the only camera disabled", &["camera", "missing"], |w| put(w, "main", Disabled)),
+    ("the only camera disabled", &["camera is \"main\", which is disabled"], |w| put(w, "main", Disabled)),
     ("no samples", &["\"main\"", "samples", "is 0,", "1 to 16777216"], |w| {
         put(w, "main", Sampling { samples: 0, ..Sampling::default() });
     }),
@@ -141,7 +141,7 @@ pub const CAMERAS: &[Case] = &[
     ("a scaled camera", &["\"main\"", "scale", "(2, 2, 2)"], |w| {
         edit::<Placement>(w, "main", |p| p.scale = DVec3::splat(2.0));
     }),
-    ("a mirrored camera", &["\"main\"", "scale", "mirrored"], |w| {
+    ("a mirrored camera", &["\"main\"", "scale is (-1, 1, 1), which mirrors"], |w| {
         edit::<Placement>(w, "main", |p| p.scale = DVec3::new(-1.0, 1.0, 1.0));
     }),
     ("a camera scaled by its parent", &["\"main\"", "scale", "(1, 3, 1)"], |w| {
@@ -149,7 +149,7 @@ pub const CAMERAS: &[Case] = &[
         let parent = w.spawn(Placement { scale, ..Placement::default() }).id();
         child_of(w, "main", parent);
     }),
-    ("a camera mirrored by its parent", &["\"main\"", "scale", "mirrored"], |w| {
+    ("a camera mirrored by its parent", &["\"main\"'s parent", "scale is (-1, -1, -1), which mirrors"], |w| {
         let parent = w.spawn(Placement { scale: DVec3::splat(-1.0), ..Placement::default() }).id();
         child_of(w, "main", parent);
     }),
@@ -160,8 +160,11 @@ pub const CAMERAS: &[Case] = &[
 ];
 
 pub const SHAPES: &[Case] = &[
-    ("orientation not unit", &["\"ball\"", "orientation", "(0, 0, 0, 2)", "length 1"], |w| {
-        edit::<Placement>(w, "ball", |p| p.orientation = DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0));
+    ("orientation 0", &["\"ball\"", "orientation", "(0, 0, 0, 0)", "other than 0"], |w| {
+        edit::<Placement>(w, "ball", |p| p.orientation = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0));
+    }),
+    ("orientation about no axis", &["\"ball\"", "orientation", "NaN", "axis other than 0"], |w| {
+        edit::<Placement>(w, "ball", |p| p.orientation = axis_angle(DVec3::ZERO, Degrees(30.0)));
     }),
     ("scale 0", &["\"floor\"", "scale", "(1, 0, 1)"], |w| {
         edit::<Placement>(w, "floor", |p| p.scale = DVec3::new(1.0, 0.0, 1.0));

@@ -49,7 +49,7 @@ const UNLIT: &str = r#"[
 ]"#;
 
 const LIT: &str = r#"[
-    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64)),
+    (perspective_camera: (fov: 40), integrator: RayCasting, placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64)),
     (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
     (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), matte: (colour: (0.2, 0.7, 0.3))),
     (plane: (), matte: (colour: (0.5, 0.5, 0.5))),
@@ -58,7 +58,7 @@ const LIT: &str = r#"[
 ]"#;
 
 const SAMPLED: &str = r#"[
-    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
+    (perspective_camera: (fov: 40), integrator: RayCasting, placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
         sampling: (samples: 4)),
     (sphere: (radius: 1), placement: (position: (-1, 1, 0)), matte: (colour: (0.9, 0.7, 0.3))),
     (sphere: (radius: 0.6), placement: (position: (1, 0.6, 0.5)), matte: (colour: (0.2, 0.7, 0.3))),
@@ -69,7 +69,7 @@ const SAMPLED: &str = r#"[
 
 /// One of two or more of what each chapter brings: the others must cost nothing.
 const VARIED: &str = r#"[
-    (perspective_camera: (fov: 40), placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
+    (perspective_camera: (fov: 40), integrator: RayCasting, placement: (position: (0, 1, 6)), resolution: (width: 96, height: 64),
         sampling: (samples: 4, filter: Tent(radius: 1))),
     (disk: (radius: 1.2), placement: (position: (-1, 0.5, 0)), phong: (colour: (0.5, 0.4, 0.2))),
     (cuboid: (size: (1, 1.2, 1)), placement: (position: (1, 0.6, 0)), matte: (),

@@ -221,9 +221,15 @@ fn both_strategies_know_one_pdf() {
             let from = Vec3::new(rays.ox[ray], rays.oy[ray], rays.oz[ray]).as_dvec3();
             let direction = rays.direction_of(ray);
             let at = from + direction * f64::from(rays.t_max[ray]);
-            let told = |light| area_light_pdf(&lights, light, from, at);
-            let nearest = (0..lights.emitter.len()).map(|light| (told(light) / pdfs.pdf[ray] - 1.0).abs());
-            let off = nearest.fold(f64::INFINITY, f64::min);
+            // The light that the ray ends on, by its shape and not by its pdf.
+            let distance = |light: &usize| match &lights.emitter[*light] {
+                Emitter::Sphere { centre, radius } => (at.distance(*centre) - radius).abs(),
+                Emitter::Rectangle(planar) => planar.normal.dot(at - planar.centre).abs(),
+                _ => 0.0,
+            };
+            let nearest = (0..lights.emitter.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let light = nearest.expect("a light");
+            let off = (area_light_pdf(&lights, light, from, at) / pdfs.pdf[ray] - 1.0).abs();
             // The direction is rounded to f32 in between, which at a disk's ends, where its pdf grows without end,
             // is much; from afar a pdf goes with the square of the distance, and t_max ends short of the light.
             // Where a planar light is seen obliquely, the rounding counts by one over the cosine more.

@@ -68,3 +68,35 @@ fn only_glass_that_nests_deeply_has_the_deeper_column() {
     assert_eq!(has(&shells(5, 0.0, &ball)), [true, true]);
     assert_eq!(has(&shells(12, 1.0, &apart)), [true, false], "they absorb, but lie apart");
 }
+
+/// A double pyramid of glass triangles, without one of them or whole.
+fn gem(missing: Option<u32>) -> World {
+    let mut world = shells(0, 0.0, &|world, _| world.spawn_empty().id());
+    let glass = world.spawn((Name::new("glass"), Glass::default())).id();
+    for octant in (0..8).filter(|octant| Some(*octant) != missing) {
+        let side = |bit: u32| if octant >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let [a, b, c] = [DVec3::X * side(0), DVec3::Y * side(1), DVec3::Z * side(2)];
+        let outward = side(0) * side(1) * side(2) > 0.0;
+        let vertices = if outward { [a, b, c] } else { [a, c, b] };
+        world.spawn((
+            Name::new(format!("face {octant}")),
+            Triangle { vertices, ..Triangle::default() },
+            UsesMaterial(glass),
+        ));
+    }
+    world
+}
+
+/// A closed mesh of glass hands an even sky on; with a face missing it has no interior, and is refused for each of them.
+#[test]
+fn a_mesh_of_glass_is_closed_or_refused() {
+    let film = render(&gem(None), &offer(), &Execution::default(), &()).expect("renders").film;
+    let brightest = (0..24 * 16).map(|at| film.mean(at % 24, at / 24)[1]).fold(0.0, f32::max);
+    assert!((brightest - 1.0).abs() < 1e-5, "{brightest}");
+    for missing in 0..8 {
+        let told = render(&gem(Some(missing)), &offer(), &Execution::default(), &()).map(|_| ());
+        let told = told.expect_err("refused").to_string();
+        assert!(["triangle \"face ", "material", "\"glass\"", "interior"].iter().all(|w| told.contains(w)), "{told}");
+    }
+    eprintln!("glass meshes: one closed and as bright as the sky, 8 with a hole refused");
+}

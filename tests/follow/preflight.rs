@@ -202,3 +202,93 @@ fn a_material_that_no_stage_samples_is_refused() {
         assert!(prepare(&Census::of(&world), &chapter(false).stages()).is_ok(), "{word}, by ray casting");
     }
 }
+
+/// A floor under a light that paths sample, by this integrator.
+fn under(integrator: impl Bundle, light: impl Fn(&mut World)) -> Vec<String> {
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::new(0.0, 2.0, 6.0), ..LookAt::default() };
+    world.spawn((Name::new("camera"), PerspectiveCamera::default(), look, integrator));
+    world.spawn((Name::new("floor"), Plane::default(), Matte::default(), Placement::at(0.0, -20.0, 0.0)));
+    light(&mut world);
+    said(&world).expect("accepted")
+}
+
+/// Emitters that cannot be sampled are named where light sampling is asked for alone, and only there; lights in one place
+/// always.
+#[test]
+fn emitters_that_light_sampling_cannot_sample_are_named() {
+    let path = |lights| Integrator::Path { max_depth: 8, lights, roulette: 5 };
+    let glow = Emissive { radiance: Rgb::grey(1.0), ..Emissive::default() };
+    let egg = Placement { scale: DVec3::new(1.0, 2.0, 1.0), ..Placement::at(0.0, 3.0, 0.0) };
+    let shapes: [(&str, &dyn Fn(&mut World), bool); 3] = [
+        ("egg", &|world| _ = world.spawn((Name::new("egg"), Sphere::default(), egg, glow)), true),
+        (
+            "roof",
+            &|world| _ = world.spawn((Name::new("roof"), Plane::default(), Placement::at(0.0, 9.0, 0.0), glow)),
+            true,
+        ),
+        (
+            "ball",
+            &|world| _ = world.spawn((Name::new("ball"), Sphere::default(), Placement::at(0.0, 3.0, 0.0), glow)),
+            false,
+        ),
+    ];
+    let mut tried = 0;
+    for (name, add, unsampled) in shapes {
+        for (integrator, alone) in [
+            (path(LightStrategy::Light), true),
+            (path(LightStrategy::Mis), false),
+            (path(LightStrategy::Bsdf), false),
+            (Integrator::DISTRIBUTION, true),
+        ] {
+            let told = under(integrator, add);
+            let named = told.iter().any(|line| line.contains("cannot sample") && line.contains(name));
+            assert_eq!(named, unsampled && alone, "{name}, {integrator:?}: {told:?}");
+            tried += 1;
+        }
+    }
+    let twins = |world: &mut World| {
+        for name in ["one", "other"] {
+            world.spawn((Name::new(name), Sphere::default(), Placement::at(0.0, 3.0, 0.0), glow));
+        }
+    };
+    for lights in [LightStrategy::Light, LightStrategy::Mis, LightStrategy::Bsdf] {
+        let told = under(path(lights), twins);
+        let both = ["\"one\"", "\"other\"", "the very same surface"];
+        assert!(told.iter().any(|line| both.iter().all(|word| line.contains(word))), "{told:?}");
+        tried += 1;
+    }
+    eprintln!("emitters: {tried} scenes, the warning in those that need it");
+}
+
+/// What keeps light for thousands of bounces is said beforehand: white rooms, glass about the camera, and glass about a
+/// light, whose paths no ray of the camera shows; the same with something that lets the light go is not mentioned.
+#[test]
+fn paths_that_hardly_end_are_announced() {
+    let room = |albedo: f64| {
+        move |world: &mut World| {
+            world.spawn((Cuboid { size: DVec3::splat(30.0) }, Matte { colour: Rgb::grey(albedo) }));
+            world.spawn((PointLight::default(), Placement::at(0.0, 5.0, 0.0)));
+        }
+    };
+    let glass_at = |y: f64| {
+        move |world: &mut World| {
+            world.spawn((Sphere { radius: 1.0 }, Glass::default()));
+            world.spawn((PointLight::default(), Placement::at(0.0, y, 0.0)));
+        }
+    };
+    let block = |world: &mut World| _ = world.spawn((Cuboid { size: DVec3::splat(30.0) }, Glass::default()));
+    let long = |told: &[String]| told.iter().any(|line| line.contains("a max_depth below 4096"));
+    let traced = (Integrator::PATH, LightTracing::default());
+    for (what, told, announced) in [
+        ("a white room", under(Integrator::PATH, room(1.0)), true),
+        ("a grey room", under(Integrator::PATH, room(0.7)), false),
+        ("in a block of glass", under(Integrator::PATH, block), true),
+        ("a light on a glass ball", under(traced, glass_at(1.0)), true),
+        ("a light in a glass ball, off its centre", under(traced, glass_at(0.9)), true),
+        ("a light above a glass ball", under(traced, glass_at(2.0)), false),
+    ] {
+        eprintln!("{what}: {told:?}");
+        assert_eq!(long(&told), announced, "{what}");
+    }
+}

@@ -82,6 +82,11 @@ fn layers_agree_with_each_other_and_with_the_scene() {
             assert!((normal.length() - 1.0).abs() < 1e-6);
             assert!((axes.transpose() * normal - three("normal_camera", "XYZ", pixel)).length() < 1e-6);
             let shading_normal = three("shading_normal", "XYZ", pixel);
+            let in_camera = three("shading_normal_camera", "XYZ", pixel);
+            assert!(
+                (axes.transpose() * shading_normal - in_camera).length() < 1e-6,
+                "{in_camera} in the camera's axes"
+            );
             if names[entity].contains("sail") {
                 assert!((shading_normal.length() - 1.0).abs() < 1e-6 && shading_normal != normal);
             } else {

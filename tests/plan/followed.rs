@@ -111,13 +111,16 @@ fn the_integrator_is_the_least_that_shows_what_the_scene_holds() {
         pinhole::extract::integrator_of(&Census::of(&scene))
     };
     assert_eq!(chosen(&[]).integrator, Integrator::RayCasting);
-    assert_eq!(chosen(&[Environment]).integrator, Integrator::RayCasting);
+    let sky = chosen(&[Environment]);
+    assert_eq!((sky.integrator, sky.without_sky), (Integrator::PATH, Some(Integrator::RayCasting)));
+    assert!(sky.reason.contains("\"evening\""), "{}", sky.reason);
+    assert_eq!(chosen(&[Mirror, Environment]).without_sky, Some(Integrator::WHITTED));
     for specular in [Mirror, Glass] {
         assert_eq!(chosen(&[specular]).integrator, Integrator::WHITTED);
     }
     for by_bsdf in [Metal, Lamp] {
         let found = chosen(&[by_bsdf, Mirror]);
-        assert_eq!(found.integrator, Integrator::PATH);
+        assert_eq!((found.integrator, found.without_sky), (Integrator::PATH, None));
         assert!(found.reason.starts_with("1 "), "{}", found.reason);
     }
 }

@@ -130,7 +130,47 @@ pub const MEANING: &[Case] = &[
         &["position is (0, NaN, 0)"],
     ),
     ("infinity", "[@, (name: \"a\", point_light: (intensity: ^(inf, 0, 0)))]", &["intensity is (inf, 0, 0)"]),
-    ("no material", "[@, ^(name: \"a\", sphere: ())]", &["material is missing"]),
+    (
+        "no material",
+        "[@, ^(name: \"a\", sphere: ())]",
+        &["material is missing", "a matte, phong, ", " or metal, a material or an emissive"],
+    ),
+    (
+        "a disabled camera",
+        "[^(name: \"eye\", perspective_camera: (), disabled: true)]",
+        &["camera is \"eye\", which is disabled", "a perspective_camera"],
+    ),
+    (
+        "a camera mirrored by its parent",
+        "[(name: \"eye\", perspective_camera: (), parent: \"a\"), (name: \"a\", placement: (scale: ^(1, 1, -1)))]",
+        &["parent \"a\"", "scale is (1, 1, -1), which mirrors"],
+    ),
+    (
+        "a camera where numbers are too coarse",
+        "[(name: \"eye\", perspective_camera: (), look_at: (eye: ^(1e16, 0, 6), target: (1e16, 0, 0)))]",
+        &["camera \"eye\"", "eye is (1e16, 0, 6)", "64-bit numbers are 2.2 apart"],
+    ),
+    (
+        "one triangle of glass",
+        "[@, ^(name: \"a\", triangle: (), glass: ())]",
+        &["triangle \"a\"", "material is the glass \"a\"", "an edge that no other triangle"],
+    ),
+    (
+        "an orientation of 0",
+        "[@, (name: \"a\", sphere: (), matte: (), placement: (orientation: ^(0, 0, 0, 0)))]",
+        &["other than 0"],
+    ),
+    (
+        "turned twice",
+        "[@, (placement: ^(euler_xyz: (0, 9, 0), orientation: (1, 0, 0, 0)))]",
+        &["placement is", "turned once"],
+    ),
+    ("two angles", "[@, (placement: (euler_xyz: (0, 9^)))]", &["euler_xyz is (0, 9)", "three numbers"]),
+    (
+        "an integrator without brackets",
+        "[(name: \"eye\", perspective_camera: (), integrator: ^Path)]",
+        &["integrator is Path", "such as Path()"],
+    ),
     (
         "a material that is none",
         "[@, (name: \"a\", sphere: (), ^material: \"eye\")]",
@@ -208,7 +248,7 @@ pub const MEANING: &[Case] = &[
         "[(name: \"eye\", perspective_camera: (), sampling: (filter: ^Mitchell(radius: 2, b: 0, c: 7)))]",
         &["filter c is 7"],
     ),
-    ("a checker without a material", "[@, ^(name: \"a\", checker: ())]", &["checker \"a\"", "a Matte"]),
+    ("a checker without a material", "[@, ^(name: \"a\", checker: ())]", &["checker \"a\"", "a matte"]),
     (
         "stripes of no width",
         "[@, (name: \"a\", sphere: (), matte: (), stripes: (size: ^0))]",
@@ -237,7 +277,7 @@ pub const MEANING: &[Case] = &[
     (
         "two materials on one entity",
         "[@, ^(name: \"a\", sphere: (), matte: (), phong: ())]",
-        &["material \"a\"", "Matte and Phong at once"],
+        &["material \"a\"", "matte and phong at once"],
     ),
     (
         "more than all the light",

@@ -1,6 +1,6 @@
 //! Scenes of mirrors, glass and metal.
 
-use super::{Eye, Setup, leaning_triangle, named};
+use super::{Eye, Setup, leaning_triangle, lit_by_lights_alone, named};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::scene::*;
@@ -28,7 +28,7 @@ pub fn specular(setup: Setup) -> World {
     world.spawn((Name::new("drink"), Cuboid { size }, at(0.9, 0.5, 0.4), drink));
     world.spawn((Name::new("lamp"), setup.light(40.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
-    world
+    lit_by_lights_alone(world)
 }
 
 /// The same beside rough metal, one part of it with normals of its own: random directions.
@@ -41,7 +41,7 @@ pub fn brushed(setup: Setup) -> World {
     world.spawn((Name::new("brushed ball"), ball, at(1.7, 0.42, 0.9), metal(0.15)));
     world.spawn((Name::new("rough sail"), leaning_triangle(setup.scale), at(0.8, 1.4, -0.4), rough));
     let camera = named(&mut world, "camera");
-    world.entity_mut(camera).insert(Sampling { samples: 2, ..Sampling::default() });
+    world.entity_mut(camera).remove::<Integrator>().insert(Sampling { samples: 2, ..Sampling::default() });
     world
 }
 

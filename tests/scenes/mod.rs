@@ -11,7 +11,7 @@ mod textured;
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::look::view_stage;
-use pinhole::plan::Stage;
+use pinhole::plan::{Census, Stage};
 use pinhole::render::{Execution, Worlds, render};
 use pinhole::scene::*;
 use pinhole::{shade, stages};
@@ -104,6 +104,16 @@ pub fn offer_of_direct_light() -> Vec<Stage> {
     offer
 }
 
+/// Names the integrator that a scene would have in front of a black sky, so that its sky is seen and lights nothing.
+pub fn lit_by_lights_alone(mut world: World) -> World {
+    let without_sky = pinhole::extract::integrator_of(&Census::of(&world)).without_sky;
+    let camera = named(&mut world, "camera");
+    if let Some(integrator) = without_sky {
+        world.entity_mut(camera).insert(integrator);
+    }
+    world
+}
+
 /// A scene that needs every stage of its camera but the view: balls and planes, lights with and without shadows, one
 /// of them under the ground, a shared material, a child, a mirrored thing, a background.
 ///
@@ -113,7 +123,7 @@ pub fn full(setup: Setup) -> World {
     let look = LookAt { eye: setup.point(0.23, 1.03, 4.9), target: setup.point(0.01, 1.27, 0.02), up: DVec3::Y };
     setup.camera(&mut world, look);
     add_things(&mut world, &setup);
-    world
+    lit_by_lights_alone(world)
 }
 
 /// The same with turned parents, whose coordinates are not on a grid any more.
@@ -253,7 +263,7 @@ pub fn stretched(setup: Setup) -> World {
     world.spawn((Name::new("lamp"), setup.light(60.0, true), placed([2.51, 4.02, 3.03], [1.0; 3], upright)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
-    world
+    lit_by_lights_alone(world)
 }
 
 /// Disks, rectangles and cuboids: stretched, mirrored and turned ones, one of each that a parent shears, pairs that are the
@@ -295,7 +305,7 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
     world.spawn((Name::new("lamp"), setup.light(60.0, true), placed([2.51, 4.02, 3.03], [1.0; 3], upright)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
-    world
+    lit_by_lights_alone(world)
 }
 
 /// Surfaces with highlights and surfaces that emit light, alone and beside a material, of their own and by the material
@@ -537,7 +547,7 @@ pub fn toggled(on: &[Toggle]) -> World {
     if has(Toggle::Samples) {
         world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
     }
-    world
+    lit_by_lights_alone(world)
 }
 
 /// All combinations of [`TOGGLES`], the empty one first; then each of [`MORE`] beside none, one or several of them, and

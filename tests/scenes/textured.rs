@@ -1,6 +1,6 @@
 //! Scenes with textures, and with something more than one colour behind everything.
 
-use super::{Eye, Setup};
+use super::{Eye, Setup, lit_by_lights_alone};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::scene::*;
@@ -53,7 +53,7 @@ pub fn textured_by(on: &[TextureToggle]) -> World {
         };
     }
     behind(&mut world, has(TextureToggle::Gradient), has(TextureToggle::Environment));
-    world
+    lit_by_lights_alone(world)
 }
 
 fn behind(world: &mut World, gradient: bool, environment: bool) {
@@ -94,5 +94,5 @@ pub fn textured(setup: Setup) -> World {
     world.spawn((Name::new("lamp"), setup.light(60.0, true), at(2.51, 4.02, 3.03)));
     world.spawn((Name::new("fill"), setup.light(15.0, false), at(-2.91, 2.01, 2.02)));
     behind(&mut world, setup.eye == Eye::Perspective, setup.eye == Eye::Orthographic);
-    world
+    lit_by_lights_alone(world)
 }

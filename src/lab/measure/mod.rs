@@ -19,6 +19,7 @@ pub mod hemisphere;
 pub mod image_error;
 pub mod image_file;
 pub mod number;
+pub mod oracle;
 pub mod oracle_camera;
 pub mod oracle_cuboid;
 pub mod oracle_disk;

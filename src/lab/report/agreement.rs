@@ -18,14 +18,14 @@ pub struct Agreement {
     pub least: f64,
     /// Below this a difference is one (Šidák 1967).
     pub limit: f64,
-    /// The mean of a block's standard error over its mean: what the tests can see.
+    /// The mean of a block's standard error over its mean: what the tests can see; infinite where both sets are black.
     pub resolution: f64,
 }
 
 impl Agreement {
-    /// Whether no test says that the means differ.
+    /// Whether there is light, and no test says that the means differ.
     pub fn agrees(&self) -> bool {
-        self.tests > 0 && self.apart == 0
+        self.tests > 0 && self.apart == 0 && self.resolution.is_finite()
     }
 }
 
@@ -46,6 +46,8 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
     for (a, b) in one.iter().zip(&other) {
         let (variance, freedom) = joined(&[(a.variance, a.freedom), (b.variance, b.freedom)]);
         tests += 1;
+        errors += variance.sqrt();
+        light += 0.5 * (a.mean + b.mean);
         let difference = a.mean - b.mean;
         if difference == 0.0 {
             continue;
@@ -54,10 +56,9 @@ pub fn agreement(one: &[Numbers], other: &[Numbers], side: u32) -> Result<Agreem
         let likely = if variance > 0.0 { 2.0 * student_cdf(-t, freedom) } else { 0.0 };
         least = least.min(likely);
         apart += usize::from(likely < limit);
-        errors += variance.sqrt();
-        light += 0.5 * (a.mean + b.mean);
     }
-    Ok(Agreement { tests, apart, least, limit, resolution: if light > 0.0 { errors / light } else { 0.0 } })
+    let resolution = if light > 0.0 { errors / light } else { f64::INFINITY };
+    Ok(Agreement { tests, apart, least, limit, resolution })
 }
 
 /// A block's mean over all images, the variance of that mean, and its freedom.
@@ -87,7 +88,7 @@ fn blocks(images: &[Numbers], side: u32) -> Result<Vec<Block>, String> {
 
 fn block_mean(image: &Numbers, [x, y]: [u32; 2], side: u32, part: usize) -> f64 {
     let [width, height] = image.size;
-    let (right, down) = ((x + side).min(width), (y + side).min(height));
+    let (right, down) = (x.saturating_add(side).min(width), y.saturating_add(side).min(height));
     let rows = (y..down).flat_map(|y| (x..right).map(move |x| (y * width + x) as usize));
     let sum: f64 = rows.map(|pixel| image.pixels[pixel][part]).sum();
     sum / f64::from((right - x) * (down - y))
@@ -122,6 +123,20 @@ mod tests {
         let found = agreement(&noise(8, 1.0, 1), &noise(8, 1.128, 2), 8).expect("one size");
         assert!(found.apart > 40, "{found:?}");
         eprintln!("agreement: {wrong} of {sets} equal pairs told apart, {} of 48 blocks of unequal ones", found.apart);
+    }
+
+    /// Black images are equal, and say nothing.
+    #[test]
+    fn darkness_does_not_agree() {
+        let black = |count: usize| {
+            let mut images = noise(count, 1.0, 3);
+            images.iter_mut().for_each(|image| image.pixels.fill([0.0; 3]));
+            images
+        };
+        let found = agreement(&black(4), &black(4), 8).expect("one size");
+        assert!(found.apart == 0 && !found.agrees(), "{found:?}");
+        let found = agreement(&noise(4, 1.0, 5), &noise(4, 1.0, 5), u32::MAX).expect("one size");
+        assert!(found.agrees() && found.tests == 3 && found.resolution > 0.0, "{found:?}");
     }
 
     #[test]

@@ -3,7 +3,7 @@ use super::check::triple;
 use super::pose::world_from_entity;
 use crate::cameras::{Camera, ImageFrame, Listed, RaySpread, with_cameras};
 use crate::plan::{Census, Table};
-use crate::scene::{Layers, Resolution, SceneError};
+use crate::scene::{ChildOf, Layers, Placement, Resolution, SceneError, called};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 
@@ -100,10 +100,7 @@ impl Table for CameraAxes {
         let worst = off.to_cols_array().iter().fold(0.0_f64, |worst, part| worst.max(part.abs()));
         let rotation = worst <= ROTATION_TOLERANCE && world_from_camera.determinant() > 0.0;
         if !rotation {
-            let lengths = DVec3::from([0, 1, 2].map(|axis| world_from_camera.col(axis).length()));
-            let mirrored = if world_from_camera.determinant() < 0.0 { "mirrored, " } else { "" };
-            let accepted = "a camera may only be rotated and moved, and no parent may scale or mirror it";
-            return Err(SceneError::new(who, "scale", format!("{mirrored}{}", triple(lengths)), accepted));
+            return Err(scaled(scene, who, camera));
         }
         Ok(Self { world_from_camera })
     }
@@ -111,4 +108,20 @@ impl Table for CameraAxes {
     fn bytes(&self) -> usize {
         size_of::<Self>()
     }
+}
+
+/// The error about the first entity from a camera up to its root that scales or mirrors it.
+fn scaled(scene: &Census<'_>, who: String, camera: Entity) -> SceneError {
+    let accepted = "a camera may only be rotated and moved, and no parent may scale or mirror it";
+    let mut chain: Vec<(String, Entity)> = vec![(who.clone(), camera)];
+    while let Some(parent) = scene.get::<ChildOf>(chain[chain.len() - 1].1).map(ChildOf::parent) {
+        chain.push((format!("{who}'s parent {}", called(scene, parent)), parent));
+    }
+    let scale = |entity: Entity| scene.get::<Placement>(entity).map_or(DVec3::ONE, |placement| placement.scale);
+    let scales =
+        |(_, entity): &&(String, Entity)| (scale(*entity) - DVec3::ONE).abs().max_element() > ROTATION_TOLERANCE;
+    let (who, entity) = chain.iter().find(scales).unwrap_or(&chain[0]);
+    let scale = scale(*entity);
+    let mirrors = if scale.x * scale.y * scale.z < 0.0 { ", which mirrors" } else { "" };
+    SceneError::new(who.as_str(), "scale", format!("{}{mirrors}", triple(scale)), accepted)
 }

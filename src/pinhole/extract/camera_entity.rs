@@ -1,6 +1,6 @@
 use super::check::kind_and_name;
 use crate::cameras::{CameraNames, ImageFrame, Listed, RaySpread, with_cameras};
-use crate::plan::{Census, counted, entities};
+use crate::plan::{Census, counted, declared, entities};
 use crate::scene::{SceneError, called, some_of};
 use bevy_ecs::prelude::*;
 
@@ -16,6 +16,7 @@ pub struct CameraKind {
     /// How its rays change across the image of a scene.
     pub(super) spread: fn(&Census<'_>) -> Result<RaySpread, SceneError>,
     carrying: fn(&World) -> Vec<Entity>,
+    declared: fn(&World) -> Vec<Entity>,
 }
 
 impl CameraKind {
@@ -26,6 +27,7 @@ impl CameraKind {
             has_many_origins: C::HAS_MANY_ORIGINS,
             spread: |scene| Ok(scene.table::<C>()?.spread(*scene.table::<ImageFrame>()?)),
             carrying: entities::<With<C::Component>>,
+            declared: declared::<With<C::Component>>,
         }
     }
 }
@@ -65,7 +67,10 @@ fn find_camera(scene: &World) -> Result<(Entity, &'static CameraKind), SceneErro
     let accepted = format!("exactly one entity must carry {components}");
     let value = match found[..] {
         [camera] => return Ok(camera),
-        [] => "missing".into(),
+        [] => {
+            let disabled = CAMERA_KINDS.iter().flat_map(|kind| (kind.declared)(scene)).next();
+            disabled.map_or("missing".into(), |own| format!("{}, which is disabled", called(scene, own)))
+        }
         [(one, _), ..] if found.iter().all(|&(other, _)| other == one) => {
             let kinds: Vec<String> = found.iter().map(|(_, kind)| with_article(kind.names.component)).collect();
             format!("{} at once, on {}", kinds.join(" and "), called(scene, one))

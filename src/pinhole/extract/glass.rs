@@ -1,9 +1,12 @@
+use super::TriangleTable;
 use super::check::{kind_and_name, light_colour, number};
+use super::closed_mesh::{OpenMesh, open_mesh};
 use super::material_kind::{material_kind_evidence, used_material};
-use super::shape_kind::{one_shape, shape_entities};
+use super::shape_kind::{one_shape, shape_entities, shape_name};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Glass, SceneError, called};
 use bevy_ecs::prelude::*;
+use std::collections::BTreeMap;
 
 /// The least accepted index of refraction, and the reciprocal of the greatest.
 const LEAST_INDEX: f64 = 1e-3;
@@ -55,7 +58,7 @@ pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, 
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
         let listed = one_shape(scene, shape)?;
-        if listed.has_inside {
+        if (listed.has_inside)(scene, shape) {
             continue;
         }
         let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
@@ -65,7 +68,29 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
         let accepted = "glass needs a shape with an interior: a sphere, a cuboid, a plane or triangles that close";
         return Err(SceneError::new(kind_and_name(scene, listed.word, shape), "material", value, accepted));
     }
-    Ok(())
+    check_meshes(scene)
+}
+
+/// Checks that the triangles of each kind of glass close around an interior.
+fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
+    let (triangles, shapes) = (scene.table::<TriangleTable>()?, shape_entities(scene));
+    let mut meshes: BTreeMap<Entity, Vec<usize>> = BTreeMap::new();
+    for (row, &shape) in triangles.shape.iter().enumerate() {
+        let material = shapes.get(shape as usize).and_then(|&shape| used_material(scene, shape));
+        if let Some(material) = material.filter(|&own| scene.get::<Glass>(own).is_some()) {
+            meshes.entry(material).or_default().push(row);
+        }
+    }
+    let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(&triangles, rows)?, *material)));
+    let Some((OpenMesh { row, turned }, material)) = open.min_by_key(|(open, _)| open.row) else { return Ok(()) };
+    let why = if turned {
+        "this triangle shows another side than its neighbour: swap two of its vertices"
+    } else {
+        "this triangle has an edge that no other triangle of the same glass has"
+    };
+    let value = format!("the glass {}", called(scene, material));
+    let accepted = format!("glass needs a shape with an interior, and {why}");
+    Err(SceneError::new(shape_name(scene, triangles.shape[row] as usize), "material", value, accepted))
 }
 
 /// Evidence that a shape is made of glass.

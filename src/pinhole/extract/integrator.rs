@@ -1,6 +1,7 @@
 use super::camera_entity::camera_of;
 use super::emissive::emissive_evidence;
 use super::material::material_evidence;
+use super::sky::sky_evidence;
 use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Census, Evidence};
 use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
@@ -13,40 +14,59 @@ pub struct ChosenIntegrator {
     pub integrator: Integrator,
     /// The reason, in words.
     pub reason: String,
+    /// Whether the camera names it.
+    pub is_named: bool,
+    /// The one that the same scene would have in front of a black sky, where that differs and none is named.
+    pub without_sky: Option<Integrator>,
 }
 
 // ANCHOR: integrator_of
 /// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Rough metal, and other materials in the light of emitting surfaces, need sampled points and directions, hence path
-/// tracing; mirrors and glass lit by lights without an area need none, hence Whitted's method; everything else is seen
-/// by ray casting.
+/// Rough metal, and other materials in the light of emitting surfaces or of a sky that is not black, need sampled
+/// points and directions, hence path tracing; mirrors and glass lit by lights without an area need none, hence
+/// Whitted's method; everything else is seen by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
-        let chosen = |integrator, reason: String| ChosenIntegrator { integrator, reason };
-        let camera = camera_of(scene).ok();
-        if let Some((camera, &named)) =
-            camera.and_then(|camera| scene.get::<Integrator>(camera).map(|own| (camera, own)))
-        {
-            return chosen(named, format!("named on the camera {}", called(scene, camera)));
+        if let Some((camera, integrator)) = named_integrator(scene) {
+            let reason = format!("named on the camera {}", called(scene, camera));
+            return ChosenIntegrator { integrator, reason, is_named: true, without_sky: None };
         }
-        let metal = metal_evidence(scene);
-        let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
-        let specular = mirror_evidence(scene).or(glass_evidence(scene));
-        let by_bsdf = metal.or(emitters);
-        if by_bsdf.needed {
-            return chosen(Integrator::PATH, by_bsdf.reason);
+        let (integrator, reason) = chosen_without_sky(scene);
+        let chosen = ChosenIntegrator { integrator, reason, is_named: false, without_sky: None };
+        let sky = sky_evidence(scene).and(|| material_evidence(scene));
+        if sky.needed && !matches!(integrator, Integrator::Path { .. }) {
+            let reason = format!("light from the sky, {}", sky.reason);
+            return ChosenIntegrator { integrator: Integrator::PATH, reason, without_sky: Some(integrator), ..chosen };
         }
-        if specular.needed && has_points(scene) {
-            return chosen(Integrator::WHITTED, specular.reason);
-        }
-        if specular.needed {
-            return chosen(Integrator::PATH, format!("{}, and no light but what surrounds the scene", specular.reason));
-        }
-        chosen(Integrator::RayCasting, specular.reason)
+        chosen
     })
 }
+
+/// The same for a scene whose sky is black or that has no material to be lit by it.
+fn chosen_without_sky(scene: &Census<'_>) -> (Integrator, String) {
+    let metal = metal_evidence(scene);
+    let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
+    let specular = mirror_evidence(scene).or(glass_evidence(scene));
+    let by_bsdf = metal.or(emitters);
+    if by_bsdf.needed {
+        return (Integrator::PATH, by_bsdf.reason);
+    }
+    if specular.needed && has_points(scene) {
+        return (Integrator::WHITTED, specular.reason);
+    }
+    if specular.needed {
+        return (Integrator::PATH, format!("{}, and no light but what surrounds the scene", specular.reason));
+    }
+    (Integrator::RayCasting, specular.reason)
+}
 // ANCHOR_END: integrator_of
+
+/// The camera and the integrator that it names.
+fn named_integrator(scene: &Census<'_>) -> Option<(Entity, Integrator)> {
+    let camera = camera_of(scene).ok()?;
+    scene.get::<Integrator>(camera).map(|own| (camera, *own))
+}
 
 /// Whether there is a light without an area.
 fn has_points(scene: &Census<'_>) -> bool {
@@ -89,13 +109,7 @@ pub fn mis_evidence(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that the scene's integrator is of a kind.
 pub fn needed_if(scene: &Census<'_>, is_of_kind: impl Fn(Integrator) -> bool) -> Evidence {
-    let ChosenIntegrator { integrator, reason } = integrator_of(scene);
-    let word = match integrator {
-        Integrator::RayCasting => "ray casting",
-        Integrator::Whitted { .. } => "Whitted's method",
-        Integrator::AmbientOcclusion { .. } => "ambient occlusion",
-        Integrator::Distribution { .. } => "distribution ray tracing",
-        Integrator::Path { .. } => "path tracing",
-    };
-    Evidence { needed: is_of_kind(integrator), reason: format!("{word}: {reason}"), count: 0 }
+    let ChosenIntegrator { integrator, reason, .. } = integrator_of(scene);
+    let reason = format!("{}: {reason}", integrator.in_words());
+    Evidence { needed: is_of_kind(integrator), reason, count: 0 }
 }

@@ -38,7 +38,10 @@ impl Table for LightTracingTable {
         }
         let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
         if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {
-            return refused("without paths", "light tracing complements the camera's paths: give it Path(…)");
+            return refused(
+                "without paths",
+                "light tracing complements the camera's paths: give it the integrator Path()",
+            );
         }
         if !camera_kind(scene)?.has_image_plane {
             return no_image_plane(scene);

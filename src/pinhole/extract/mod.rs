@@ -28,6 +28,7 @@ mod camera;
 mod camera_entity;
 mod camera_join;
 mod check;
+mod closed_mesh;
 mod directional_light;
 mod emissive;
 mod environment;
@@ -62,6 +63,8 @@ mod sampling;
 mod shape;
 mod shape_kind;
 mod shapes_of;
+mod sky;
+mod spacing;
 mod spot_light;
 mod srgb;
 mod texture;
@@ -122,6 +125,7 @@ pub use shapes_of::{
     CuboidTable, DiskTable, EllipsoidTable, PlaneTable, RectangleTable, ShapesOf, SphereTable, TriangleTable,
     VertexNormalTable,
 };
+pub use sky::sky_evidence;
 pub use spot_light::{SpotLightTable, versine_of_half};
 pub use srgb::linear_from_srgb;
 pub use texture::{
@@ -156,6 +160,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<EmissiveTable>,
     |scene| listed_kinds().iter().try_for_each(|listed| (listed.check)(scene)),
     answer::<MovingTable>,
+    spacing::check_spacing,
     answer::<PointLightTable>,
     answer::<DirectionalLightTable>,
     answer::<SpotLightTable>,

@@ -6,7 +6,7 @@ use crate::shapes::Pose;
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// How far a quaternion's length may be from 1 before it is considered a mistake rather than rounding.
+/// How far the square of a quaternion's length may be from 1 for it to be normalised without being scaled first.
 const UNIT_TOLERANCE: f64 = 1e-6;
 /// The sine of the least angle between up and the view; the axes are orthonormal to within 2⁻⁵² over this sine.
 const LEAST_SINE: f64 = 1e-6;
@@ -74,13 +74,12 @@ fn parent_from_entity(scene: &Census<'_>, who: &str, entity: Entity) -> Result<P
         ));
     }
     let quaternion = placement.orientation;
-    let off_unit = (quaternion.length_squared() - 1.0).abs();
-    if !off_unit.is_finite() || off_unit > UNIT_TOLERANCE {
-        let accepted = "it must be a finite quaternion of length 1";
+    let Some(rotation) = normalised(quaternion) else {
+        let accepted = "it must be a finite quaternion other than 0, or angles about an axis other than 0";
         return Err(SceneError::new(who, "orientation", quadruple(quaternion), accepted));
-    }
+    };
     let (axes, origin) = match look_at {
-        None => (DMat3::from_quat(quaternion.normalize()), position),
+        None => (DMat3::from_quat(rotation), position),
         Some(_) if position != DVec3::ZERO => {
             return Err(SceneError::new(who, "position", format!("set to {}", triple(position)), ONE_OF_THE_TWO));
         }
@@ -117,6 +116,18 @@ fn is_even(world_from_entity: DMat3) -> bool {
     let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
     let uneven = (lengths - lengths.x).abs().max_element();
     uneven <= EVEN_TOLERANCE * lengths.x && skew <= EVEN_TOLERANCE * lengths.x * lengths.x
+}
+
+/// The unit quaternion of the same rotation, or none where there is no rotation; scaled first where that is needed, so
+/// that no square overflows or vanishes.
+fn normalised(quaternion: DQuat) -> Option<DQuat> {
+    let largest = quaternion.to_array().into_iter().fold(0.0, |largest: f64, part| largest.max(part.abs()));
+    if !quaternion.is_finite() || largest == 0.0 {
+        return None;
+    }
+    let nearly_unit = (quaternion.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
+    Some(if nearly_unit { quaternion } else { DQuat::from_array(quaternion.to_array().map(|part| part / largest)) })
+        .map(DQuat::normalize)
 }
 
 fn quadruple(q: DQuat) -> String {

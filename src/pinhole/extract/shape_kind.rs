@@ -24,8 +24,8 @@ pub struct ListedKind {
     pub word: &'static str,
     /// Which placements make this shape of its component, if not all do.
     uneven: Option<bool>,
-    /// Whether it can be made of glass.
-    pub has_inside: bool,
+    /// Whether an entity can be made of glass.
+    pub has_inside: fn(&Census<'_>, Entity) -> bool,
     /// Whether several usually make up one surface.
     pub is_part: bool,
     /// Its table.
@@ -62,7 +62,7 @@ impl ListedKind {
             component: S::Component::NAME,
             word: S::Component::WORD,
             uneven: S::UNEVEN,
-            has_inside: S::HAS_INSIDE,
+            has_inside: |scene, entity| scene.get::<S::Component>(entity).is_some_and(S::has_inside),
             is_part: S::IS_PART,
             table: TableKind::of::<ShapesOf<S>>(),
             evidence: kind_evidence::<S>,

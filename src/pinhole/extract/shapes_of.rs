@@ -125,3 +125,87 @@ impl Table for VertexNormalTable {
         self.normals.len() * size_of::<[DVec3; 3]>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{ShapeTable, unevenly_scaled};
+    use crate::scene::{Matte, PerspectiveCamera, Sphere};
+    use crate::shapes::ShapeKind;
+    use glam::DQuat;
+
+    fn scene(scales: &[DVec3]) -> (World, Vec<Entity>) {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), Placement::at(0.0, 0.0, 9.0)));
+        let orientation = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+        let spawn = |&scale: &DVec3| {
+            let placement = Placement { scale, orientation, position: DVec3::new(1.0, 2.0, 3.0) };
+            world.spawn((Sphere { radius: 2.0 }, Matte::default(), placement)).id()
+        };
+        let spheres = scales.iter().map(spawn).collect();
+        (world, spheres)
+    }
+
+    #[test]
+    fn a_sphere_is_in_one_table_or_the_other() {
+        let uneven = [DVec3::new(1.0, 1.0, 1.0 + 2e-9), DVec3::new(-1.0, 1.0, 2.0), DVec3::new(1e-3, 1.0, 1e3)];
+        let even = [DVec3::ONE, DVec3::new(1.0, 1.0, 1.0 + 1e-12), DVec3::new(-2.0, 2.0, 2.0), DVec3::splat(-1e-9)];
+        let (world, spheres) = scene(&[&uneven[..], &even].concat());
+        let (shapes, ellipsoids) =
+            (ShapeTable::extract(&Census::of(&world)), EllipsoidTable::extract(&Census::of(&world)));
+        let (shapes, ellipsoids) = (shapes.expect("shapes"), ellipsoids.expect("ellipsoids"));
+        let spheres_left = SphereTable::extract(&Census::of(&world)).expect("spheres");
+        assert_eq!(ellipsoids.shape, [0, 1, 2]);
+        assert_eq!(spheres_left.shape, [3, 4, 5, 6]);
+        for (number, &sphere) in spheres.iter().enumerate() {
+            let kind =
+                if unevenly_scaled(&Census::of(&world), sphere) { ShapeKind::Ellipsoid } else { ShapeKind::Sphere };
+            assert_eq!(shapes.kind[number], kind, "sphere {number}");
+        }
+    }
+
+    #[test]
+    fn the_map_takes_poles_to_the_unit_sphere() {
+        let scale = DVec3::new(-1e-3, 3.0, 1e3);
+        let (world, spheres) = scene(&[scale]);
+        let table = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids");
+        let pose = pose(&Census::of(&world), "", spheres[0]).expect("a pose");
+        let Ellipsoid { centre, unit_from_world, bounding_radius, .. } = table.row[0];
+        assert_eq!(centre, DVec3::new(1.0, 2.0, -6.0));
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let pole = pose.world_from_entity.matrix3 * (axis * 2.0);
+            assert!((unit_from_world * pole - axis).length() < 1e-7, "{axis}: {}", unit_from_world * pole);
+            assert!(pole.length() <= bounding_radius);
+        }
+        assert!(bounding_radius < 2e3 * 1.0001);
+    }
+
+    #[test]
+    fn a_sheared_sphere_fills_its_bounding_radius() {
+        let (mut world, spheres) = scene(&[DVec3::new(1.0, 2.0, 0.5)]);
+        let parent = world.spawn(Placement { scale: DVec3::new(3.0, 1.0, 100.0), ..Placement::default() }).id();
+        world.entity_mut(spheres[0]).insert(ChildOf(parent));
+        let map = pose(&Census::of(&world), "", spheres[0]).expect("a pose").world_from_entity.matrix3;
+        let bounding_radius = EllipsoidTable::extract(&Census::of(&world)).expect("ellipsoids").row[0].bounding_radius;
+        let steps = (0..100_000).map(|step| f64::from(step) * 1e-5 * std::f64::consts::TAU * 100.0);
+        let point = |angle: f64| {
+            let (height, round) = (libm::sin(angle / 200.0), libm::cos(angle / 200.0));
+            map * (DVec3::new(libm::cos(angle) * round, libm::sin(angle) * round, height) * 2.0)
+        };
+        let farthest = steps.map(|angle| point(angle).length()).fold(0.0, f64::max);
+        assert!(
+            farthest <= bounding_radius && bounding_radius <= farthest * 1.02,
+            "{farthest} within {bounding_radius}"
+        );
+    }
+
+    #[test]
+    fn an_ellipsoid_longer_than_ten_million_times_its_thickness_is_refused() {
+        let table = |ratio: f64| EllipsoidTable::extract(&Census::of(&scene(&[DVec3::new(1.0, 1.0, ratio)]).0));
+        assert!(table(0.999e7).is_ok() && table(1.001e-7).is_ok());
+        for ratio in [2e7, 1e-8] {
+            let scene_error = table(ratio).expect_err("refused").to_string();
+            assert!(scene_error.contains("scale is (1, 1, ") && scene_error.contains("1e7 times"), "{scene_error}");
+        }
+    }
+}

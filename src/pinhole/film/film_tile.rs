@@ -296,6 +296,7 @@ impl Film {
     /// If some of n samples have negative weights, with a sum W of all weights, it is the variance of a ratio estimator
     /// to first order: (n V + n (M − R)²) / W² with the variance V of a sample, the unweighted mean M and the weighted
     /// mean R.
+    /// [`FilmMoments::variance`] is n² V / W² already.
     pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
         let film = &self.tiles[tile];
         let (count, weight) = (film.count[row], film.weight(row));
@@ -306,7 +307,7 @@ impl Film {
                 let mean = film.mean_f64(row);
                 let difference = [0, 1, 2].map(|channel| mean[channel] - weighted[channel]);
                 let factor = n / (weight as f64 * weight as f64);
-                [0, 1, 2].map(|channel| (variance[channel] + difference[channel] * difference[channel]) * factor)
+                [0, 1, 2].map(|channel| variance[channel] / n + difference[channel] * difference[channel] * factor)
             }
             _ => variance.map(|value| value / n),
         }

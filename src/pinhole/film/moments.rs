@@ -35,7 +35,7 @@ impl FilmMoments {
         if n == 0.0 || !FilmTile::accepts(radiance) {
             return;
         }
-        let mean = film.shown_f64(row);
+        let mean = film.mean_f64(row);
         let factor = n / (n + 1.0);
         let square = |channel: usize| {
             let deviation = f64::from(radiance[channel]) - mean[channel];
@@ -46,9 +46,11 @@ impl FilmMoments {
         self.b[row] += square(2);
     }
 
-    /// The estimated variance of one sample of a row: red, green, blue; 0 with fewer than two samples.
+    /// The estimated variance of a row's mean, times its number of samples: red, green, blue; 0 with fewer than two.
     ///
-    /// The mean of samples with weights of 1 and −1 is a ratio of two sums, whose variance is taken to first order.
+    /// With weights of 1 that is the variance V of one sample.
+    /// The mean of n samples with weights of 1 and −1 is a ratio of two sums, the lower one W; to first order its
+    /// variance is n V / W², so this is n² V / W².
     pub fn variance(&self, film: &FilmTile, row: usize) -> [f64; 3] {
         let count = f64::from(film.count[row]);
         let ratio = if film.weight(row) > 0 { count / film.weight(row) as f64 } else { 1.0 };

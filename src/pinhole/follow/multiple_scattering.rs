@@ -187,6 +187,27 @@ mod tests {
         assert_eq!([multiple_scattering_albedo(1.0, 0.3), multiple_scattering_albedo(0.0, 0.3)], [1.0, 0.0]);
     }
 
+    /// A coloured metal, scattering by scattering: each reflects c, the first passes all on, and every later one lets
+    /// 1 − l out.
+    #[test]
+    fn the_albedo_of_several_scatterings_is_their_sum() {
+        let mut tried = 0;
+        for (colour, lost) in
+            [0.1, 0.5, 0.9, 0.99].into_iter().flat_map(|colour| [0.01, 0.3, 0.69].map(|l| (colour, l)))
+        {
+            let (mut inside, mut left) = (colour, 0.0);
+            for _ in 0..4000 {
+                let reflected = inside * colour;
+                left += reflected * (1.0 - lost);
+                inside = reflected * lost;
+            }
+            let albedo = multiple_scattering_albedo(colour, lost);
+            assert!((albedo - left).abs() < 1e-12, "c {colour}, l {lost}: {albedo} for {left}");
+            tried += 1;
+        }
+        eprintln!("several scatterings: {tried} sums of 4000 terms");
+    }
+
     #[test]
     fn several_mirrors_are_reciprocal() {
         let (_, several) = metal(0.4, 0.8);

@@ -20,6 +20,7 @@
 #[doc(hidden)]
 pub mod convention;
 
+mod emitters;
 mod inside;
 mod mistake;
 mod pilot;

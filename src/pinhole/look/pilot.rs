@@ -1,9 +1,10 @@
 use crate::Result;
 use crate::extract::ImageFrame;
+use crate::follow::LIGHT_PATHS;
 use crate::intersect::{Hits, NO_SHAPE};
 use crate::plan::{Census, Column, ColumnKind, ExtractedTable, Plan, Stage};
 use crate::rays::{Depth, Tile};
-use crate::render::{Hook, probe_tiles, usual_tile_side};
+use crate::render::{Hook, probe_light_paths, probe_tiles, usual_tile_side};
 use crate::shade::{LightRays, Radiance, ShadowHits};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
@@ -21,7 +22,7 @@ const MAX_DEPTH: u32 = 4;
 /// What a few rays, traced before a picture is rendered, hit and returned.
 #[derive(Clone, Debug, Default)]
 pub struct Pilot {
-    /// Camera rays in tiles that were finished; all fields but the last five refer to these.
+    /// Camera rays in tiles that were finished; all fields but the last seven refer to these.
     pub rays: usize,
     /// Camera rays that hit a shape.
     pub hits: usize,
@@ -44,6 +45,11 @@ pub struct Pilot {
     pub deepest: u32,
     /// Small tiles of the image that were to be traced.
     pub tiles: usize,
+    /// Average cost of a light path in seconds of one thread, a lower bound where they were given up; 0 without light
+    /// tracing.
+    pub seconds_a_light_path: f64,
+    /// How many segments a light path has on average beyond its first.
+    pub light_followed_by: f64,
 }
 
 /// What a hook has counted in one tile so far.
@@ -60,7 +66,8 @@ struct Counted {
     before: usize,
 }
 
-/// Traces one sample per pixel of some small tiles, spread evenly over the image, until all are done or the time is up.
+/// Traces one sample per pixel of some small tiles, spread evenly over the image, until all are done or the time is up;
+/// then a batch of light paths, where the plan has any, in a quarter of the time.
 ///
 /// Errors: a camera without a valid resolution.
 pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience: Duration) -> Result<Pilot> {
@@ -100,6 +107,12 @@ pub fn pilot(scene: &Census<'_>, prepared: (&Plan, &[ExtractedTable]), patience:
     }
     pilot.seconds_a_ray = time / pilot.tried.max(1) as f64;
     pilot.followed_by = (all as f64 / pilot.tried.max(1) as f64 - 1.0).max(0.0);
+    probe_light_paths(scene, prepared, patience / 4, &[counting_hook()], &mut |world, took| {
+        let counted = world.remove_resource::<Counted>().unwrap_or_default();
+        let segments = (counted.before + counted.bounce.1) as f64;
+        pilot.seconds_a_light_path = took.as_secs_f64() / f64::from(LIGHT_PATHS);
+        pilot.light_followed_by = (segments / f64::from(LIGHT_PATHS) - 1.0).max(0.0);
+    })?;
     Ok(pilot)
 }
 

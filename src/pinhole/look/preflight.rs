@@ -1,6 +1,7 @@
+use super::emitters::emitters;
 use super::inside::shape_around_camera;
 use super::pilot::{Pilot, pilot};
-use super::slow::{Effort, many_bounces, never_done, slow, why_slow};
+use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, why_slow};
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, emissive_evidence, followed_evidence,
@@ -63,14 +64,16 @@ pub fn preflight(
     if pilot.rays > 0 {
         warnings.extend(by_pilot(scene, &pilot, &shapes));
         warnings.extend(many_bounces(&pilot, max_depth));
+        warnings.extend(many_light_bounces(&pilot, max_depth));
     } else {
         warnings.push(never_done(&pilot, &why_slow(scene, &pilot, max_depth, shapes.kind.len()), effort));
     }
     warnings.extend(shape_around_camera(scene, &shapes)?);
     warnings.extend(unseen(scene));
+    warnings.extend(emitters(scene)?);
     warnings.extend(missing_paths(scene));
     if pilot.rays > 0 {
-        warnings.extend(slow(pilot.seconds_a_ray, effort));
+        warnings.extend(slow(pilot.seconds_a_ray + effort.light_paths * pilot.seconds_a_light_path, effort));
     }
     Ok(warnings)
 }
@@ -142,14 +145,14 @@ fn environment_evidence(scene: &Census<'_>) -> Evidence {
     Evidence::of::<Environment>(scene, "environment")
 }
 
-/// The number of samples to take, paths from lights included; none where the render ends after a given time.
+/// The number of samples to take, and of paths from lights for each; none where the render ends after a given time.
 fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
     let image = scene.table::<ImageFrame>()?;
     let pixels = f64::from(image.width) * f64::from(image.height);
     let paths = if traced_evidence(scene).needed { scene.table::<LightTracingTable>()?.paths } else { 0.0 };
-    let samples = f64::from(scene.table::<SamplingTable>()?.samples) * (1.0 + paths);
+    let samples = f64::from(scene.table::<SamplingTable>()?.samples);
     let threads = conditions.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
-    Ok(Effort { samples: (!conditions.ends_in_time).then_some(samples * pixels), threads })
+    Ok(Effort { samples: (!conditions.ends_in_time).then_some(samples * pixels), light_paths: paths, threads })
 }
 
 /// The paths of light that the integrator cannot sample in this scene at all.

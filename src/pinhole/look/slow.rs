@@ -13,6 +13,8 @@ const MANY_BOUNCES: f64 = 64.0;
 pub struct Effort {
     /// The number of samples of all pixels together; none where a time limit is given instead.
     pub samples: Option<f64>,
+    /// The number of light paths for each of them.
+    pub light_paths: f64,
     /// Workers.
     pub threads: usize,
 }
@@ -42,6 +44,18 @@ pub fn many_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
             "each camera ray is followed by {:.0} more on average, because the surfaces that it hits absorb \
              next to no light; darker surfaces, or a max_depth below {max_depth}, render faster",
             pilot.followed_by
+        )
+    })
+}
+
+/// The same for paths from the lights: glass and mirrors around a light can keep its light for very long.
+pub fn many_light_bounces(pilot: &Pilot, max_depth: u32) -> Option<String> {
+    (pilot.light_followed_by >= MANY_BOUNCES).then(|| {
+        format!(
+            "a path from a light has {:.0} segments or more on average, because what surrounds the light keeps it (a \
+             light inside glass, or on its surface, does not leave beyond the critical angle); another place for the \
+             light, or a max_depth below {max_depth}, renders faster",
+            1.0 + pilot.light_followed_by
         )
     })
 }
@@ -107,9 +121,10 @@ mod tests {
 
     #[test]
     fn long_renders_are_announced() {
-        let of = |samples, seconds, threads| slow(seconds, Effort { samples: Some(samples), threads });
+        let of =
+            |samples, seconds, threads| slow(seconds, Effort { samples: Some(samples), light_paths: 0.0, threads });
         assert_eq!(of(1e8, 1e-5, 2), None, "500 s");
-        assert_eq!(slow(1e9, Effort { samples: None, threads: 1 }), None, "the time is given");
+        assert_eq!(slow(1e9, Effort { samples: None, light_paths: 0.0, threads: 1 }), None, "the time is given");
         let warning = of(1.2e8, 1e-5, 2).expect("600 s");
         assert!(warning.starts_with("the picture will take about 10 minutes: 120 million samples at 10.0 µs each"));
         assert!(warning.contains(", on 2 threads; --time 5m"), "{warning}");

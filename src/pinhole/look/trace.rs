@@ -1,6 +1,6 @@
 use crate::extract::{ImageFrame, SamplingTable, shape_entities};
-use crate::plan::{Census, ColumnKind, ComponentNumber, Lifetime, Plan, Stage};
-use crate::rays::{Depth, PathLight, Paths, Tile};
+use crate::plan::{Census, ColumnKind, ComponentNumber, Evidence, Lifetime, Plan, Stage};
+use crate::rays::{Depth, PathLight, Paths, Tile, WorldRays};
 use crate::render::{Hook, inspect_pixel};
 use crate::scene::{SceneError, TracePixel, called};
 use crate::{Error, Result};
@@ -74,10 +74,22 @@ pub fn trace_sample(scene: &Census<'_>, offer: &[Stage], pixel: TracePixel, samp
         return Err(Error::from(SceneError::new("the trace", "sample", sample.to_string(), accepted)));
     }
     let hook = record_hook(pixel, sample);
-    let mut inspection = inspect_pixel(scene, offer, [pixel.x, pixel.y], sample, &[hook])?;
+    let offer = with_camera_rays(scene, offer);
+    let mut inspection = inspect_pixel(scene, &offer, [pixel.x, pixel.y], sample, &[hook])?;
     let stages = inspection.world.remove_resource::<Recording>().unwrap_or_default().0;
     let shapes = shapes_named(scene, &stages);
     Ok(Trace { pixel, sample, stages, shapes, prints_all: false })
+}
+
+/// The stages on offer; in a scene without shapes, the film asks for the camera rays, which nothing else reads there.
+fn with_camera_rays(scene: &Census<'_>, offer: &[Stage]) -> Vec<Stage> {
+    let mut offer = offer.to_vec();
+    if shape_entities(scene).is_empty() {
+        let films = |stage: &&mut Stage| stage.writes.iter().any(|column| column.lifetime == Lifetime::Film);
+        let asked: fn(&Census<'_>) -> Evidence = |_| Evidence::always("the trace prints them");
+        offer.iter_mut().filter(films).for_each(|stage| stage.reads_where.push((ColumnKind::of::<WorldRays>(), asked)));
+    }
+    offer
 }
 
 /// The names of all shapes whose numbers a stage wrote.
@@ -198,5 +210,22 @@ impl Trace {
         };
         let words: Vec<String> = components.iter().filter(|(name, _)| *name != "path").map(word).collect();
         words.join("  ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::PerspectiveCamera;
+    use crate::{Chapter, stages};
+
+    #[test]
+    fn an_empty_scene_shows_the_camera_ray() {
+        let mut world = World::new();
+        world.spawn(PerspectiveCamera::default());
+        let offer = Chapter::new("empty", "nothing", |_| ()).offer(stages::all()).stages();
+        let trace = trace(&Census::of(&world), &offer, TracePixel { x: 1, y: 2 }).expect("traced");
+        let rays: Vec<_> = trace.stages.iter().filter(|own| own.column.is::<WorldRays>()).collect();
+        assert!(!rays.is_empty() && rays.iter().all(|own| own.rows.len() == 1), "{:?}", trace.stages);
     }
 }

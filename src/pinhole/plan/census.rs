@@ -70,7 +70,7 @@ impl<'w> Census<'w> {
 
     /// The entities that pass a filter, the disabled ones among them.
     pub fn declared<F: ArchetypeFilter + 'static>(&self) -> Arc<[Entity]> {
-        self.once(|census| found::<F>(census, &[]).into())
+        self.once(|census| declared::<F>(census).into())
     }
 }
 
@@ -87,6 +87,11 @@ pub fn entities<F: ArchetypeFilter>(scene: &World) -> Vec<Entity> {
     let disabling = scene.get_resource::<DefaultQueryFilters>();
     let disabling: Vec<ComponentId> = disabling.into_iter().flat_map(DefaultQueryFilters::disabling_ids).collect();
     found::<F>(scene, &disabling)
+}
+
+/// Entities that pass the filter, the disabled ones among them, in spawn order.
+pub fn declared<F: ArchetypeFilter>(scene: &World) -> Vec<Entity> {
+    found::<F>(scene, &[])
 }
 
 /// Entities that pass the filter and have none of the disabling components.

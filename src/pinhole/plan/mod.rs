@@ -31,9 +31,9 @@ mod systems;
 mod table;
 
 pub use census::Census;
-#[doc(hidden)]
-pub use census::entities;
 pub(crate) use census::united;
+#[doc(hidden)]
+pub use census::{declared, entities};
 pub use column::{Column, Lifetime, column};
 #[doc(hidden)]
 pub use column::{ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column_component};

@@ -1,6 +1,6 @@
 use super::Execution;
 use super::clock::StageClock;
-use super::render_world::RenderWorld;
+use super::render_world::{Hook, RenderWorld};
 use crate::extract::{FilterTable, ImageFrame, LightTracingTable, SamplingTable};
 use crate::film::{Film, SplatFilter};
 use crate::follow::{LIGHT_PATHS, Splats, Stop};
@@ -12,6 +12,7 @@ use bevy_ecs::prelude::*;
 use rayon::ThreadPool;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The number of batches whose splats are added together: a few for every worker, so that memory stays bounded.
 const BATCHES_AT_ONCE: u64 = 64;
@@ -139,6 +140,30 @@ impl LightPass {
             world.and_then(|mut world| world.world.remove_resource::<StageClock>())
         })
     }
+}
+
+/// Runs the first batch of light paths for no longer than `patience`, with hooks after each stage; `look` gets the world
+/// and how long the batch took, or was run until it was abandoned.
+///
+/// Returns whether the plan has such a pass.
+pub fn probe_light_paths(
+    scene: &Census<'_>,
+    (plan, tables): (&Plan, &[ExtractedTable]),
+    patience: Duration,
+    hooks: &[Hook],
+    look: &mut dyn FnMut(&mut World, Duration),
+) -> Result<bool, SceneError> {
+    if !has_light_pass(plan) {
+        return Ok(false);
+    }
+    let sampling = scene.table::<SamplingTable>()?.for_light_paths();
+    let mut made = RenderWorld::of_pass(RowKind::LightPath, plan, tables, 1, &Execution::default(), hooks);
+    made.world.insert_resource(Shared::new(sampling));
+    let started = Instant::now();
+    made.stop_at(Stop::at_deadline(started + patience));
+    run_batch(&mut made, 0, &mut Splats::default());
+    look(&mut made.world, started.elapsed());
+    Ok(true)
 }
 
 /// Runs a batch of light paths and moves their splats to `list`, which is empty; returns whether the run was completed.

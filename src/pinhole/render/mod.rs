@@ -54,6 +54,8 @@ pub use inspect::{
 #[doc(hidden)]
 pub use key::film_key;
 #[doc(hidden)]
+pub use light_pass::probe_light_paths;
+#[doc(hidden)]
 pub use memory::{check_film_fits, film_bytes_per_pixel, peak_memory};
 #[doc(hidden)]
 pub use passes::{Limits, Outcome, render_in_passes};

@@ -1,41 +1,58 @@
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
 
+/// The depth limit of methods that follow few rays: beyond it light hardly shows.
+const FEW_SEGMENTS: u32 = 12;
+/// The depth limit of paths: beyond it light that is caught between perfect mirrors is long lost.
+const MANY_SEGMENTS: u32 = 1 << 12;
+/// The depth from which Russian roulette may end a path.
+const USUAL_ROULETTE: u32 = 5;
+
 /// On the camera: which light transport is simulated, and by which method.
 ///
-/// A camera without it gets the integrator that the scene needs.
+/// A camera without it gets the simplest that shows all light in the scene: that of a sky which is not black needs
+/// path tracing.
+/// In a scene file every field may be left out: `Path()` has the values of [`Integrator::PATH`].
 /// Each `max_depth` is the largest number of segments of a path from a light to the camera, as in Mitsuba: 1 gives
 /// emitted light alone, 2 adds direct light; PBRT's `maxdepth` is one less.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Integrator {
     /// Emission and direct light at the first hit; mirrors, glass and metal stay black.
+    ///
+    /// The sky lights nothing, and surfaces in a scene without any other light are shown unlit, in their own colours.
     RayCasting,
     /// Ray casting with specular reflection and refraction, both of which are traced at every surface of glass, so that
     /// nothing is random (Whitted 1980).
     Whitted {
-        /// The largest number of path segments.
+        /// The largest number of path segments; 12 if left out.
+        #[serde(default = "few_segments")]
         max_depth: u32,
     },
     /// Ambient occlusion: the cosine-weighted visibility of the sky at the first hit, and nothing else.
     AmbientOcclusion {
-        /// How far away objects still occlude, in scene units.
+        /// How far away objects still occlude, in scene units; any distance if left out.
+        #[serde(default = "any_distance")]
         distance: f64,
     },
     /// Whitted's method with area lights and rough metal sampled at random; there is no diffuse interreflection (Cook,
     /// Porter and Carpenter 1984).
     Distribution {
-        /// The largest number of path segments.
+        /// The largest number of path segments; 12 if left out.
+        #[serde(default = "few_segments")]
         max_depth: u32,
     },
     /// Path tracing: all paths that a random walk from the camera can find (Kajiya 1986).
     Path {
-        /// The largest number of path segments; the light of longer paths is missing.
+        /// The largest number of path segments, 4096 if left out; the light of longer paths is missing.
+        #[serde(default = "many_segments")]
         max_depth: u32,
-        /// How direct light is estimated.
+        /// How direct light is estimated; by multiple importance sampling if left out.
+        #[serde(default)]
         lights: LightStrategy,
         /// The path length, in segments, from which Russian roulette may end a path (Mitsuba's `rr_depth`); it leaves
-        /// the expected value unchanged; 0 for never.
+        /// the expected value unchanged; 0 for never, 5 if left out.
+        #[serde(default = "usual_roulette")]
         roulette: u32,
     },
 }
@@ -60,15 +77,64 @@ impl LightStrategy {
 impl Integrator {
     /// Path tracing with Russian roulette, and a depth limit at which light caught between perfect mirrors is long
     /// lost.
-    pub const PATH: Self = Self::Path { max_depth: 1 << 12, lights: LightStrategy::Mis, roulette: 5 };
+    pub const PATH: Self =
+        Self::Path { max_depth: MANY_SEGMENTS, lights: LightStrategy::Mis, roulette: USUAL_ROULETTE };
     /// Whitted's method, to a depth beyond which light hardly shows.
-    pub const WHITTED: Self = Self::Whitted { max_depth: 12 };
+    pub const WHITTED: Self = Self::Whitted { max_depth: FEW_SEGMENTS };
     /// Distribution ray tracing to the same depth.
-    pub const DISTRIBUTION: Self = Self::Distribution { max_depth: 12 };
+    pub const DISTRIBUTION: Self = Self::Distribution { max_depth: FEW_SEGMENTS };
+
+    /// What it is called in a sentence.
+    pub const fn in_words(self) -> &'static str {
+        match self {
+            Self::RayCasting => "ray casting",
+            Self::Whitted { .. } => "Whitted's method",
+            Self::AmbientOcclusion { .. } => "ambient occlusion",
+            Self::Distribution { .. } => "distribution ray tracing",
+            Self::Path { .. } => "path tracing",
+        }
+    }
+}
+
+/// The defaults of fields that a scene file leaves out, as serde takes them.
+const fn few_segments() -> u32 {
+    FEW_SEGMENTS
+}
+
+const fn many_segments() -> u32 {
+    MANY_SEGMENTS
+}
+
+const fn usual_roulette() -> u32 {
+    USUAL_ROULETTE
+}
+
+const fn any_distance() -> f64 {
+    f64::INFINITY
 }
 
 impl Default for Integrator {
     fn default() -> Self {
         Self::PATH
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each kind with all fields left out, and with each field given alone.
+    #[test]
+    fn every_field_has_a_default() {
+        let read = |text: &str| ron::from_str::<Integrator>(text).expect(text);
+        assert_eq!(read("RayCasting"), Integrator::RayCasting);
+        assert_eq!(read("Whitted()"), Integrator::WHITTED);
+        assert_eq!(read("AmbientOcclusion()"), Integrator::AmbientOcclusion { distance: f64::INFINITY });
+        assert_eq!(read("Distribution()"), Integrator::DISTRIBUTION);
+        assert_eq!(read("Path()"), Integrator::PATH);
+        let (max_depth, lights, roulette) = (MANY_SEGMENTS, LightStrategy::Mis, USUAL_ROULETTE);
+        assert_eq!(read("Path(max_depth: 4)"), Integrator::Path { max_depth: 4, lights, roulette });
+        assert_eq!(read("Path(lights: Light)"), Integrator::Path { max_depth, lights: LightStrategy::Light, roulette });
+        assert_eq!(read("Path(roulette: 0)"), Integrator::Path { max_depth, lights, roulette: 0 });
     }
 }

@@ -49,6 +49,7 @@ mod mirror;
 mod motion;
 mod name;
 mod open_file;
+mod orientation;
 mod phong;
 mod placement;
 mod plane;
@@ -91,7 +92,7 @@ pub use equirectangular::EquirectangularCamera;
 pub use file::FileProblem;
 pub use file::SceneFile;
 #[doc(hidden)]
-pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, scene_text, words};
+pub use file::{FNV_BASIS, PlaceInFile, fingerprint, fnv, in_words_of_files, scene_text, words};
 pub use filter::Filter;
 pub use fisheye::FisheyeCamera;
 #[doc(hidden)]
@@ -119,6 +120,7 @@ pub use motion::{Motion, Shutter};
 pub use name::{called, some_of};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
+pub use orientation::{axis_angle, euler_xyz};
 pub use phong::Phong;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;

@@ -1,14 +1,19 @@
+use super::orientation::WrittenPlacement;
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// The transform from an entity's own space to its parent's, or to the world's: scale, then rotation, then translation.
+///
+/// A scene file may give the orientation by angles instead: as `euler_xyz`, three angles in degrees, see
+/// [`euler_xyz`](super::euler_xyz), or as `axis_angle: (axis: (0, 1, 0), angle: 90)`.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(try_from = "WrittenPlacement")]
 pub struct Placement {
     /// The origin of the entity's space, in scene units.
     pub position: DVec3,
-    /// The rotation from the entity's axes to its parent's, a unit quaternion.
+    /// The rotation from the entity's axes to its parent's, a quaternion (x, y, z, w) of any length but 0, which is
+    /// normalised.
     #[serde(skip_serializing_if = "unturned")]
     pub orientation: DQuat,
     /// The scale factors along the entity's own axes; a negative one mirrors, 0 is an error.

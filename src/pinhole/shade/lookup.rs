@@ -186,12 +186,49 @@ mod tests {
         }
         let corner = image.rgb[0].map(f64::from);
         assert_eq!(bilinear(&image, DVec2::new(-1e300, -0.5), Wrap::Clamp), corner);
+        let pyramid = Pyramid::on(image.clone());
         for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e-300, 1e300] {
             for wrap in [Wrap::Repeat, Wrap::Clamp] {
-                let _ = nearest_texel(&image, DVec2::splat(odd), wrap);
-                let _ = image_mean(&Pyramid::on(image.clone()), &TexturePoint::default(), wrap);
+                let nearest = nearest_texel(&image, DVec2::splat(odd), wrap);
+                assert!(image.rgb.iter().any(|texel| texel.map(f64::from) == nearest), "{odd}, {wrap:?}: {nearest:?}");
+                let at = TexturePoint { point: DVec3::splat(odd), steps: [DVec3::X * 0.1, DVec3::Y * 0.1] };
+                let mean = image_mean(&pyramid, &at, wrap);
+                let within = mean.iter().all(|part| (0.0..=1.0).contains(part));
+                assert!(within || !odd.is_finite(), "{odd}, {wrap:?}: {mean:?}");
             }
         }
+    }
+
+    /// A width of 2ᵏ texels is the width of a texel of level k, so that level alone is looked up; between two levels,
+    /// the colour goes from one to the other with the logarithm of the width.
+    #[test]
+    fn a_width_of_a_power_of_two_is_a_level() {
+        let mut tried = 0;
+        for (width, height) in SIZES {
+            let pyramid = Pyramid::on(image(width, height));
+            let bilinear_of = |level: usize, at, wrap| bilinear(&pyramid.levels[level], at, wrap);
+            for number in 0..50 {
+                let part = |salt: u32| f64::from((number * 7919 + salt * 104_729) % 1009) / 1009.0;
+                let at = DVec2::new(part(1), part(2));
+                for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                    for level in 0..pyramid.levels.len() {
+                        let size = libm::exp2(level as f64);
+                        assert_eq!(trilinear(&pyramid, at, size, wrap), bilinear_of(level, at, wrap), "level {level}");
+                        tried += 1;
+                        if level + 1 == pyramid.levels.len() {
+                            continue;
+                        }
+                        let found = trilinear(&pyramid, at, size * libm::exp2(0.25), wrap);
+                        let [low, high] = [level, level + 1].map(|level| bilinear_of(level, at, wrap));
+                        for part in 0..3 {
+                            let expected = 0.75 * low[part] + 0.25 * high[part];
+                            assert!((found[part] - expected).abs() < 1e-12, "between {level} and the next");
+                        }
+                    }
+                }
+            }
+        }
+        eprintln!("levels: {tried} lookups as wide as a texel of a level");
     }
 
     #[test]

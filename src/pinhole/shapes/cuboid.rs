@@ -1,12 +1,13 @@
 use super::bounds::Bounds;
 use super::double_double_planar::double_double_cuboid_t;
 use super::emitter::EmittingCuboid;
+use super::interval::Interval;
 use super::offset::l1_norm;
 use super::planar::unit_in_f32;
 use super::ray_block::Intersection;
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
 use super::space::{Pose, normal_world_from_object};
-use super::uv::cuboid_uv;
+use super::uv::{face_axes, within_unit};
 use super::uv_slope::UvSlope;
 use crate::scene::{Cuboid, SceneError, positive_length, triple};
 use glam::{DMat3, DVec3};
@@ -65,7 +66,9 @@ impl Shape for Slabs {
     type Beside = ();
     type Emitter = EmittingCuboid;
 
-    const HAS_INSIDE: bool = true;
+    fn has_inside(_: &Cuboid) -> bool {
+        true
+    }
 
     fn place(&Cuboid { size }: &Cuboid, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let who = placed.who;
@@ -140,38 +143,6 @@ impl Shape for Slabs {
 const EPSILON: f64 = 1.0 / (1_u64 << 53) as f64;
 /// Half of u: the largest relative error of a t that counts as certain.
 const SMALL: f64 = 1.0 / (1_u64 << 25) as f64;
-
-/// A t with an interval that contains its exact value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Interval {
-    t: f64,
-    least: f64,
-    most: f64,
-}
-
-impl Interval {
-    #[inline(always)]
-    fn new(t: f64, error: f64) -> Self {
-        Self { t, least: t - error, most: t + error }
-    }
-
-    /// The larger of each number; a NaN is never taken over, for comparisons with it are false.
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        let larger = |a: f64, b: f64| if b > a { b } else { a };
-        Self { t: larger(self.t, other.t), least: larger(self.least, other.least), most: larger(self.most, other.most) }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        let smaller = |a: f64, b: f64| if b < a { b } else { a };
-        Self {
-            t: smaller(self.t, other.t),
-            least: smaller(self.least, other.least),
-            most: smaller(self.most, other.most),
-        }
-    }
-}
 
 // ANCHOR: slab
 /// Where a ray enters and leaves the slab |n · (x − C)| ≤ h: at t = (n·f ∓ h) / (n·R) with f = C − O, for n·R > 0.
@@ -283,3 +254,31 @@ pub fn cuboid_surface(hit: &RayHit, axis: usize, slabs: &Slabs) -> SurfacePoint 
     SurfacePoint { point, normal, bound, outside, at: DVec3::X * axis as f64 }
 }
 // ANCHOR_END: cuboid_surface
+
+/// The uv of a point on a face of a cuboid: 0 to 1 from edge to edge along each axis.
+#[inline(always)]
+pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
+    let at = |axis: usize| slabs.normal[axis].dot(from_centre) / slabs.half[axis];
+    let own = DVec3::new(at(0), at(1), at(2));
+    face_axes(axis, own[axis] < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(own)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_a_cuboid_read_from_left_to_right_and_down() {
+        let slabs = Slabs::new(DVec3::ZERO, DVec3::AXES, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 4.0]);
+        let at = |axis, x, y, z| cuboid_uv(&slabs, axis, DVec3::new(x, y, z));
+        assert_eq!(at(2, -1.0, 2.0, 4.0), [0.0, 0.0]);
+        assert_eq!(at(2, 1.0, -2.0, 4.0), [1.0, 1.0]);
+        assert_eq!(at(2, 0.5, 1.0, -4.0), [0.25, 0.25]);
+        assert_eq!(at(0, 1.0, 2.0, 4.0), [0.0, 0.0]);
+        assert_eq!(at(0, 1.0, -2.0, -4.0), [1.0, 1.0]);
+        assert_eq!(at(0, -1.0, 2.0, -4.0), [0.0, 0.0]);
+        assert_eq!(at(1, -1.0, 2.0, -4.0), [0.0, 0.0]);
+        assert_eq!(at(1, 1.0, -2.0, -4.0), [1.0, 1.0]);
+        assert_eq!(at(1, 0.0, 2.0, 0.0), [0.5, 0.5]);
+    }
+}

@@ -29,7 +29,9 @@ impl Shape for PlacedDisk {
     type Beside = ();
     type Emitter = EmittingDisk;
 
-    const HAS_INSIDE: bool = false;
+    fn has_inside(_: &Disk) -> bool {
+        false
+    }
 
     fn place(disk: &Disk, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let radius = positive_length(placed.who, "radius", disk.radius)?;

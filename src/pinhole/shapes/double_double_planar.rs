@@ -1,8 +1,7 @@
 //! Planar shapes and slabs in double-double: for the few intersections that f64 leaves uncertain.
 
 use super::cuboid::Slabs;
-use super::double_double::{DoubleDouble, add, dot, multiply, negated};
-use super::exact_sum::two_sum;
+use super::double_double::{DoubleDouble, add, dot, exact, multiply, negated, offset};
 use super::planar::Planar;
 use glam::DVec3;
 
@@ -101,15 +100,6 @@ pub fn double_double_cuboid_t(origin: DVec3, direction: DVec3, slabs: &Slabs) ->
     let found = if enters.numerator.0 > 0.0 { enters } else { leaves };
     let t = found.t();
     if enters.minus(&leaves) <= 0.0 && t > 0.0 && t < f64::INFINITY { (t, found.axis) } else { MISS }
-}
-
-/// C − O, exactly.
-fn offset(origin: DVec3, centre: DVec3) -> [DoubleDouble; 3] {
-    [0, 1, 2].map(|axis| two_sum(centre[axis], -origin[axis]))
-}
-
-fn exact(v: DVec3) -> [DoubleDouble; 3] {
-    v.to_array().map(|component| (component, 0.0))
 }
 
 fn magnitude(a: DoubleDouble) -> DoubleDouble {

@@ -1,5 +1,5 @@
 use super::bounds::Bounds;
-use super::double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t};
+use super::double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
 use super::emitter::NeverSampled;
 use super::offset::l1_norm;
 use super::ray_block::{Intersection, UNIT_ROUNDOFF};
@@ -45,7 +45,10 @@ impl Shape for Ellipsoid {
 
     const NOUN: &'static str = "unevenly scaled sphere";
     const UNEVEN: Option<bool> = Some(true);
-    const HAS_INSIDE: bool = true;
+
+    fn has_inside(_: &Sphere) -> bool {
+        true
+    }
 
     fn place(sphere: &Sphere, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let (who, pose, radius) = (placed.who, placed.pose, sphere.radius);

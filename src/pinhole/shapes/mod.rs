@@ -10,32 +10,36 @@
 
 /// The registered shapes, one line each; a further shape is added with a line, and everything else is generic over it.
 ///
-/// A line holds its name as a kind, the type that implements [`Shape`](crate::shapes::Shape), its noun for a field, and
+/// A line holds its name as a kind, the type that implements [`Shape`]($crate::shapes::Shape), its noun for a field, and
 /// the noun's plural.
 /// The order is that of the stages; it does not affect any picture.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! with_shapes {
     ($then:ident) => {
         $then! {
-            Sphere(crate::shapes::PlacedSphere) sphere "spheres",
-            Ellipsoid(crate::shapes::Ellipsoid) ellipsoid "ellipsoids",
-            Plane(crate::shapes::PlacedPlane) plane "planes",
-            Disk(crate::shapes::PlacedDisk) disk "disks",
-            Rectangle(crate::shapes::PlacedRectangle) rectangle "rectangles",
-            Cuboid(crate::shapes::Slabs) cuboid "cuboids",
-            Triangle(crate::shapes::TriangleRow) triangle "triangles",
+            Sphere($crate::shapes::PlacedSphere) sphere "spheres",
+            Ellipsoid($crate::shapes::Ellipsoid) ellipsoid "ellipsoids",
+            Plane($crate::shapes::PlacedPlane) plane "planes",
+            Disk($crate::shapes::PlacedDisk) disk "disks",
+            Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
+            Cuboid($crate::shapes::Slabs) cuboid "cuboids",
+            Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
 }
-pub(crate) use with_shapes;
+pub use with_shapes;
 
 mod bounds;
 mod cuboid;
 mod disk;
 mod double_double;
+mod double_double_ellipsoid;
 mod double_double_planar;
 mod ellipsoid;
 pub mod emitter;
 mod exact_sum;
+mod interval;
 mod kind;
 mod offset;
 mod planar;
@@ -55,9 +59,10 @@ mod uv;
 mod uv_slope;
 
 pub use bounds::Bounds;
-pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, face_of_point};
+pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
-pub use double_double::{double_double_ellipsoid_point, double_double_ellipsoid_t, double_double_sphere_t};
+pub use double_double::double_double_sphere_t;
+pub use double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
 pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
@@ -79,5 +84,5 @@ pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersectio
 pub use triangle_exact::exact_triangle_t;
 pub use triangle_hit::{TriangleHit, triangle_surface};
 pub use triangle_row::TriangleRow;
-pub use uv::{cuboid_uv, face_axes, planar_uv, plane_axes, sphere_uv};
+pub use uv::{face_axes, planar_uv, plane_axes, sphere_uv};
 pub use uv_slope::{UvSlope, most_of};

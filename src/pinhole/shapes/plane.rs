@@ -32,8 +32,11 @@ impl Shape for PlacedPlane {
     type Beside = ();
     type Emitter = NeverSampled;
 
-    const HAS_INSIDE: bool = true;
     const HAS_UV_SPACE: bool = true;
+
+    fn has_inside(_: &Plane) -> bool {
+        true
+    }
 
     fn place(plane: &Plane, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let largest = plane.normal.abs().max_element();

@@ -30,7 +30,9 @@ impl Shape for PlacedRectangle {
     type Beside = ();
     type Emitter = Parallelogram;
 
-    const HAS_INSIDE: bool = false;
+    fn has_inside(_: &Rectangle) -> bool {
+        false
+    }
 
     fn place(rectangle: &Rectangle, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         let width = positive_length(placed.who, "width", rectangle.width)?;

@@ -160,7 +160,7 @@ fn leaving<E: Emitting>(emitter: &E, one_sided: bool, u: [f64; 2], side: f64) ->
         _ => 0.5,
     };
     let (normal, random) = if side < away { (-spot.normal, away) } else { (spot.normal, 1.0 - away) };
-    LeavingPoint { position: spot.position, normal, area: emitter.area() / random, size: spot.size }
+    LeavingPoint { position: spot.position, normal, area: spot.area / random, size: spot.size }
 }
 
 impl UvSlope {
@@ -181,6 +181,57 @@ impl UvSlope {
                 DVec3::new(u.dot(moved), v.dot(moved), 0.0)
             }
             Self::Own(kind, numbers) => own_uv_step(*kind, *numbers, own, own_step),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::ray_aim::Draws;
+    use crate::shapes::PlacedSphere;
+    use crate::shapes::emitter::{EmittingCuboid, EmittingDisk, EmittingTriangle, Parallelogram};
+
+    /// Points are uniform over the area: the sum of their cosines to a distant plane gives the shape's projected area.
+    #[test]
+    fn points_of_lights_are_spread_over_their_area() {
+        const TRIED: u64 = 40_000;
+        let planar = Parallelogram::new(DVec3::new(1.0, 2.0, 3.0), [DVec3::X * 2.0, DVec3::Z], DVec3::Y);
+        let cuboid = EmittingCuboid::new(DVec3::ONE, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 0.5]);
+        let triangle = [DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 2.0];
+        let emitters = [
+            (Emitter::Sphere(PlacedSphere { centre: DVec3::ONE, radius: 2.0 }), DVec3::ONE),
+            (Emitter::Rectangle(planar), planar.centre),
+            (Emitter::Disk(EmittingDisk(planar)), planar.centre),
+            (
+                Emitter::Triangle(EmittingTriangle { corners: triangle, normal: DVec3::Z }),
+                DVec3::new(1.0, 2.0 / 3.0, 0.0),
+            ),
+            (Emitter::Cuboid(cuboid), DVec3::ONE),
+        ];
+        for (number, (emitter, middle)) in emitters.into_iter().enumerate() {
+            for one_sided in [true, false] {
+                let mut draws = Draws::new(2712, number as u64);
+                let (mut mean, mut up, mut area) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+                for _ in 0..TRIED {
+                    let (u, side) = ([draws.unit(), draws.unit()], draws.unit());
+                    let point = leaving_point(&emitter, one_sided, u, side);
+                    assert!((point.normal.length() - 1.0).abs() < 1e-12);
+                    let outward = emitter.faces(point.position + 1e-6 * point.normal);
+                    assert!(outward || !one_sided, "{number}");
+                    mean += point.position - middle;
+                    up += point.normal.abs() * point.area;
+                    area += point.area;
+                }
+                let sides = if one_sided { 1.0 } else { 2.0 };
+                let n = TRIED as f64;
+                assert!((mean / n).abs().max_element() < 0.04, "{number}: {}", mean / n);
+                assert!((area / n / emitter.area() / sides - 1.0).abs() < 0.06, "{number}: {}", area / n);
+                if let (Emitter::Cuboid(_), true) = (&emitter, one_sided) {
+                    // Faces across x, y and z: 4, 1 and 8 units, each twice.
+                    assert!((up / n - DVec3::new(8.0, 4.0, 16.0)).abs().max_element() < 0.5, "{}", up / n);
+                }
+            }
         }
     }
 }

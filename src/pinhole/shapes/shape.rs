@@ -19,6 +19,11 @@ pub trait SceneShape: Component<Mutability = Mutable> + Copy + Default {
 
     /// Multiplies all of its lengths.
     fn scale(&mut self, by: f64);
+
+    /// Components that the tests of all shapes try: the default, and what is harder, such as thin parts.
+    fn examples() -> Vec<Self> {
+        vec![Self::default()]
+    }
 }
 
 /// Where a shape's entity is placed.
@@ -106,12 +111,13 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     const NOUN: &'static str = Self::Component::WORD;
     /// For a component that has a shape of its own where the placement's scale is not uniform: whether this is that one.
     const UNEVEN: Option<bool> = None;
-    /// Whether it can be made of glass: it has an inside, alone or together with others.
-    const HAS_INSIDE: bool;
     /// Whether several usually make up one surface, such as the triangles of a mesh.
     const IS_PART: bool = false;
     /// Whether its u and v are those of a point in its uv space.
     const HAS_UV_SPACE: bool = false;
+
+    /// Whether it can be made of glass: it has an inside, alone or together with others.
+    fn has_inside(component: &Self::Component) -> bool;
 
     /// The shape of a component and its placement.
     ///

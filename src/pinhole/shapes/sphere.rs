@@ -34,8 +34,11 @@ impl Shape for PlacedSphere {
     type Emitter = Self;
 
     const UNEVEN: Option<bool> = Some(false);
-    const HAS_INSIDE: bool = true;
     const HAS_UV_SPACE: bool = true;
+
+    fn has_inside(_: &Sphere) -> bool {
+        true
+    }
 
     fn place(sphere: &Sphere, placed: &Placed<'_>) -> Result<(Self, ()), SceneError> {
         positive_length(placed.who, "radius", sphere.radius)?;
@@ -128,7 +131,7 @@ impl Emitting for PlacedSphere {
     fn spot(&self, u: [f64; 2]) -> LeavingSpot {
         let normal = sphere_direction(u);
         let size = l1_norm(self.centre) + self.radius;
-        LeavingSpot { position: self.centre + self.radius * normal, normal, size }
+        LeavingSpot { position: self.centre + self.radius * normal, normal, area: self.area(), size }
     }
 }
 

@@ -66,8 +66,11 @@ impl Shape for TriangleRow {
     type Beside = TriangleFace;
     type Emitter = EmittingTriangle;
 
-    const HAS_INSIDE: bool = true;
     const IS_PART: bool = true;
+
+    fn has_inside(_: &Triangle) -> bool {
+        true
+    }
 
     fn place(triangle: &Triangle, placed: &Placed<'_>) -> Result<(Self, TriangleFace), SceneError> {
         let (corners, normals) = placed_corners(triangle, placed)?;

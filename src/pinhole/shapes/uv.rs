@@ -1,6 +1,5 @@
 //! Texture coordinates of shapes: u to the right and v down, as seen from outside with +y up.
 
-use super::Slabs;
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
@@ -24,14 +23,6 @@ pub fn sphere_uv(own: DVec3) -> [f64; 2] {
 #[inline(always)]
 pub fn planar_uv(at: [f64; 2]) -> [f64; 2] {
     at.map(|coordinate| within_unit(0.5 + 0.5 * coordinate))
-}
-
-/// The uv of a point on a face of a cuboid: 0 to 1 from edge to edge along each axis.
-#[inline(always)]
-pub fn cuboid_uv(slabs: &Slabs, axis: usize, from_centre: DVec3) -> [f64; 2] {
-    let at = |axis: usize| slabs.normal[axis].dot(from_centre) / slabs.half[axis];
-    let own = DVec3::new(at(0), at(1), at(2));
-    face_axes(axis, own[axis] < 0.0).map(|along| within_unit(0.5 + 0.5 * along.dot(own)))
 }
 
 /// The two unit vectors, in a plane's object space, along which its u and v increase.
@@ -63,7 +54,7 @@ pub fn face_axes(axis: usize, negative: bool) -> [DVec3; 2] {
 
 /// Clamps to [0, 1]; NaN becomes 0.
 #[inline(always)]
-fn within_unit(coordinate: f64) -> f64 {
+pub(super) fn within_unit(coordinate: f64) -> f64 {
     if coordinate > 1.0 {
         1.0
     } else if coordinate > 0.0 {
@@ -127,23 +118,6 @@ mod tests {
     }
 
     #[test]
-    fn faces_of_a_cuboid_read_from_left_to_right_and_down() {
-        let slabs = Slabs::new(DVec3::ZERO, DVec3::AXES, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 4.0]);
-        let at = |axis, x, y, z| cuboid_uv(&slabs, axis, DVec3::new(x, y, z));
-        assert_eq!(at(2, -1.0, 2.0, 4.0), [0.0, 0.0]);
-        assert_eq!(at(2, 1.0, -2.0, 4.0), [1.0, 1.0]);
-        assert_eq!(at(2, 0.5, 1.0, -4.0), [0.25, 0.25]);
-        assert_eq!(at(0, 1.0, 2.0, 4.0), [0.0, 0.0]);
-        assert_eq!(at(0, 1.0, -2.0, -4.0), [1.0, 1.0]);
-        assert_eq!(at(0, -1.0, 2.0, -4.0), [0.0, 0.0]);
-        assert_eq!(at(1, -1.0, 2.0, -4.0), [0.0, 0.0]);
-        assert_eq!(at(1, 1.0, -2.0, -4.0), [1.0, 1.0]);
-        assert_eq!(at(1, 0.0, 2.0, 0.0), [0.5, 0.5]);
-        assert_eq!(planar_uv([1.0 + 1e-16, -1.0 - 1e-16]), [1.0, 0.0]);
-        assert_eq!(planar_uv([f64::NAN, -0.5]), [0.0, 0.25]);
-    }
-
-    #[test]
     fn a_plane_is_parametrised_in_its_own_units() {
         assert_eq!(plane_axes(DVec3::Y * 3.0), [DVec3::X, DVec3::Z]);
         assert_eq!(plane_axes(DVec3::Z), [DVec3::X, DVec3::NEG_Y]);
@@ -156,5 +130,11 @@ mod tests {
             // u is to the right and v down, so the third axis points at the viewer.
             assert!((v.cross(u) - unit).length() < 1e-15);
         }
+    }
+
+    #[test]
+    fn planar_shapes_run_from_0_to_1() {
+        assert_eq!(planar_uv([1.0 + 1e-16, -1.0 - 1e-16]), [1.0, 0.0]);
+        assert_eq!(planar_uv([f64::NAN, -0.5]), [0.0, 0.25]);
     }
 }

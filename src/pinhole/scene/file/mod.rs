@@ -18,11 +18,13 @@ mod read;
 mod refer;
 mod scan;
 mod scene_file;
+mod sentence;
 mod word;
 mod write;
 
 pub use fingerprint::{FNV_BASIS, fingerprint, fnv};
 pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
+pub use sentence::in_words_of_files;
 pub use word::words;
 pub use write::scene_text;

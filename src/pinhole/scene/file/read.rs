@@ -173,6 +173,9 @@ fn value_mistake(text: &str, part: &Part<'_>, who: &str, error: &SpannedError) -
             let named = matches!(code, Error::ExpectedDifferentStructName { .. } | Error::NoSuchEnumVariant { .. });
             let at = if named || in_variant { range.start } else { token_at(text, range, stopped) };
             let expected = match code {
+                _ if in_variant && name == "integrator" => {
+                    "a word with its fields in round brackets, such as Path()".into()
+                }
                 _ if in_variant => "a word with its fields in round brackets, such as Tent(radius: 1.0)".into(),
                 Error::IntegerOutOfBounds if name == "seed" => format!("a whole number from 0 to {}", u64::MAX),
                 _ => expected(code, part.word),
@@ -218,6 +221,7 @@ fn expected(code: &Error, word: &str) -> String {
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => "a word without quotes".into(),
         Error::InvalidValueForType { expected, .. } => expected.clone(),
         Error::InvalidEscape(_) => "a text whose backslashes are escapes of RON, such as \\n or \\\"".into(),
+        Error::Message(accepted) if word == "placement" => accepted.clone(),
         _ => "a value in RON syntax".into(),
     }
 }

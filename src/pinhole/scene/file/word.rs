@@ -73,6 +73,8 @@ pub type Put = Box<dyn Fn(&mut EntityWorldMut<'_>) + Send + Sync>;
 pub struct Word {
     /// The word, such as `point_light`.
     pub word: &'static str,
+    /// The name of the component's type, such as `PointLight`.
+    pub component: fn() -> &'static str,
     /// The component's type.
     pub kind: fn() -> TypeId,
     /// Parses the component from the text after the word's colon.
@@ -85,7 +87,14 @@ pub struct Word {
 
 impl Word {
     const fn of<C: Component + Clone + Serialize + DeserializeOwned>(word: &'static str) -> Self {
-        Self { word, kind: TypeId::of::<C>, read: read::<C>, write: write::<C>, of_default: of_default::<C> }
+        Self {
+            word,
+            component: component::<C>,
+            kind: TypeId::of::<C>,
+            read: read::<C>,
+            write: write::<C>,
+            of_default: of_default::<C>,
+        }
     }
 
     /// Finds a component by its word.
@@ -97,6 +106,11 @@ impl Word {
     pub fn all() -> &'static [Self] {
         WORDS
     }
+}
+
+fn component<C>() -> &'static str {
+    let path = std::any::type_name::<C>();
+    path.rsplit_once("::").map_or(path, |(_, name)| name)
 }
 
 fn read<C: Component + Clone + DeserializeOwned>(text: &str) -> Result<Put, SpannedError> {

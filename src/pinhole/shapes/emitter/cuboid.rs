@@ -86,7 +86,7 @@ impl Emitting for EmittingCuboid {
         let edges = [self.half_edges[(axis + 1) % 3], self.half_edges[(axis + 2) % 3]];
         let position = self.centre + sign * self.half_edges[axis] + along[0] * edges[0] + along[1] * edges[1];
         let size = l1_norm(self.centre) + self.half_edges.map(l1_norm).iter().sum::<f64>();
-        LeavingSpot { position, normal: sign * self.normals[axis], size }
+        LeavingSpot { position, normal: sign * self.normals[axis], area: self.area(), size }
     }
 }
 

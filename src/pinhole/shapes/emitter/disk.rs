@@ -43,7 +43,7 @@ impl Emitting for EmittingDisk {
     #[inline(always)]
     fn spot(&self, u: [f64; 2]) -> LeavingSpot {
         let (radius, (sine, cosine)) = (u[0].sqrt(), libm::sincos(TAU * u[1]));
-        self.0.spot_at([radius * cosine, radius * sine])
+        LeavingSpot { area: self.area(), ..self.0.spot_at([radius * cosine, radius * sine]) }
     }
 }
 

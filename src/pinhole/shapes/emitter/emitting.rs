@@ -3,7 +3,7 @@ use std::fmt::Debug;
 
 /// A shape as a light that is sampled: what sampling its area asks of it.
 pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
-    /// Whether it encloses a space, so that few of the rays that leave its inner side matter.
+    /// Whether it encloses a space, so that little of what leaves its inner side is ever seen.
     const IS_CLOSED: bool;
 
     /// The area that emits, on one side, in square scene units.
@@ -23,7 +23,7 @@ pub trait Emitting: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
     /// In units of the direction's length.
     fn distance(&self, from: DVec3, direction: DVec3) -> f64;
 
-    /// A point uniform over the area, for a point of the unit square.
+    /// A point of its area, for a point of the unit square; uniform, or nearly so.
     fn spot(&self, u: [f64; 2]) -> LeavingSpot;
 }
 
@@ -48,6 +48,8 @@ pub struct LeavingSpot {
     pub position: DVec3,
     /// The unit normal of the shape's own side.
     pub normal: DVec3,
+    /// 1 over its pdf per unit of area, in square scene units: all of the area where points are uniform.
+    pub area: f64,
     /// The largest magnitude in the computation of its position, for its error bound.
     pub size: f64,
 }

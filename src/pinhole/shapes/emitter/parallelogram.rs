@@ -56,7 +56,7 @@ impl Parallelogram {
     pub(super) fn spot_at(&self, [x, y]: [f64; 2]) -> LeavingSpot {
         let position = self.centre + x * self.half_edges[0] + y * self.half_edges[1];
         let size = l1_norm(self.centre) + l1_norm(self.half_edges[0]) + l1_norm(self.half_edges[1]);
-        LeavingSpot { position, normal: self.normal, size }
+        LeavingSpot { position, normal: self.normal, area: self.area(), size }
     }
 }
 

@@ -49,7 +49,7 @@ impl Emitting for EmittingTriangle {
         let root = u[0].sqrt();
         let position = a * (1.0 - root) + b * (root * (1.0 - u[1])) + c * (root * u[1]);
         let size = self.corners.into_iter().map(l1_norm).fold(0.0, f64::max);
-        LeavingSpot { position, normal: self.normal, size }
+        LeavingSpot { position, normal: self.normal, area: self.area(), size }
     }
 }
 

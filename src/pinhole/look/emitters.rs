@@ -1,0 +1,68 @@
+//! Surfaces that emit light in a way that strategies for direct light do not agree about, or cannot sample.
+
+use crate::Result;
+use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, shape_name};
+use crate::plan::{Census, counted};
+use crate::scene::{Integrator, LightStrategy};
+use std::collections::HashMap;
+
+/// Lights are compared with one another up to this number.
+const MOST_COMPARED: usize = 4096;
+
+/// A sentence about emitters that light sampling cannot sample, where it is the only strategy, and one about emitters
+/// that coincide.
+pub fn emitters(scene: &Census<'_>) -> Result<Vec<String>> {
+    let strategy = match integrator_of(scene).integrator {
+        Integrator::Path { lights, .. } => lights,
+        Integrator::Distribution { .. } => LightStrategy::Light,
+        _ => return Ok(Vec::new()),
+    };
+    let mut warnings = Vec::new();
+    if strategy == LightStrategy::Light {
+        warnings.extend(unsampled(scene)?);
+    }
+    warnings.extend(coincident(scene)?);
+    Ok(warnings)
+}
+
+/// Emitters that have no row among the lights that are sampled.
+fn unsampled(scene: &Census<'_>) -> Result<Option<String>> {
+    let (shapes, lights) = (scene.table::<ShapeTable>()?, scene.table::<AreaLightTable>()?);
+    let emissive = scene.table::<EmissiveTable>()?;
+    let emits = |shape: &usize| {
+        let row = shapes.emissive[*shape];
+        row != NO_ROW && emissive.radiance[row as usize] != [0.0; 3]
+    };
+    let missed: Vec<usize> =
+        (0..shapes.kind.len()).filter(emits).filter(|&s| lights.light_of_shape[s] == NO_ROW).collect();
+    let Some(&first) = missed.first() else { return Ok(None) };
+    let which =
+        format!("{} (the first is the {})", counted(missed.len(), "emitting surface"), shape_name(scene, first));
+    Ok(Some(match integrator_of(scene).integrator {
+        Integrator::Distribution { .. } => format!(
+            "distribution ray tracing samples lights and nothing else, and it cannot sample {which}: their light on \
+             other surfaces is missing; Integrator::Path finds it"
+        ),
+        _ => format!(
+            "light sampling cannot sample {which}, so BSDF sampling finds their light, as with LightStrategy::Bsdf; \
+             more samples, or a sphere, disk, rectangle, cuboid or triangles instead, lessen its noise"
+        ),
+    }))
+}
+
+/// Two lights with the very same surface.
+fn coincident(scene: &Census<'_>) -> Result<Option<String>> {
+    let lights = scene.table::<AreaLightTable>()?;
+    let mut seen = HashMap::new();
+    for (light, emitter) in lights.emitter.iter().enumerate().take(MOST_COMPARED) {
+        if let Some(other) = seen.insert(format!("{emitter:?}"), light) {
+            let [one, other] = [other, light].map(|light| shape_name(scene, lights.shape[light] as usize));
+            return Ok(Some(format!(
+                "the {one} and the {other} emit light from the very same surface, where rounding decides which of them \
+                 a ray hits: strategies for direct light give different pictures; move one of them, or add their \
+                 radiances in one"
+            )));
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,355 @@
+//! What every registered shape must hold, with no line for any of them: a new shape is tested as soon as it is listed.
+
+use bevy_ecs::prelude::*;
+use glam::{DQuat, DVec3, Vec3};
+use pinhole::extract::{ShapesOf, pose};
+use pinhole::plan::{Census, Table};
+use pinhole::scene::*;
+use pinhole::shapes::emitter::Emitting;
+use pinhole::shapes::{Listed, RayHit, SceneShape, Shape, offset_origin, with_shapes};
+use pinhole_lab::measure::oracle::Oracle;
+use pinhole_lab::measure::ray_aim::{AimedRay, Draws, rounded_ray};
+
+/// Calls a generic function for every registered shape.
+macro_rules! for_each_shape {
+    ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
+        macro_rules! each {
+            ($function:ident) => {
+                $($function::<$shape>($plural);)+
+            };
+        }
+    };
+}
+with_shapes!(for_each_shape);
+
+/// A shape in render space, with the placement that it is made from.
+struct Specimen<S: Shape> {
+    shape: S,
+    beside: S::Beside,
+    component: S::Component,
+    placement: Placement,
+}
+
+impl<S: Listed> Specimen<S> {
+    /// A component at a placement, the eye being the world's origin; none where it is refused.
+    fn of(component: S::Component, placement: Placement) -> Option<Self> {
+        let table = Table::extract(&Census::of(&scene(component, placement))).ok()?;
+        let ShapesOf::<S> { mut row, mut beside, .. } = table;
+        Some(Self { shape: row.pop()?, beside: beside.pop()?, component, placement })
+    }
+
+    /// One of the component's examples of a random size from 10 to these powers, turned at random, its origin this many
+    /// sizes away.
+    fn drawn(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
+        let examples = S::Component::examples();
+        let mut component = examples[(draws.unit() * examples.len() as f64) as usize];
+        let size = draws.power_of_ten(sizes[0], sizes[1]);
+        component.scale(size);
+        let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
+        let orientation = DQuat::from_xyzw(x, y, z, w).normalize();
+        let scale = match S::UNEVEN {
+            Some(false) => DVec3::splat(draws.between(0.5, 2.0)),
+            _ => DVec3::new(draws.between(0.5, 2.0), draws.between(0.2, 1.0), draws.between(0.5, 3.0)),
+        };
+        let position = draws.unit_vector() * (size * away);
+        Self::of(component, Placement { position, orientation, scale })
+    }
+
+    /// The surface where a ray hits it, if it does.
+    fn hit(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
+        let t = self.shape.t(origin, direction);
+        t.is_finite().then_some(RayHit { origin, direction, t, displacement: DVec3::ZERO })
+    }
+}
+
+fn scene<C: SceneShape>(component: C, placement: Placement) -> World {
+    let mut world = World::new();
+    world.spawn((PerspectiveCamera::default(), Resolution { width: 16, height: 16 }));
+    world.spawn((component, placement, Matte::default()));
+    world
+}
+
+/// Two directions from a point, as near to one another as f32 allows: one hits a shape and the other misses it.
+fn at_silhouette<S: Shape>(shape: &S, origin: Vec3, towards: DVec3, beside: DVec3) -> Option<[AimedRay; 2]> {
+    let hits = |ray: AimedRay| shape.t(ray.origin.as_dvec3(), ray.direction.as_dvec3()).is_finite();
+    let ray = |part: f64| rounded_ray(origin, towards + beside * part);
+    let (mut inside, mut outside) = (0.0, 1.0);
+    if !hits(ray(inside)) || hits(ray(outside)) {
+        return None;
+    }
+    while ray(inside) != ray(outside) && (outside - inside) > 1e-15 {
+        let middle = 0.5 * (inside + outside);
+        if hits(ray(middle)) { inside = middle } else { outside = middle }
+    }
+    Some([ray(inside), ray(outside)])
+}
+
+/// Rays on both sides of the silhouette, from afar, against exact arithmetic.
+fn check_silhouettes<S: Oracle>(name: &str) {
+    const TRIED: u64 = 600;
+    let (mut rays, mut wrong) = (0, 0);
+    for away in [1e3, 1e5, 1e7] {
+        for index in 0..TRIED {
+            let mut draws = Draws::new(3001, index);
+            let Some(specimen) = Specimen::<S>::drawn(&mut draws, [-1.0, 1.0], away) else { continue };
+            let Some((centre, radius)) = specimen.shape.bounding_sphere() else { continue };
+            let (aim, past) = (draws.unit_vector() * (0.3 * radius), draws.unit_vector_across(centre.normalize()));
+            let Some(pair) = at_silhouette(&specimen.shape, Vec3::ZERO, centre + aim, past * (3.0 * radius)) else {
+                continue;
+            };
+            for ray in pair {
+                let found = specimen.shape.t(ray.origin.as_dvec3(), ray.direction.as_dvec3());
+                let exact = specimen.shape.exact_t(ray);
+                let off = exact.map_or(0.0, |exact| (found / exact - 1.0).abs());
+                wrong += usize::from(found.is_finite() != exact.is_some() || off > 1.2e-7);
+                rays += 1;
+            }
+        }
+    }
+    eprintln!("silhouettes of {name}: {rays} rays, {wrong} misjudged");
+    assert_eq!(wrong, 0, "{name}");
+    assert!(rays > 500 || S::Component::WORD == "plane", "{name}: only {rays} rays");
+}
+
+#[test]
+fn no_ray_at_a_silhouette_is_misjudged() {
+    each!(check_silhouettes);
+}
+
+/// Rays that leave a surface on the side that they arrived on: the surface itself is never hit again at once.
+fn check_self_hits<S: Oracle>(name: &str) {
+    const TRIED: u64 = 3000;
+    let (mut rays, mut wrong) = (0, 0);
+    for index in 0..TRIED {
+        let mut draws = Draws::new(3002, index);
+        let away = draws.power_of_ten(-2.0, 4.0);
+        let Some(specimen) = Specimen::<S>::drawn(&mut draws, [-8.0, 8.0], away) else { continue };
+        let size = specimen.shape.bounding_sphere().map_or(1.0, |(_, radius)| radius);
+        let middle = specimen.shape.bounding_sphere().map_or(specimen.placement.position, |(centre, _)| centre);
+        let origin = (middle + draws.unit_vector() * (size * draws.power_of_ten(0.1, 2.0))).as_vec3();
+        let ray = rounded_ray(origin, middle + draws.unit_vector() * (0.5 * size) - origin.as_dvec3());
+        let Some(hit) = specimen.hit(ray.origin.as_dvec3(), ray.direction.as_dvec3()) else { continue };
+        let surface = specimen.shape.surface(&specimen.beside, &hit);
+        let (normal, bound) = (surface.normal.as_vec3(), f64::from(surface.bound));
+        // Where the bound is not small beside the shape, there is no room between its two sides.
+        if !surface.outside || bound > 1e-3 * size {
+            continue;
+        }
+        let leaving = offset_origin(surface.point.as_vec3(), normal, surface.bound);
+        let along = draws.unit_vector_across(normal.as_dvec3().normalize());
+        let direction = along + normal.as_dvec3() * draws.power_of_ten(-4.0, 1.0);
+        let next = rounded_ray(leaving, direction);
+        let t = specimen.shape.t(next.origin.as_dvec3(), next.direction.as_dvec3());
+        wrong += usize::from(t < 64.0 * bound);
+        rays += 1;
+    }
+    eprintln!("self-hits of {name}: {rays} rays, {wrong} hit their own surface at once");
+    assert_eq!(wrong, 0, "{name}");
+    assert!(rays > 200, "{name}: only {rays} rays");
+}
+
+#[test]
+fn no_ray_hits_the_surface_that_it_leaves() {
+    each!(check_self_hits);
+}
+
+/// Rays towards a shape of ordinary size from around it, and what they hit.
+fn some_hits<S: Oracle>(seed: u64, tried: u64, mut see: impl FnMut(&Specimen<S>, &RayHit, &mut Draws)) {
+    for index in 0..tried {
+        let mut draws = Draws::new(seed, index);
+        let Some(specimen) = Specimen::<S>::drawn(&mut draws, [0.0, 0.0], 4.0) else { continue };
+        let (centre, radius) = specimen.shape.bounding_sphere().unwrap_or((specimen.placement.position, 1.0));
+        let origin = centre + draws.unit_vector() * (2.0 * radius);
+        let direction = (centre + draws.unit_vector() * (0.9 * radius) - origin).normalize();
+        if let Some(hit) = specimen.hit(origin, direction) {
+            see(&specimen, &hit, &mut draws);
+        }
+    }
+}
+
+/// Every point that is hit lies in the box and the sphere around the shape.
+fn check_bounds<S: Oracle>(name: &str) {
+    let mut points = 0;
+    some_hits::<S>(3003, 2000, |specimen, hit, _| {
+        let surface = specimen.shape.surface(&specimen.beside, hit);
+        assert!((surface.normal.length() - 1.0).abs() < 1e-6, "{name}: {}", surface.normal);
+        assert!(surface.normal.dot(hit.direction) <= 1e-6, "{name}: the normal faces the ray");
+        assert!((surface.point - hit.point()).length() < 1e-6 * hit.t, "{name}: {hit:?}");
+        points += 1;
+        let Some(bounds) = specimen.shape.bounds() else { return };
+        let point = surface.point;
+        assert!(point.cmpge(bounds.least).all() && point.cmple(bounds.most).all(), "{name}: {point} in {bounds:?}");
+        let (centre, radius) = specimen.shape.bounding_sphere().expect("as finite as its box");
+        assert!((point - centre).length() <= radius * (1.0 + 1e-9), "{name}: {point}");
+    });
+    eprintln!("bounds of {name}: {points} points inside");
+    assert!(points > 100, "{name}: only {points} points");
+}
+
+/// The points of many rays come near all six sides of the box.
+fn check_tightness<S: Oracle>(name: &str) {
+    const RAYS: u32 = 20_000;
+    for index in 0..4 {
+        let mut draws = Draws::new(3008, index);
+        let Some(specimen) = Specimen::<S>::drawn(&mut draws, [0.0, 0.0], 4.0) else { continue };
+        let (Some(bounds), Some((centre, radius))) = (specimen.shape.bounds(), specimen.shape.bounding_sphere()) else {
+            continue;
+        };
+        let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for _ in 0..RAYS {
+            let origin = centre + draws.unit_vector() * (2.0 * radius);
+            let at = DVec3::new(draws.unit(), draws.unit(), draws.unit());
+            let direction = (bounds.least + at * (bounds.most - bounds.least) - origin).normalize();
+            if let Some(hit) = specimen.hit(origin, direction) {
+                (least, most) = (least.min(hit.point()), most.max(hit.point()));
+            }
+        }
+        let loose = (least - bounds.least).max_element().max((bounds.most - most).max_element());
+        assert!(loose < 0.1 * radius, "{name}: {bounds:?} is loose by {loose}");
+    }
+    eprintln!("bounds of {name}: {RAYS} rays each come near all sides");
+}
+
+#[test]
+fn every_point_of_a_surface_lies_within_its_bounds_and_all_sides_are_neared() {
+    each!(check_bounds);
+    each!(check_tightness);
+}
+
+/// A shape and everything about it 16 times as large: so is t.
+fn check_scaling<S: Oracle>(name: &str) {
+    const TIMES: f64 = 16.0;
+    let mut rays = 0;
+    some_hits::<S>(3004, 1000, |specimen, hit, _| {
+        let (mut component, mut placement) = (specimen.component, specimen.placement);
+        component.scale(TIMES);
+        placement.position *= TIMES;
+        let large = Specimen::<S>::of(component, placement).expect("an accepted shape");
+        let (t, large_t) = (hit.t, large.shape.t(hit.origin * TIMES, hit.direction));
+        assert!((large_t / t / TIMES - 1.0).abs() < 1e-12, "{name}: {large_t} for {t}");
+        rays += 1;
+    });
+    eprintln!("scaling of {name}: {rays} rays");
+}
+
+#[test]
+fn a_larger_scene_is_the_same_scene() {
+    each!(check_scaling);
+}
+
+/// A shape that moves is at every time what a shape that stands there would be.
+fn check_motion<S: Oracle>(name: &str) {
+    let mut rays = 0;
+    some_hits::<S>(3005, 1000, |specimen, hit, draws| {
+        let displacement = draws.unit_vector() * 0.1;
+        let placement = Placement { position: specimen.placement.position + displacement, ..specimen.placement };
+        let there = Specimen::<S>::of(specimen.component, placement).expect("an accepted shape");
+        let moved = specimen.shape.clone().into_body(specimen.beside.clone());
+        let rest = hit.origin - displacement;
+        let (t, standing) = (moved.t(rest, hit.direction), there.shape.t(hit.origin, hit.direction));
+        assert!(t == standing || (t - standing).abs() < 1e-6 * standing, "{name}: {t} for {standing}");
+        let Some(hit) = there.hit(hit.origin, hit.direction) else { return };
+        let surface = moved.surface(&RayHit { origin: rest, displacement, ..hit });
+        let still = there.shape.surface(&there.beside, &hit);
+        assert!((surface.point + displacement - still.point).length() < 1e-9 * hit.t, "{name}");
+        assert!((surface.normal - still.normal).length() < 1e-6 && surface.outside == still.outside, "{name}");
+        rays += 1;
+    });
+    eprintln!("motion of {name}: {rays} rays");
+}
+
+#[test]
+fn a_moving_shape_is_where_it_has_moved_to() {
+    each!(check_motion);
+}
+
+/// u and v of two hits close to one another differ by what their slope says.
+fn check_uv_slopes<S: Oracle>(name: &str) {
+    const STEP: f64 = 1e-6;
+    let (mut rays, mut worst) = (0, 0.0_f64);
+    some_hits::<S>(3006, 1000, |specimen, hit, draws| {
+        let world = scene(specimen.component, specimen.placement);
+        let census = Census::of(&world);
+        let entity = pinhole::extract::shape_entities(&census)[0];
+        let own_from_world = pose(&census, "", entity).expect("a pose").entity_from_world;
+        let uv_from_world = S::uv_from_world(&specimen.component, own_from_world);
+        let (at, origin) = (specimen.shape.surface(&specimen.beside, hit), specimen.placement.position);
+        let across = draws.unit_vector_across(at.normal.normalize()) * STEP;
+        let Some(next) = specimen.hit(hit.origin + across, hit.direction) else { return };
+        let after = specimen.shape.surface(&specimen.beside, &next);
+        let step = after.point - at.point;
+        let uv = |hit: &RayHit, at: DVec3| {
+            specimen.shape.uv(&specimen.beside, hit, at, uv_from_world * (hit.point() - origin))
+        };
+        let (before, after_uv) = (uv(hit, at.at), uv(&next, after.at));
+        let slope = specimen.shape.uv_slope(&specimen.beside, uv_from_world);
+        let own = own_from_world * (at.point - origin);
+        let expected = slope.step(own, at.normal, step, own_from_world * step);
+        let change = DVec3::new(after_uv[0] - before[0], after_uv[1] - before[1], 0.0);
+        // Across a seam or an edge, and at a pole, there is no slope.
+        if step.length() > 1e3 * STEP || change.length() > 0.1 || (after.normal - at.normal).length() > 0.1 {
+            return;
+        }
+        worst = worst.max((change - expected).length() / STEP);
+        rays += 1;
+    });
+    eprintln!("uv slopes of {name}: {rays} rays, worst {worst:.1e}");
+    assert!(worst < 2e-2 && rays > 50, "{name}: {worst} of {rays}");
+}
+
+#[test]
+fn u_and_v_change_as_their_slopes_say() {
+    each!(check_uv_slopes);
+}
+
+/// The visible points of a light that are sampled, cell by cell, against their pdf summed over its area.
+fn check_light<S: Oracle>(name: &str) {
+    const TRIED: u32 = 40_000;
+    const CELLS: usize = 3;
+    let (mut lights, mut worst) = (0, 0.0_f64);
+    for index in 0..6 {
+        let mut draws = Draws::new(3007, index);
+        let Some(specimen) = Specimen::<S>::drawn(&mut draws, [0.0, 0.0], 2.0) else { continue };
+        let (Some(light), Some(bounds)) = (specimen.shape.emitter(&specimen.beside), specimen.shape.bounds()) else {
+            continue;
+        };
+        let (centre, radius) = specimen.shape.bounding_sphere().expect("as finite as its box");
+        let from = centre + draws.unit_vector() * (radius * [1.1, 1.5, 8.0][index as usize % 3]);
+        let cell = |point: DVec3| {
+            let at = (point - bounds.least) / (bounds.most - bounds.least) * CELLS as f64;
+            at.to_array().into_iter().fold(0, |cell, part| cell * CELLS + (part.max(0.0) as usize).min(CELLS - 1))
+        };
+        let visible = |to: DVec3| specimen.shape.t(from, to) > 1.0 - 1e-6;
+        let mut sums = [[0.0; 4]; CELLS * CELLS * CELLS];
+        for _ in 0..TRIED {
+            let sampled = light.point(from, [draws.unit(), draws.unit()]);
+            let again = light.pdf(from, from + sampled.to);
+            assert!((again / sampled.pdf - 1.0).abs() < 1e-5, "{name}: pdf {} and {again}", sampled.pdf);
+            if visible(sampled.to) {
+                let bin = &mut sums[cell(from + sampled.to)];
+                (bin[0], bin[1]) = (bin[0] + 1.0, bin[1] + 1.0);
+            }
+            let spot = light.spot([draws.unit(), draws.unit()]);
+            let to = spot.position - from;
+            if visible(to) {
+                let per_area = spot.normal.dot(to).abs() / (to.length_squared() * to.length());
+                let weight = spot.area * per_area * light.pdf(from, spot.position);
+                let bin = &mut sums[cell(spot.position)];
+                (bin[2], bin[3]) = (bin[2] + weight, bin[3] + weight * weight);
+            }
+        }
+        for [count, count_squared, weight, weight_squared] in sums {
+            if count + weight > 50.0 {
+                worst = worst.max((count - weight).abs() / (count_squared + weight_squared).sqrt());
+            }
+        }
+        lights += 1;
+    }
+    eprintln!("lights that are {name}: {lights} of {TRIED} points each, worst {worst:.1} σ");
+    assert!(worst < 4.8, "{name}: {worst} σ");
+}
+
+#[test]
+fn points_of_lights_fall_as_their_pdfs_say() {
+    each!(check_light);
+}
