@@ -5,7 +5,7 @@ use super::{
     motion_evidence,
 };
 use crate::plan::{Census, ComponentKind, Evidence, Table};
-use crate::scene::{Integrator, LightTracing, PointLight, SceneError, SpotLight};
+use crate::scene::{LightTracing, PointLight, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 
 /// The greatest number of light paths per camera path.
@@ -37,7 +37,7 @@ impl Table for LightTracingTable {
             return Err(SceneError::new(who, "light_tracing paths", number(paths), accepted));
         }
         let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
-        if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {
+        if !integrator_of(scene).integrator.transport().samples_diffuse {
             return refused(
                 "without paths",
                 "light tracing complements the camera's paths: give it the integrator Path()",

@@ -9,7 +9,7 @@ use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::scene::{BlinnPhong, Integrator, Phong};
+use crate::scene::{BlinnPhong, Phong};
 use crate::shade::{LightPdfs, LightRays, SurfaceColours};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -102,7 +102,7 @@ pub fn mis_blinn_phong_stage() -> Stage {
 }
 
 fn followed(scene: &Census<'_>, surfaces: Evidence) -> Evidence {
-    surfaces.and(|| needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. })))
+    surfaces.and(|| needed_if(scene, |integrator| integrator.transport().samples_diffuse))
 }
 
 fn weighted(scene: &Census<'_>, surfaces: Evidence) -> Evidence {

@@ -6,7 +6,7 @@ use crate::intersect::MaterialRows;
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_two};
 use crate::sample::Purpose;
-use crate::scene::{Integrator, Matte};
+use crate::scene::Matte;
 use crate::shade::SurfaceColours;
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
@@ -85,6 +85,6 @@ fn reading(stage: Stage) -> Stage {
 
 /// Evidence that light is scattered from matte surfaces to others.
 pub(super) fn scattered_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. }))
+    needed_if(scene, |integrator| integrator.transport().samples_diffuse)
         .and(|| material_kind_evidence::<Matte>(scene, "matte surface"))
 }

@@ -10,7 +10,6 @@ use crate::intersect::NO_SHAPE;
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::scene::Integrator;
 use crate::shade::{ReflectionView, ReflectionViewItem, lit_evidence};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -141,5 +140,5 @@ pub fn metal_light_stage() -> Stage {
 
 /// Evidence that directions from rough metal are sampled.
 fn scattered_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { .. } | Integrator::Distribution { .. }))
+    needed_if(scene, |integrator| integrator.transport().samples_glossy)
 }
