@@ -14,6 +14,7 @@ const ORDER: &[(&str, &[&str])] = &[
             "scene",
             "plan",
             "cameras",
+            "filters",
             "shapes",
             "extract",
             "sample",
@@ -38,13 +39,14 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 8] = [
+const REEXPORTED: [(&str, &str); 9] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("column", "plan"),
     ("column_component", "plan"),
+    ("with_filter", "filters"),
     ("render_scene", "chapter"),
     ("run", "example"),
 ];

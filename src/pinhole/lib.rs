@@ -48,18 +48,19 @@
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
 //! 3. [`cameras`]: what a camera is, and the mathematics of each.
-//! 4. [`shapes`]: what a shape is, and the mathematics of each.
-//! 5. [`extract`]: entities → tables, as structures of arrays.
-//! 6. [`sample`]: samplers, random numbers and reconstruction filters.
-//! 7. [`rays`]: raster → NDC → screen → camera → world.
-//! 8. [`intersect`]: rays → the closest hit and its surface.
-//! 9. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 10. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 11. [`film`]: radiance → pixels → files.
-//! 12. [`render`]: the loop over tiles.
-//! 13. [`look`]: traces, views and statistics.
-//! 14. [`stages`]: all stages, in the order of the data.
-//! 15. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 4. [`filters`]: what a reconstruction filter is, and how each is sampled.
+//! 5. [`shapes`]: what a shape is, and the mathematics of each.
+//! 6. [`extract`]: entities → tables, as structures of arrays.
+//! 7. [`sample`]: samplers and random numbers.
+//! 8. [`rays`]: raster → NDC → screen → camera → world.
+//! 9. [`intersect`]: rays → the closest hit and its surface.
+//! 10. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 11. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 12. [`film`]: radiance → pixels → files.
+//! 13. [`render`]: the loop over tiles.
+//! 14. [`look`]: traces, views and statistics.
+//! 15. [`stages`]: all stages, in the order of the data.
+//! 16. [`prelude`]: what a scene or a stage of one's own begins with.
 
 pub mod scene;
 
@@ -67,6 +68,9 @@ pub mod plan;
 
 #[doc(hidden)]
 pub mod cameras;
+
+#[doc(hidden)]
+pub mod filters;
 
 #[doc(hidden)]
 pub mod shapes;

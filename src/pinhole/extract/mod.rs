@@ -77,6 +77,7 @@ pub use crate::cameras::{
     ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across,
     angle_of_tan_half, half_extent, tan_half,
 };
+pub use crate::filters::{FilterCells, Span, cells_of, filter_area, filter_value, radius_of, sign_change};
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
@@ -88,7 +89,7 @@ pub use directional_light::DirectionalLightTable;
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
-pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
+pub use filter::FilterTable;
 pub use glass::{GlassTable, glass_evidence};
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
