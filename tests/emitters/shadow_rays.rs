@@ -223,7 +223,7 @@ fn both_strategies_know_one_pdf() {
             let at = from + direction * f64::from(rays.t_max[ray]);
             // The light that the ray ends on, by its shape and not by its pdf.
             let distance = |light: &usize| match &lights.emitter[*light] {
-                Emitter::Sphere { centre, radius } => (at.distance(*centre) - radius).abs(),
+                Emitter::Sphere(sphere) => (at.distance(sphere.centre) - sphere.radius).abs(),
                 Emitter::Rectangle(planar) => planar.normal.dot(at - planar.centre).abs(),
                 _ => 0.0,
             };
