@@ -26,8 +26,10 @@ impl Camera for OrthographicWindow {
     fn generate(&self, screen: ScreenSlices<'_>, rays: CameraRaySlices<'_>) {
         let [ox, oy, _] = rays.origin;
         let [_, _, dz] = rays.direction;
-        for row in 0..screen.x.len() {
-            let origin = camera_ray_orthographic(DVec2::new(screen.x[row], screen.y[row]), self.half_height);
+        let rows = screen.x.len();
+        let (y, ox, oy, dz) = (&screen.y[..rows], &mut ox[..rows], &mut oy[..rows], &mut dz[..rows]);
+        for row in 0..rows {
+            let origin = camera_ray_orthographic(DVec2::new(screen.x[row], y[row]), self.half_height);
             (ox[row], oy[row], dz[row]) = (origin.x, origin.y, -1.0);
         }
     }
