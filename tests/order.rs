@@ -39,7 +39,7 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 9] = [
+const REEXPORTED: [(&str, &str); 10] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
@@ -47,6 +47,7 @@ const REEXPORTED: [(&str, &str); 9] = [
     ("column", "plan"),
     ("column_component", "plan"),
     ("with_filter", "filters"),
+    ("with_sampler", "sample"),
     ("render_scene", "chapter"),
     ("run", "example"),
 ];
