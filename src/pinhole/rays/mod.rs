@@ -2,7 +2,8 @@
 //!
 //! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
-//! Each file holds a pure function for one row, and the system that fills a column with it.
+//! Each file holds a pure function for one row, and the system that fills a column with it; those of cameras stand in
+//! [`cameras`](crate::cameras).
 //!
 //! ```
 //! use pinhole::prelude::*;
