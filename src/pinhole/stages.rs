@@ -56,12 +56,26 @@ use Group::*;
 /// A stage on offer, and the group that it belongs to.
 type Grouped = (Group, fn() -> Stage);
 
-/// Stages in order, and then those of every registered shape or BSDF.
+/// Stages in order, and then those of every registered shape, BSDF or camera.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
 
 /// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
 fn group_of(group: Group, is_uneven: bool) -> Group {
     if is_uneven { Transforms } else { group }
+}
+
+fn image_plane_rays() -> Vec<Grouped> {
+    let stages = rays::camera_stages().into_iter();
+    stages.filter(|&(is_planar, _)| is_planar).map(|(_, stage)| (CameraRays, stage)).collect()
+}
+
+fn wide_rays() -> Vec<Grouped> {
+    let stages = rays::camera_stages().into_iter();
+    stages.filter(|&(is_planar, _)| !is_planar).map(|(_, stage)| (WideCameras, stage)).collect()
+}
+
+fn image_masks() -> Vec<Grouped> {
+    shade::image_mask_stages().into_iter().map(|stage| (WideCameras, stage)).collect()
 }
 
 fn intersections() -> Vec<Grouped> {
@@ -119,11 +133,9 @@ const LIST: &[Part] = &[Part(&[
     (CameraRays, rays::screen_stage),
     (Lens, rays::lens_point_stage),
     (Motion, rays::time_stage),
-    (CameraRays, rays::perspective_stage),
-    (CameraRays, rays::orthographic_stage),
+], image_plane_rays), Part(&[
     (Lens, rays::lens_stage),
-    (WideCameras, rays::fisheye_stage),
-    (WideCameras, rays::equirectangular_stage),
+], wide_rays), Part(&[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
@@ -207,7 +219,7 @@ const LIST: &[Part] = &[Part(&[
     // All further bounces; then the light of the whole path is added to the film.
     (Bounces, follow::remaining_bounces_stage),
     (Bounces, follow::sum_bounces_stage),
-    (WideCameras, shade::image_circle_stage),
+], image_masks), Part(&[
     (Film, film::moments_stage),
     (Film, film::film_stage),
 ], Vec::new)];
@@ -218,7 +230,7 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let all = LIST.iter().flat_map(|Part(stages, of_each)| stages.iter().copied().chain(of_each()));
+    let all = LIST.iter().flat_map(|Part(stages, registered)| stages.iter().copied().chain(registered()));
     let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }

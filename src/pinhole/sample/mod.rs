@@ -3,8 +3,7 @@
 //! Therefore neither threads, tiles, the order of work, nor a stage that the plan drops can change one of them.
 //!
 //! Reads: the seed and the number of samples, nothing else of a scene.
-//! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
-//! in pixels, distributed as the reconstruction filter.
+//! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
 //! decided in one place, [`with_sampler!`], outside all loops over pixels.
 //!
@@ -18,7 +17,6 @@
 //! assert!((mean - 0.5).abs() < 0.02);
 //! ```
 
-mod filter;
 mod hash;
 mod independent;
 mod mean_error;
@@ -27,7 +25,7 @@ mod purpose;
 mod sobol;
 mod stratified;
 
-pub use filter::{box_offset, table_offset, tent_offset};
+pub use crate::filters::{box_offset, table_offset, tent_offset};
 pub use hash::{PixelKey, unit};
 pub use independent::{Independent, uniform};
 pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
