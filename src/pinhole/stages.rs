@@ -12,10 +12,14 @@
 //! assert!(stages::all().len() > 90);
 //! ```
 
-use crate::follow::{BsdfRole, BsdfStage};
-use crate::material::BsdfClass;
+mod registered;
+
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
+use registered::{
+    bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, shadow_rays,
+    surface_points, wide_rays,
+};
 use std::any::TypeId;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -50,7 +54,6 @@ enum Group {
     LightTracing,
     Film,
 }
-use BsdfRole::*;
 use Group::*;
 
 /// A stage on offer, and the group that it belongs to.
@@ -58,68 +61,6 @@ type Grouped = (Group, fn() -> Stage);
 
 /// Stages in order, and then those of every registered shape, BSDF or camera.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
-
-/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
-fn group_of(group: Group, is_uneven: bool) -> Group {
-    if is_uneven { Transforms } else { group }
-}
-
-fn image_plane_rays() -> Vec<Grouped> {
-    let stages = rays::camera_stages().into_iter();
-    stages.filter(|&(is_planar, _)| is_planar).map(|(_, stage)| (CameraRays, stage)).collect()
-}
-
-fn wide_rays() -> Vec<Grouped> {
-    let stages = rays::camera_stages().into_iter();
-    stages.filter(|&(is_planar, _)| !is_planar).map(|(_, stage)| (WideCameras, stage)).collect()
-}
-
-fn image_masks() -> Vec<Grouped> {
-    shade::image_mask_stages().into_iter().map(|stage| (WideCameras, stage)).collect()
-}
-
-fn intersections() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
-}
-
-fn surface_points() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
-}
-
-fn shadow_rays() -> Vec<Grouped> {
-    let stages = shade::shape_shadow_stages().into_iter();
-    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
-}
-
-/// The stages of all BSDFs for one purpose; specular BSDFs come before the others.
-fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
-    let group = |stage: &BsdfStage| match (role, stage.class) {
-        (MisWeights, _) => Mis,
-        (Connections | SampleFromLights, _) => LightTracing,
-        (_, _) if stage.transmits => Glass,
-        (_, BsdfClass::Specular) => SpecularReflection,
-        (_, BsdfClass::Glossy) => GlossyReflection,
-        (Evaluate, BsdfClass::Diffuse) => Highlights,
-        (_, BsdfClass::Diffuse) => PathContinuation,
-    };
-    let mut stages: Vec<BsdfStage> = follow::bsdf_stages().into_iter().filter(|own| own.role == role).collect();
-    stages.sort_by_key(|own| own.class != BsdfClass::Specular);
-    stages.iter().map(|own| (group(own), own.stage)).collect()
-}
-
-fn bsdf_rows() -> Vec<Grouped> {
-    of_bsdfs(Classify)
-}
-
-fn direct_light_of_bsdfs() -> Vec<Grouped> {
-    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
-}
-
-fn bsdf_samples() -> Vec<Grouped> {
-    [Split, Sample, SampleFromLights].into_iter().flat_map(of_bsdfs).collect()
-}
 
 /// All stages in the order of the data flow.
 ///

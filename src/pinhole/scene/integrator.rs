@@ -91,8 +91,8 @@ impl Integrator {
 
     /// What it does: the one place that says so for each integrator.
     #[doc(hidden)]
-    pub const fn transport(self) -> Transport {
-        let first_hit = Transport {
+    pub const fn transport(self) -> LightTransport {
+        let first_hit = LightTransport {
             name: "ray casting",
             // Light travels from a light by one surface to the camera.
             max_depth: 2,
@@ -107,16 +107,16 @@ impl Integrator {
         match self {
             Self::RayCasting => first_hit,
             Self::AmbientOcclusion { distance } => {
-                Transport { name: "ambient occlusion", occlusion: Some(distance), ..first_hit }
+                LightTransport { name: "ambient occlusion", occlusion: Some(distance), ..first_hit }
             }
-            Self::Whitted { max_depth } => Transport {
+            Self::Whitted { max_depth } => LightTransport {
                 name: "Whitted's method",
                 max_depth,
                 follows_paths: true,
                 splits_at_glass: true,
                 ..first_hit
             },
-            Self::Distribution { max_depth } => Transport {
+            Self::Distribution { max_depth } => LightTransport {
                 name: "distribution ray tracing",
                 max_depth,
                 follows_paths: true,
@@ -124,7 +124,7 @@ impl Integrator {
                 lights: Some(LightStrategy::Light),
                 ..first_hit
             },
-            Self::Path { max_depth, lights, roulette } => Transport {
+            Self::Path { max_depth, lights, roulette } => LightTransport {
                 name: "path tracing",
                 max_depth,
                 follows_paths: true,
@@ -140,7 +140,7 @@ impl Integrator {
 
 /// What an integrator does: all that stages, tables and warnings ask of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transport {
+pub struct LightTransport {
     /// What the integrator is called in a sentence.
     pub name: &'static str,
     /// The largest number of path segments, camera ray included: 1 for emitted light only, 2 for direct light.
@@ -162,7 +162,7 @@ pub struct Transport {
     pub occlusion: Option<f64>,
 }
 
-impl Transport {
+impl LightTransport {
     /// Whether area lights are sampled (next-event estimation).
     pub fn samples_lights(&self) -> bool {
         matches!(self.lights, Some(LightStrategy::Light | LightStrategy::Mis))

@@ -98,7 +98,7 @@ pub use gradient::Gradient;
 pub use image_texture::IMAGE_FILE;
 pub use image_texture::ImageTexture;
 #[doc(hidden)]
-pub use integrator::Transport;
+pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
 pub use layers::{LayerKind, Layers};
 pub use lens::{Aperture, Lens};
