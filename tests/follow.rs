@@ -2,6 +2,8 @@
 
 #[path = "follow/broken.rs"]
 mod broken;
+#[path = "follow/bsdfs.rs"]
+mod bsdfs;
 #[path = "follow/caustics.rs"]
 mod caustics;
 #[path = "follow/distant.rs"]
@@ -170,7 +172,9 @@ fn light_strategies_agree_on_the_chapters_scenes() {
             }
             world
         };
-        strategies_agree(name, &make, strategies, 8, 4);
+        // Its light is small and bright, so that its few pixels are the noisiest.
+        let samples = if name == "21_soft_shadows" { 32 } else { 16 };
+        strategies_agree(name, &make, strategies, samples, 4);
     }
 }
 

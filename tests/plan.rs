@@ -271,8 +271,8 @@ fn what_is_disabled_or_unused_is_dropped_by_name() {
     let kinds: [(&str, &str); 5] = [
         ("sun", "Sample directional lights"),
         ("spot", "Sample spot lights"),
-        ("glossy ball", "Add Phong highlights"),
-        ("satin ball", "Add Blinn–Phong highlights"),
+        ("glossy ball", "Evaluate direct light: Phong"),
+        ("satin ball", "Evaluate direct light: Blinn–Phong"),
         ("glow", "Add emission, weighted by MIS"),
     ];
     for (name, stage) in kinds {

@@ -2,18 +2,19 @@
 
 use super::question::Input;
 use bevy_ecs::prelude::*;
-use pinhole::extract::{MaterialKind, MaterialTable, PhongTable};
+use pinhole::material::PhongTable;
+use pinhole::extract::{MaterialKind, MaterialTable};
+use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
-use pinhole::shade;
 use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Radiance of Phong surfaces, less the matte part that "Evaluate direct light" adds.
 pub fn mine(ask: Ask<Input, f64>, _: &Setting<'_>) -> StandIn {
     StandIn::instead(
-        shade::phong_stage,
+        direct_light_stage::<PhongTable>,
         move |(materials, phong): (Res<Shared<MaterialTable>>, Res<Shared<PhongTable>>),
               mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &LightRays, Option<&ShadowHits>, &mut Radiance)>| {
             for (place, eye, surfaces, rays, shadows, mut radiance) in &mut tiles {

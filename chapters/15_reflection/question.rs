@@ -2,8 +2,8 @@
 
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::extract::phong_peak;
-use pinhole::shade::{half_vector_cosine, highlight, matte_radiance, mirror_cosine};
+use pinhole::material::{half_vector_cosine, highlight, mirror_cosine, phong_peak};
+use pinhole::shade::matte_radiance;
 use pinhole_lab::exercise::apart::relative;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -33,7 +33,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/shade/phong.rs", "mirror_cosine"),
+        pinhole_has: ("src/pinhole/material/phong.rs", "mirror_cosine"),
         probes: asked(),
         tell: |([colour, specular, exponent], irradiance, normal, to_light, to_eye)| {
             let [normal, to_light, to_eye] = [normal, to_light, to_eye].map(Shown::shown);

@@ -1,13 +1,21 @@
 //! The figures of chapter 19, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, path_mistakes};
+use pinhole_lab::figure::{Figure, materials, path_mistakes};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![Figure {
-        name: "19_broken",
-        chapter,
-        about: "rough metal, and rough metal by the pdf of something else",
-        draw: path_mistakes::draw_metal,
-    }]
+    vec![
+        Figure {
+            name: "19_broken",
+            chapter,
+            about: "rough metal, and rough metal by the pdf of something else",
+            draw: path_mistakes::draw_metal,
+        },
+        Figure {
+            name: "19_principled",
+            chapter,
+            about: "three balls of the principled material as dielectric, as a mixture, and as metal",
+            draw: materials::draw_principled,
+        },
+    ]
 }

@@ -24,7 +24,7 @@ pub fn chapter() -> Chapter {
         .offer(stages::bounces())
         .offer(stages::path_continuation())
         .offer(stages::specular_reflection())
-        .offer(stages::rough_metal())
+        .offer(stages::glossy_reflection())
 }
 // ANCHOR_END: chapter
 

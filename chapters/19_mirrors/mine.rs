@@ -3,16 +3,16 @@
 use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::follow;
-use pinhole::follow::Scattered;
+use pinhole::follow::{Scattered, specular_stage};
 use pinhole::intersect::Surfaces;
+use pinhole::material::MirrorTable;
 use pinhole::plan::Column;
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Directions in which light goes on from mirrors.
 pub fn mine(ask: Ask<Input, Vector>, _: &Setting<'_>) -> StandIn {
-    StandIn::after(follow::mirror_stage, move |mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
+    StandIn::after(specular_stage::<MirrorTable>, move |mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
         for (place, rays, surfaces, mut scattered) in &mut tiles {
             // Rough metal has a pdf, a mirror has none.
             for ray in (0..scattered.rows()).filter(|&ray| scattered.pdf[ray] == f64::INFINITY).collect::<Vec<_>>() {

@@ -1,8 +1,8 @@
 //! Chapter 19: a direction off a mirror whose normal may be of any length.
 
+use pinhole::material::mirror_direction;
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::follow::mirror_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -26,7 +26,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Vector> {
     Question {
-        pinhole_has: ("src/pinhole/follow/fresnel.rs", "mirror_direction"),
+        pinhole_has: ("src/pinhole/material/fresnel.rs", "mirror_direction"),
         probes: asked(),
         tell: |(direction, normal)| format!("direction {}, normal {}", direction.shown(), normal.shown()),
         right: |input| mirror_direction(input.0.into(), unit(input)).into(),

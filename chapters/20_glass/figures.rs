@@ -1,6 +1,6 @@
 //! The figures of chapter 20, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, fresnel, path_mistakes};
+use pinhole_lab::figure::{Figure, fresnel, materials, path_mistakes};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
@@ -16,6 +16,12 @@ pub fn figures(chapter: &'static str) -> Vec<Figure> {
             chapter,
             about: "glass, glass that bends with the inverted index, and glass that keeps radiance as it is",
             draw: path_mistakes::draw_glass,
+        },
+        Figure {
+            name: "20_frosted",
+            chapter,
+            about: "the glass ball nearly smooth, frosted and rough",
+            draw: materials::draw_rough_glass,
         },
     ]
 }

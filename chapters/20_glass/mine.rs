@@ -4,9 +4,9 @@ use super::question::{Input, Vector};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::GlassTable;
-use pinhole::follow;
-use pinhole::follow::Scattered;
+use pinhole::follow::{Scattered, split_stage};
 use pinhole::intersect::Surfaces;
+use pinhole::material::SmoothGlass;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
@@ -17,7 +17,7 @@ const TELLS: f64 = 1e-3;
 /// Directions in which light goes on into glass and out of it.
 pub fn mine(ask: Ask<Input, Option<Vector>>, _: &Setting<'_>) -> StandIn {
     StandIn::after(
-        follow::glass_stage,
+        split_stage::<SmoothGlass>,
         move |glass: Res<Shared<GlassTable>>, mut tiles: Query<(RowPlaces, &WorldRays, &Surfaces, &mut Scattered)>| {
             for (place, rays, surfaces, mut scattered) in &mut tiles {
                 for ray in 0..scattered.rows() {

@@ -1,8 +1,8 @@
 //! Chapter 20: a direction through a surface of glass, where there is one.
 
+use pinhole::material::refract;
 use super::mine::mine;
 use glam::DVec3;
-use pinhole::follow::refract;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -26,7 +26,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Option<Vector>> {
     Question {
-        pinhole_has: ("src/pinhole/follow/fresnel.rs", "refract"),
+        pinhole_has: ("src/pinhole/material/fresnel.rs", "refract"),
         probes: asked(),
         tell: |(direction, normal, eta)| {
             format!("direction {}, normal {}, eta {eta:?}", direction.shown(), normal.shown())

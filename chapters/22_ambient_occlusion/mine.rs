@@ -3,9 +3,9 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use pinhole::material::frame_of;
 use pinhole::extract::SamplingTable;
 use pinhole::follow;
-use pinhole::follow::frame_of;
 use pinhole::intersect::Surfaces;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};

@@ -1,7 +1,7 @@
 //! Chapter 22: a direction as frequent as its cosine is large.
 
+use pinhole::material::cosine_direction;
 use super::mine::mine;
-use pinhole::follow::cosine_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;
@@ -29,7 +29,7 @@ fn raised(radius: f64, turn: f64, height: f64) -> [f64; 3] {
 
 fn question() -> Question<Input, [f64; 3]> {
     Question {
-        pinhole_has: ("src/pinhole/follow/frame.rs", "cosine_direction"),
+        pinhole_has: ("src/pinhole/material/frame.rs", "cosine_direction"),
         probes: asked(),
         tell: |(u, v)| format!("u {}, v {}", u.shown(), v.shown()),
         right: |&(u, v)| cosine_direction([u, v]).into(),

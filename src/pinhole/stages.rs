@@ -12,8 +12,14 @@
 //! assert!(stages::all().len() > 90);
 //! ```
 
+mod registered;
+
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
+use registered::{
+    bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, light_samples,
+    shadow_rays, surface_points, wide_rays,
+};
 use std::any::TypeId;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -40,7 +46,7 @@ enum Group {
     Bounces,
     PathContinuation,
     SpecularReflection,
-    RoughMetal,
+    GlossyReflection,
     Glass,
     AreaLights,
     AmbientOcclusion,
@@ -53,30 +59,8 @@ use Group::*;
 /// A stage on offer, and the group that it belongs to.
 type Grouped = (Group, fn() -> Stage);
 
-/// Stages in order, and then those of every registered shape or light.
+/// Stages in order, and then those of every registered shape, BSDF, camera or light.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
-
-/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
-fn group_of(group: Group, is_uneven: bool) -> Group {
-    if is_uneven { Transforms } else { group }
-}
-
-fn intersections() -> Vec<Grouped> {
-    intersect::shape_stages().into_iter().map(|(uneven, [stage, _])| (group_of(Intersection, uneven), stage)).collect()
-}
-
-fn surface_points() -> Vec<Grouped> {
-    intersect::shape_stages().into_iter().map(|(uneven, [_, stage])| (group_of(Surfaces, uneven), stage)).collect()
-}
-
-fn light_samples(is_distant: bool) -> Vec<Grouped> {
-    let stages = shade::light_sampling_stages(is_distant).into_iter();
-    stages.map(|(is_first, stage)| (if is_first { DirectLight } else { Lights }, stage)).collect()
-}
-
-fn shadow_rays() -> Vec<Grouped> {
-    shade::shape_shadow_stages().into_iter().map(|(uneven, stage)| (group_of(Shadows, uneven), stage)).collect()
-}
 
 /// All stages in the order of the data flow.
 ///
@@ -90,11 +74,9 @@ const LIST: &[Part] = &[Part(&[
     (CameraRays, rays::screen_stage),
     (Lens, rays::lens_point_stage),
     (Motion, rays::time_stage),
-    (CameraRays, rays::perspective_stage),
-    (CameraRays, rays::orthographic_stage),
+], image_plane_rays), Part(&[
     (Lens, rays::lens_stage),
-    (WideCameras, rays::fisheye_stage),
-    (WideCameras, rays::equirectangular_stage),
+], wide_rays), Part(&[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
@@ -111,10 +93,11 @@ const LIST: &[Part] = &[Part(&[
 
     // Rows are sorted by the kinds of shapes and materials that were hit.
     (Surfaces, intersect::classify_stage),
-    (SpecularReflection, follow::classify_materials_stage),
+], bsdf_rows), Part(&[
     (Bounces, follow::max_depth_stage),
     (LightTracing, follow::keep_specular_stage),
     (LightTracing, follow::caustic_paths_stage),
+    (DirectLight, shade::transmissive_rows_stage),
 
     // Positions, normals and colours of the surfaces that were hit.
 ], surface_points), Part(&[
@@ -132,10 +115,14 @@ const LIST: &[Part] = &[Part(&[
     (Environment, shade::environment_stage),
     (AreaLights, follow::mis_environment_stage),
     (Environment, shade::gradient_stage),
-    (LightTracing, follow::sky_caustics_stage),
+    (LightTracing, follow::environment_caustics_stage),
 
     // Layers of the film are recorded.
     (Film, film::layers_stage),
+
+    // The medium along each ray is found, and absorbs light.
+    (Glass, follow::start_media_stage),
+    (Glass, follow::absorb_stage),
 
     // Lights are sampled: a ray from each surface towards each of them, or towards the camera.
     (LightTracing, shade::join_point_stage),
@@ -152,13 +139,7 @@ const LIST: &[Part] = &[Part(&[
     (Motion, shade::moving_shadow_stage),
 
     // Direct light is evaluated: the light of unblocked shadow rays, reflected along the path.
-    (Mis, follow::mis_matte_stage),
-    (Mis, follow::mis_phong_stage),
-    (Mis, follow::mis_blinn_phong_stage),
-    (Mis, follow::mis_metal_stage),
-    (Highlights, shade::blinn_phong_stage),
-    (Highlights, shade::phong_stage),
-    (RoughMetal, follow::metal_light_stage),
+], direct_light_of_bsdfs), Part(&[
     (DirectLight, shade::light_stage),
     (Lights, shade::emissive_stage),
     (AreaLights, follow::mis_emission_stage),
@@ -166,17 +147,7 @@ const LIST: &[Part] = &[Part(&[
     (Unlit, shade::unlit_stage),
 
     // BSDFs are sampled to continue the path, or it is terminated.
-    (Glass, follow::start_media_stage),
-    (Glass, follow::absorb_stage),
-    (Glass, follow::glass_stage),
-    (SpecularReflection, follow::mirror_stage),
-    (Glass, follow::glass_sample_stage),
-    (LightTracing, follow::glass_light_stage),
-    (LightTracing, follow::matte_light_stage),
-    (PathContinuation, follow::matte_stage),
-    (PathContinuation, follow::phong_sample_stage),
-    (PathContinuation, follow::blinn_phong_sample_stage),
-    (RoughMetal, follow::metal_stage),
+], bsdf_samples), Part(&[
     (LightTracing, follow::shading_adjoint_stage),
     (PathContinuation, follow::roulette_stage),
     (Bounces, follow::add_bounce_stage),
@@ -189,7 +160,7 @@ const LIST: &[Part] = &[Part(&[
     // All further bounces; then the light of the whole path is added to the film.
     (Bounces, follow::remaining_bounces_stage),
     (Bounces, follow::sum_bounces_stage),
-    (WideCameras, shade::image_circle_stage),
+], image_masks), Part(&[
     (Film, film::moments_stage),
     (Film, film::film_stage),
 ], Vec::new)];
@@ -308,9 +279,9 @@ pub fn specular_reflection() -> Vec<Stage> {
     of(SpecularReflection)
 }
 
-/// Rough metal: its BSDF sampled, and evaluated for direct light.
-pub fn rough_metal() -> Vec<Stage> {
-    of(RoughMetal)
+/// Glossy materials such as rough metal: their BSDFs sampled, and evaluated for direct light.
+pub fn glossy_reflection() -> Vec<Stage> {
+    of(GlossyReflection)
 }
 
 /// Glass: reflection and refraction, and the light that it absorbs.

@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
 use pinhole::film::{film_stage, write_checkpoint, write_exr};
+use pinhole::material::{MatteTable, MirrorTable, PhongTable};
 use pinhole::plan::{Census, Stage, plan};
 use pinhole::render::{Execution, Limits, RenderInProgress, WHOLE, film_key, render_in_passes};
 use pinhole::scene::{Resolution, SceneFile};
@@ -145,7 +146,7 @@ fn varied() -> Vec<Stage> {
     stages.extend([
         shade::shape_shadow_stage::<pinhole::shapes::Slabs>(),
         shade::light_stage(),
-        shade::phong_stage(),
+        follow::direct_light_stage::<PhongTable>(),
         film_stage(),
     ]);
     stages
@@ -156,11 +157,15 @@ fn followed() -> Vec<Stage> {
     stages.extend([rays::place_samples_stage(), intersect::start_stage(), shade::start_stage()]);
     stages.extend([shade::start_light_stage(), follow::start_paths_stage(), follow::start_scattered_stage()]);
     stages.extend([intersect::sphere_stage(), intersect::plane_stage(), intersect::classify_stage()]);
-    stages.extend([follow::classify_materials_stage(), follow::max_depth_stage()]);
+    stages.extend([follow::classify_bsdf_stage::<MirrorTable>(), follow::max_depth_stage()]);
     stages.extend([intersect::sphere_surface_stage(), intersect::plane_surface_stage(), shade::background_stage()]);
     stages.extend([shade::area_light_stage(), shade::start_shadow_stage(), shade::sphere_shadow_stage()]);
-    stages.extend([shade::plane_shadow_stage(), follow::mis_matte_stage(), shade::light_stage()]);
-    stages.extend([follow::mis_emission_stage(), follow::mirror_stage(), follow::matte_stage()]);
+    stages.extend([shade::plane_shadow_stage(), follow::mis_stage::<MatteTable>(), shade::light_stage()]);
+    stages.extend([
+        follow::mis_emission_stage(),
+        follow::specular_stage::<MirrorTable>(),
+        follow::sample_stage::<MatteTable>(),
+    ]);
     stages.extend([follow::roulette_stage(), follow::add_bounce_stage(), follow::next_bounce_stage()]);
     stages.extend([follow::remaining_bounces_stage(), follow::sum_bounces_stage(), film_stage()]);
     stages

@@ -1,8 +1,7 @@
 //! What pages 19 and 20 say of metal and glass, from their closed forms.
 
 use super::page_says;
-use pinhole::extract::SMOOTHEST_METAL;
-use pinhole::follow::{fresnel, fresnel_parts};
+use pinhole::material::{SMOOTHEST_METAL, fresnel, fresnel_parts};
 
 #[test]
 fn metal_reflects_what_page_19_says() {

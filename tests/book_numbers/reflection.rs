@@ -1,7 +1,7 @@
 //! What page 15 says of highlights, from their closed forms.
 
 use super::page_says;
-use pinhole::extract::{blinn_phong_peak, phong_peak};
+use pinhole::material::{blinn_phong_peak, phong_peak};
 use pinhole_lab::naive::light::short_blinn_phong_peak;
 
 #[test]

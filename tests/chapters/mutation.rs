@@ -35,7 +35,7 @@ fn every_stage_of_pinhole_that_a_chapter_runs_has_a_mutation() {
         stages::bounces(),
         stages::path_continuation(),
         stages::specular_reflection(),
-        stages::rough_metal(),
+        stages::glossy_reflection(),
         stages::glass(),
         stages::ambient_occlusion(),
         stages::mis(),

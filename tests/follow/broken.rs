@@ -3,7 +3,7 @@
 use super::*;
 use glam::DVec3;
 use pinhole::film::{Curve, byte_from_linear};
-use pinhole::follow::cosine_direction;
+use pinhole::material::cosine_direction;
 use pinhole::plan::{Plan, Stage};
 use pinhole::scene::Glass;
 use pinhole_lab::measure::closed_form::{ClosedForm, every_stage};

@@ -3,8 +3,8 @@
 use super::*;
 use glam::DVec3;
 use pinhole::film::{read_checkpoint, write_checkpoint};
-use pinhole::follow::fresnel;
 use pinhole::look::{Preflight, preflight};
+use pinhole::material::fresnel;
 use pinhole::plan::Census;
 use pinhole::render::{RenderInProgress, Worlds, prepare, steps_of};
 use pinhole::scene::*;

@@ -1,11 +1,12 @@
-//! Light paths that start outside the scene, on suns and skies: closed forms, and the camera's paths alone.
+//! Light paths that start outside the scene, on suns and environments: closed forms, and the camera's paths alone.
 
 use super::caustics::{Form, WIDTH, agrees, camera, mean_of, white};
 use super::*;
 use glam::{DQuat, DVec3};
-use pinhole::follow::fresnel;
+use pinhole::material::fresnel;
+use pinhole::plan::Census;
 use pinhole::scene::*;
-use scenes::caustics::caustics;
+use scenes::caustics::{caustics, traced};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// A sun of irradiance π, whose light falls at this angle to the vertical, towards +x.
@@ -109,13 +110,28 @@ fn under(sky: impl Bundle) -> World {
     world
 }
 
+fn evening(scale: f64) -> Environment {
+    Environment { file: "chapters/16_textures/evening.hdr".into(), turn: Degrees(77.0), scale }
+}
+
 #[test]
-fn light_from_skies_brings_what_the_camera_s_paths_bring() {
-    let gradient = || Gradient { bottom: Rgb::new(0.9, 0.6, 0.1), top: Rgb::new(0.2, 0.5, 1.5) };
-    agrees("an even sky", &|| under(Background { colour: Rgb::new(0.9, 0.7, 0.5) }), 16);
-    agrees("a gradient", &|| under(gradient()), 16);
-    let file = || String::from("chapters/16_textures/evening.hdr");
-    agrees("an evening", &|| under(Environment { file: file(), turn: Degrees(77.0), scale: 1.0 }), 16);
+fn light_from_an_environment_brings_what_the_camera_s_paths_bring() {
+    agrees("an evening", &|| under(evening(1.0)), 16);
+}
+
+/// BSDF sampling finds the light of an even sky or a gradient with less variance.
+#[test]
+fn no_light_paths_start_on_even_skies_gradients_and_black_environments() {
+    let passes = |make: &dyn Fn() -> World| {
+        let plan = pinhole::plan::plan(&Census::of(&traced(make)()), &offer()).expect("a plan");
+        let leaves = plan.rows.iter().any(|row| row.kept && row.stage.starts_with("Leave the environment's caustics"));
+        (plan.passes.len(), leaves)
+    };
+    let gradient = Gradient { bottom: Rgb::new(0.9, 0.6, 0.1), top: Rgb::new(0.2, 0.5, 1.5) };
+    assert_eq!(passes(&|| under(Background { colour: Rgb::new(0.9, 0.7, 0.5) })), (1, false));
+    assert_eq!(passes(&|| under(gradient)), (1, false));
+    assert_eq!(passes(&|| under(evening(0.0))), (1, false));
+    assert_eq!(passes(&|| under(evening(1.0))), (2, true));
 }
 
 /// A sun, and a ball so far away that it is seen as 0.4 degrees wide, with the same irradiance: paths start on it as on

@@ -35,7 +35,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scene
     };
     let paths = |setup: Setup| followed(INTEGRATORS[6], setup);
-    let scenes: [fn(Setup) -> World; 10] = [
+    let scenes: [fn(Setup) -> World; 11] = [
         full,
         stretched,
         shapes_of_all_kinds,
@@ -46,6 +46,7 @@ fn a_view_paints_the_columns_of_the_whole_picture() {
         scenes::blurred,
         scenes::moving,
         paths,
+        scenes::material::brushed,
     ];
     for (eye, scene_of) in EYES.into_iter().flat_map(|eye| scenes.map(|scene| (eye, scene))) {
         let setup = Setup { eye, size: [40, 33], ..Setup::default() };

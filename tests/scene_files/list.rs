@@ -12,7 +12,9 @@ const OTHERWISE: [(&str, &str); 2] =
 fn every_component_of_a_scene_has_a_word() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene");
     let mut components = Vec::new();
-    for entry in fs::read_dir(folder).expect("a readable folder") {
+    let entries =
+        [folder.clone(), folder.join("material")].map(|folder| fs::read_dir(folder).expect("a readable folder"));
+    for entry in entries.into_iter().flatten() {
         let path = entry.expect("an entry").path();
         let Ok(text) = fs::read_to_string(&path) else { continue };
         for after in text.split("#[derive(").skip(1) {
@@ -24,14 +26,14 @@ fn every_component_of_a_scene_has_a_word() {
             }
         }
     }
-    let list =
-        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pinhole/scene/file/word.rs")).expect("kept");
+    let lists = ["file/word.rs", "material/mod.rs"].map(|list| fs::read_to_string(folder.join(list)).expect("kept"));
+    let list = lists.concat();
     for component in &components {
         let listed = list.contains(&format!("Word::of::<{component}>("));
         let otherwise = OTHERWISE.iter().any(|(name, _)| name == component);
         assert!(
             listed != otherwise,
-            "{component} has no word in src/pinhole/scene/file/word.rs, or is held otherwise too"
+            "{component} has no word in scene/file/word.rs or scene/material/mod.rs, or is held otherwise too"
         );
     }
     assert_eq!(components.len(), words().count() + OTHERWISE.len(), "{components:?}");

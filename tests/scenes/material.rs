@@ -37,9 +37,11 @@ pub fn brushed(setup: Setup) -> World {
     let at = |x, y, z| Placement { position: setup.point(x, y, z), ..Placement::default() };
     let metal = |roughness| Metal { colour: Rgb::new(0.8, 0.6, 0.5), roughness, ..Metal::default() };
     let rough = Metal { multiple_scattering: true, ..metal(0.6) };
+    let frosted = RoughGlass { roughness: 0.3, ..RoughGlass::default() };
     let ball = Sphere { radius: 0.4 * setup.scale };
     world.spawn((Name::new("brushed ball"), ball, at(1.7, 0.42, 0.9), metal(0.15)));
     world.spawn((Name::new("rough sail"), leaning_triangle(setup.scale), at(0.8, 1.4, -0.4), rough));
+    world.spawn((Name::new("frosted ball"), ball, at(-0.6, 0.42, 1.3), frosted));
     let camera = named(&mut world, "camera");
     world.entity_mut(camera).remove::<Integrator>().insert(Sampling { samples: 2, ..Sampling::default() });
     world

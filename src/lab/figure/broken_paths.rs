@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::Chapter;
 use pinhole::Result;
-use pinhole::follow::cosine_direction;
+use pinhole::material::cosine_direction;
 use pinhole::scene::{Integrator, LightStrategy, Sampling};
 
 /// Three in a row.

@@ -8,7 +8,7 @@ use crate::naive::material::schlick;
 use glam::DVec2;
 use pinhole::Result;
 use pinhole::extract::GlassTable;
-use pinhole::follow::{fresnel, fresnel_parts};
+use pinhole::material::{fresnel, fresnel_parts};
 use pinhole::plan::{Census, Table};
 use pinhole::{Chapter, Overrides};
 

@@ -6,9 +6,9 @@ use super::pen::{IMAGE, INK, LIGHT, Pen, RAY, WIDTH};
 use super::svg::{Drawing, Svg};
 use glam::{DVec2, DVec3};
 use pinhole::Result;
-use pinhole::extract::{BlinnPhongTable, MaterialKind, MaterialTable, PhongTable};
+use pinhole::extract::{MaterialKind, MaterialTable};
+use pinhole::material::{BlinnPhongTable, PhongTable, half_vector_cosine, highlight, mirror_cosine};
 use pinhole::plan::{Census, Table};
-use pinhole::shade::{half_vector_cosine, highlight, mirror_cosine};
 use pinhole::{Chapter, Overrides};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 

@@ -24,6 +24,7 @@ pub mod jacobian;
 mod label;
 pub mod lobes;
 pub mod look_at;
+pub mod materials;
 pub mod ndc;
 pub mod normals;
 mod occluders;

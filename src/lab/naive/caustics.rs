@@ -2,8 +2,9 @@
 
 use bevy_ecs::prelude::*;
 use pinhole::extract::CameraJoinTable;
-use pinhole::follow::sample_glass;
+use pinhole::follow::{sample_specular, specular_from_lights_stage};
 use pinhole::intersect::Surfaces;
+use pinhole::material::SmoothGlass;
 use pinhole::plan::{Column, Shared, Stage};
 use pinhole::shade::{LightRays, camera_join_stage, connect_to_camera};
 use std::sync::Arc;
@@ -42,5 +43,8 @@ pub fn join_without_area() -> Stage {
 
 /// The stage that sends light on at glass as if it were radiance, with 1/η².
 pub fn refract_as_radiance() -> Stage {
-    Stage { system: Arc::new(|| sample_glass::<false>.into_configs()), ..pinhole::follow::glass_light_stage() }
+    Stage {
+        system: Arc::new(|| sample_specular::<SmoothGlass, false>.into_configs()),
+        ..specular_from_lights_stage::<SmoothGlass>()
+    }
 }

@@ -54,7 +54,7 @@ pub fn ggx_d_f32(cosine: f32, alpha: f32) -> f32 {
 #[must_use]
 pub fn ggx_brdf_unmasked(to_light: DVec3, to_eye: DVec3, alpha: f64) -> f64 {
     let half = (to_light + to_eye).normalize();
-    pinhole::follow::ggx_d(half, alpha) / (4.0 * to_light.z * to_eye.z)
+    pinhole::material::ggx_d(half, alpha) / (4.0 * to_light.z * to_eye.z)
 }
 
 /// Two directions across a normal by Frisvad's division (2012), in f32: near −z it divides by what rounding left.

@@ -7,11 +7,12 @@ use super::path::uniform_direction;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3, Vec3};
 use pinhole::extract::{
-    AreaLightTable, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, SamplingTable, ShutterTable,
-    glass_evidence, material_evidence, metal_evidence, mis_evidence, occlusion_evidence,
+    AreaLightTable, GlassTable, IntegratorTable, LensTable, MaterialKind, MaterialTable, NO_ROW, SamplingTable,
+    ShutterTable, bsdf_evidence, glass_evidence, material_evidence, mis_evidence, occlusion_evidence,
 };
-use pinhole::follow::{GlassRows, Scattered, ScatteredRay, SkyLists, SkyView, cosine_pdf, frame_of, sample_sky_with};
+use pinhole::follow::{Scattered, ScatteredRay, SkyLists, SkyView, sample_sky_with};
 use pinhole::intersect::{MaterialRows, SurfaceSides, Surfaces};
+use pinhole::material::{MetalTable, cosine_pdf, frame_of};
 use pinhole::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use pinhole::rays::{
     Depth, Draws, LensPoints, Paths, PixelSamples, RasterPoints, RayTimes, SampleNumber, Tile, draws_of_two,
@@ -89,24 +90,23 @@ pub fn metal_counted_as_matte() -> Stage {
             }
         }
     };
-    spoils(Stage::new("Forget how metal was sampled", TileSystems::Roulette, spoil)).when(metal_evidence)
+    spoils(Stage::new("Forget how metal was sampled", TileSystems::Roulette, spoil)).when(bsdf_evidence::<MetalTable>)
 }
 
 /// A beam that enters glass becomes narrower, and its radiance is divided by η² on the path back to the camera; here it is not
 /// multiplied again where it leaves.
 pub fn glass_that_keeps_beams_narrow() -> Stage {
-    let spoil = |glass: Res<Shared<GlassTable>>,
-                 mut of_row: Local<Vec<f64>>,
-                 mut tiles: Query<(&Surfaces, &SurfaceSides, &GlassRows, &mut Scattered)>| {
-        for (surfaces, sides, list, mut scattered) in &mut tiles {
-            of_row.clear();
-            of_row.resize(surfaces.rows(), 0.0);
-            list.row.iter().zip(&list.of).for_each(|(&row, &of)| of_row[row as usize] = glass.ior[of as usize]);
+    let spoil = |(materials, glass): (Res<Shared<MaterialTable>>, Res<Shared<GlassTable>>),
+                 mut tiles: Query<(&Surfaces, &SurfaceSides, &mut Scattered)>| {
+        for (surfaces, sides, mut scattered) in &mut tiles {
             for ray in 0..scattered.rows() {
                 let row = scattered.path[ray] as usize;
-                let through = direction(&scattered, ray).dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
-                if through && of_row[row] > 0.0 && sides.outside[row] == 0 {
-                    spoil_ray(&mut scattered, ray, 1.0 / (of_row[row] * of_row[row]));
+                let surface = surfaces.get(row);
+                let interior = materials.interior[surface.material as usize];
+                let through = direction(&scattered, ray).dot(surface.normal.as_dvec3()) < 0.0;
+                if through && interior != NO_ROW && sides.outside[row] == 0 {
+                    let ior = glass.ior[interior as usize];
+                    spoil_ray(&mut scattered, ray, 1.0 / (ior * ior));
                 }
             }
         }

@@ -1,5 +1,5 @@
 use super::check::{kind_and_name, light_colour};
-use super::material_kind::material_kind_evidence;
+use super::material::material_kind_evidence;
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{Disabled, Emissive, SceneError, Sides, UsesMaterial};
 use bevy_ecs::prelude::*;

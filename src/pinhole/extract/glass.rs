@@ -1,17 +1,15 @@
 use super::TriangleTable;
-use super::check::{kind_and_name, light_colour, number};
+use super::check::kind_and_name;
 use super::closed_mesh::{OpenMesh, open_mesh};
-use super::material_kind::{material_kind_evidence, used_material};
+use super::material::used_material;
 use super::shape_kind::{one_shape, shape_entities, shape_name};
-use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Glass, SceneError, called};
+use crate::material::{interior_of, material_entities};
+use crate::plan::{Census, Table};
+use crate::scene::{SceneError, called};
 use bevy_ecs::prelude::*;
 use std::collections::BTreeMap;
 
-/// The least accepted index of refraction, and the reciprocal of the greatest.
-const LEAST_INDEX: f64 = 1e-3;
-
-/// Kinds of glass (dielectrics), in spawn order.
+/// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlassTable {
     /// The index of refraction relative to a vacuum.
@@ -27,11 +25,11 @@ impl Table for GlassTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let mut table = Self::default();
-        for &entity in scene.entities::<With<Glass>>().iter() {
-            let (ior, absorption, priority) = glass_numbers(scene, entity)?;
-            table.ior.push(ior);
-            table.absorption.push(absorption);
-            table.priority.push(priority);
+        for &entity in material_entities(scene).iter() {
+            let Some(interior) = interior_of(scene, entity)? else { continue };
+            table.ior.push(interior.ior);
+            table.absorption.push(interior.absorption);
+            table.priority.push(interior.priority);
         }
         check_closed(scene)?;
         Ok(table)
@@ -42,18 +40,6 @@ impl Table for GlassTable {
     }
 }
 
-/// Index, absorption and priority of a kind of glass, checked.
-pub(super) fn glass_numbers(scene: &Census<'_>, entity: Entity) -> Result<(f64, [f64; 3], u32), SceneError> {
-    let glass = scene.get::<Glass>(entity).copied().unwrap_or_default();
-    let who = kind_and_name(scene, "glass", entity);
-    if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&glass.ior) {
-        let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
-        return Err(SceneError::new(who, "ior", number(glass.ior), accepted));
-    }
-    let absorption = light_colour(&who, "absorption", glass.absorption)?.to_array();
-    Ok((glass.ior, absorption, glass.priority))
-}
-
 /// Checks that no shape without an interior is made of glass.
 fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     for &shape in shape_entities(scene).iter() {
@@ -61,7 +47,8 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
         if (listed.has_inside)(scene, shape) {
             continue;
         }
-        let Some(material) = used_material(scene, shape).filter(|&own| scene.get::<Glass>(own).is_some()) else {
+        let Some(material) = used_material(scene, shape).filter(|&own| matches!(interior_of(scene, own), Ok(Some(_))))
+        else {
             continue;
         };
         let value = format!("the glass {}", called(scene, material));
@@ -77,7 +64,7 @@ fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
     let mut meshes: BTreeMap<Entity, Vec<usize>> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
         let material = shapes.get(shape as usize).and_then(|&shape| used_material(scene, shape));
-        if let Some(material) = material.filter(|&own| scene.get::<Glass>(own).is_some()) {
+        if let Some(material) = material.filter(|&own| matches!(interior_of(scene, own), Ok(Some(_)))) {
             meshes.entry(material).or_default().push(row);
         }
     }
@@ -91,9 +78,4 @@ fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
     let value = format!("the glass {}", called(scene, material));
     let accepted = format!("glass needs a shape with an interior, and {why}");
     Err(SceneError::new(shape_name(scene, triangles.shape[row] as usize), "material", value, accepted))
-}
-
-/// Evidence that a shape is made of glass.
-pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
-    scene.once(|scene| material_kind_evidence::<Glass>(scene, "glass surface"))
 }

@@ -1,13 +1,15 @@
-use super::material_kind::in_use_of;
+use super::material::in_use;
 use super::shape_kind::listed_kind;
-use super::{MaterialKind, MaterialTable, NO_ROW, ShapeTable, shape_entities};
+use super::{MaterialTable, NO_ROW, ShapeTable, shape_entities};
+use crate::material::{Interior, interior_of, material_entities};
 use crate::plan::{Census, Evidence};
-use crate::scene::{Glass, SceneError, called};
+use crate::scene::{SceneError, called};
 use crate::shapes::Bounds;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A glass shape with its bounding box.
 struct BoundedGlass {
@@ -20,9 +22,12 @@ struct BoundedGlass {
     bounds: Bounds,
 }
 
-/// Evidence of a shape made of glass that passes a test.
-pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Glass) -> bool) -> Evidence {
-    in_use_of::<Glass>(scene, noun, such)
+/// Evidence of a shape filled with what passes a test.
+pub fn glass_that(scene: &Census<'_>, noun: &str, such: impl Fn(&Interior) -> bool) -> Evidence {
+    let such = |&entity: &Entity| interior_of(scene, entity).ok().flatten().is_some_and(|own| such(&own));
+    let of = |entities: Arc<[Entity]>| entities.iter().copied().filter(such).collect::<Vec<_>>();
+    let (in_use, found) = (in_use(scene), of(material_entities(scene)));
+    Evidence::among_entities(scene, noun, |entity| in_use.contains(&entity), &found, &found)
 }
 
 /// Evidence that two glass shapes may overlap, according to their bounding boxes.
@@ -134,7 +139,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_glass = |&shape: &usize| {
         let material = shapes.material[shape];
-        material != NO_ROW && materials.kind[material as usize] == MaterialKind::Glass
+        material != NO_ROW && materials.interior[material as usize] != NO_ROW
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
     let bounded = glass.into_iter().map(|shape| {
@@ -143,7 +148,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
         let anywhere = Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
         let bounds = listed.map_or(Ok(None), |listed| (listed.bounds)(scene, row))?.unwrap_or(anywhere);
         let part = listed.is_some_and(|listed| listed.is_part);
-        Ok(BoundedGlass { shape, of: materials.row[shapes.material[shape] as usize], part, bounds })
+        Ok(BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds })
     });
     bounded.collect()
 }
@@ -151,7 +156,7 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Matte, Name, PerspectiveCamera, Placement, Plane, Sphere, Triangle, UsesMaterial};
+    use crate::scene::{Glass, Matte, Name, PerspectiveCamera, Placement, Plane, Sphere, Triangle, UsesMaterial};
 
     fn world(balls: &[(f64, f64)]) -> World {
         let mut world = World::new();

@@ -1,8 +1,7 @@
 use super::Pyramid;
 use super::check::kind_and_name;
 use super::image_file::{check_memory_of_textures, shown_name, texture_image};
-use super::phong::beside_highlight;
-use super::texture::{Texture, rows_of_kind};
+use super::texture::{Texture, check_beside_colour, rows_of_kind};
 use crate::plan::{Census, Table, counted};
 use crate::scene::{ImageTexture, Rgb, SceneError, TextureBy, Wrap};
 use bevy_ecs::prelude::*;
@@ -39,7 +38,7 @@ fn image_of(scene: &Census<'_>, owner: Entity) -> Result<Arc<Pyramid>, SceneErro
     let who = kind_and_name(scene, ImageTexture::WORD, owner);
     let image = texture_image(scene, &who, file)?;
     let [r, g, b] = image.brightest.map(f64::from);
-    beside_highlight(scene, owner, (&who, "file", shown_name(file)), Rgb::new(r, g, b))?;
+    check_beside_colour(scene, owner, (&who, "file", shown_name(file)), Rgb::new(r, g, b))?;
     Ok(image)
 }
 

@@ -1,11 +1,10 @@
 use super::camera_entity::camera_of;
 use super::emissive::emissive_evidence;
 use super::lights_of::light_kinds;
-use super::material::material_evidence;
+use super::material::{glossy_evidence, material_evidence, specular_evidence};
 use super::sky::sky_evidence;
-use super::{glass_evidence, metal_evidence, mirror_evidence};
 use crate::plan::{Census, Evidence};
-use crate::scene::{Integrator, LightStrategy, called};
+use crate::scene::{Integrator, called};
 use bevy_ecs::prelude::*;
 
 /// The integrator of a scene, and the reason for it.
@@ -24,9 +23,9 @@ pub struct ChosenIntegrator {
 // ANCHOR: integrator_of
 /// The integrator of a scene: the one named on its camera, or the simplest that shows everything in the scene.
 ///
-/// Rough metal, and other materials in the light of emitting surfaces or of a sky that is not black, need sampled
-/// points and directions, hence path tracing; mirrors and glass lit by lights without an area need none, hence
-/// Whitted's method; everything else is seen by ray casting.
+/// Glossy materials such as rough metal, and others in the light of emitting surfaces or of a sky that is not black,
+/// need sampled points and directions, hence path tracing; mirrors and glass lit by lights without an area need none,
+/// hence Whitted's method; everything else is seen by ray casting.
 pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
     scene.once(|scene| {
         if let Some((camera, integrator)) = named_integrator(scene) {
@@ -36,7 +35,7 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
         let (integrator, reason) = chosen_without_sky(scene);
         let chosen = ChosenIntegrator { integrator, reason, is_named: false, without_sky: None };
         let sky = sky_evidence(scene).and(|| material_evidence(scene));
-        if sky.needed && !matches!(integrator, Integrator::Path { .. }) {
+        if sky.needed && !integrator.transport().samples_diffuse {
             let reason = format!("light from the sky, {}", sky.reason);
             return ChosenIntegrator { integrator: Integrator::PATH, reason, without_sky: Some(integrator), ..chosen };
         }
@@ -46,10 +45,10 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
 
 /// The same for a scene whose sky is black or that has no material to be lit by it.
 fn chosen_without_sky(scene: &Census<'_>) -> (Integrator, String) {
-    let metal = metal_evidence(scene);
+    let glossy = glossy_evidence(scene);
     let emitters = emissive_evidence(scene).and(|| material_evidence(scene));
-    let specular = mirror_evidence(scene).or(glass_evidence(scene));
-    let by_bsdf = metal.or(emitters);
+    let specular = specular_evidence(scene);
+    let by_bsdf = glossy.or(emitters);
     if by_bsdf.needed {
         return (Integrator::PATH, by_bsdf.reason);
     }
@@ -76,13 +75,12 @@ fn has_points(scene: &Census<'_>) -> bool {
 
 /// Evidence that rays are traced beyond the first surface.
 pub fn followed_evidence(scene: &Census<'_>) -> Evidence {
-    let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
-    needed_if(scene, goes_on)
+    needed_if(scene, |integrator| integrator.transport().follows_paths)
 }
 
 /// Evidence that the picture shows ambient occlusion.
 pub fn occlusion_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
+    needed_if(scene, |integrator| integrator.transport().occlusion.is_some())
 }
 
 /// The evidence of something that lighting needs, except with ambient occlusion, which has no lights.
@@ -94,16 +92,12 @@ pub fn unless_occlusion(scene: &Census<'_>, evidence: Evidence) -> Evidence {
 
 /// Evidence that area lights are sampled (next-event estimation).
 pub fn light_sampling_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| match integrator {
-        Integrator::Distribution { .. } => true,
-        Integrator::Path { lights, .. } => lights != LightStrategy::Bsdf,
-        _ => false,
-    })
+    needed_if(scene, |integrator| integrator.transport().samples_lights())
 }
 
 /// Evidence that light sampling and BSDF sampling are combined by multiple importance sampling.
 pub fn mis_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightStrategy::Mis, .. }))
+    needed_if(scene, |integrator| integrator.transport().is_mis())
 }
 
 /// Evidence that the scene's integrator is of a kind.

@@ -2,14 +2,13 @@ use super::area_light::light_distribution;
 use super::camera::eye;
 use super::lights_of::{light_kinds, shadowed_evidence};
 use super::shape_kind::{listed_kind, one_shape, shape_entities};
-use super::sky::sky_evidence;
 use super::{
-    AreaLightTable, BackgroundTable, EnvironmentLightTable, EnvironmentTable, GradientTable, MaterialKind,
-    MaterialTable, NO_ROW, ShapeTable, luminance,
+    AreaLightTable, EnvironmentLightTable, EnvironmentTable, MaterialTable, NO_ROW, ShapeTable,
+    environment_light_evidence, luminance,
 };
 use crate::lights::{AnyLight, MOST_TARGETS, Target, Targets};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Background, Environment, Gradient, SceneError};
+use crate::scene::SceneError;
 use crate::shapes::{Bounds, Emitter};
 use bevy_ecs::prelude::*;
 use std::f64::consts::PI;
@@ -29,60 +28,26 @@ pub enum LightSource {
     },
     /// A light without an area.
     Delta(AnyLight),
-    /// What surrounds the scene.
-    Sky(Sky),
+    /// An environment image, and how directions to it are sampled.
+    Environment(Arc<EnvironmentTable>, Arc<EnvironmentLightTable>),
 }
 
-/// What surrounds a scene, as a light from which light paths start.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Sky {
-    /// The same radiance everywhere.
-    Even([f64; 3]),
-    /// A radiance that changes with elevation.
-    Gradient(GradientTable),
-    /// An image, and how directions to it are sampled.
-    Image(Arc<EnvironmentTable>, Arc<EnvironmentLightTable>),
-}
-
-impl Sky {
-    /// The sky of a scene; none where it is black.
-    fn of(scene: &Census<'_>) -> Result<Option<Self>, SceneError> {
-        if !sky_evidence(scene).needed {
-            return Ok(None);
-        }
-        if !scene.entities::<With<Gradient>>().is_empty() {
-            return Ok(Some(Self::Gradient(*scene.table::<GradientTable>()?)));
-        }
-        if !scene.entities::<With<Environment>>().is_empty() {
-            return Ok(Some(Self::Image(scene.table()?, scene.table()?)));
-        }
-        debug_assert!(!scene.entities::<With<Background>>().is_empty(), "a fourth kind of sky");
-        Ok(Some(Self::Even(scene.table::<BackgroundTable>()?.radiance.map(f64::from))))
-    }
-
-    /// The luminance of the irradiance that it sends from all directions together through an area at right angles to
-    /// each of them.
-    fn strength(&self) -> f64 {
-        let mean = match self {
-            Self::Even(radiance) => luminance(*radiance),
-            Self::Gradient(GradientTable { bottom, top }) => 0.5 * (luminance(*bottom) + luminance(*top)),
-            Self::Image(environment, _) => {
-                let image = &environment.image;
-                let row_weight = |row: usize| libm::sin(PI * (row as f64 + 0.5) / image.height as f64);
-                let rows = image.rgb.chunks(image.width).enumerate();
-                let sum = |row: &[[f32; 3]]| row.iter().map(|texel| luminance(texel.map(f64::from))).sum::<f64>();
-                let weighted: f64 = rows.map(|(at, row)| sum(row) * row_weight(at)).sum();
-                weighted / (image.width as f64 * (0..image.height).map(row_weight).sum::<f64>())
-            }
-        };
-        4.0 * PI * mean
-    }
+/// The luminance of the irradiance that an environment sends from all directions together through an area at right
+/// angles to each of them.
+fn environment_strength(environment: &EnvironmentTable) -> f64 {
+    let image = &environment.image;
+    let row_weight = |row: usize| libm::sin(PI * (row as f64 + 0.5) / image.height as f64);
+    let rows = image.rgb.chunks(image.width).enumerate();
+    let sum = |row: &[[f32; 3]]| row.iter().map(|texel| luminance(texel.map(f64::from))).sum::<f64>();
+    let weighted: f64 = rows.map(|(at, row)| sum(row) * row_weight(at)).sum();
+    4.0 * PI * weighted / (image.width as f64 * (0..image.height).map(row_weight).sum::<f64>())
 }
 
 /// The lights from which light paths start, and their targets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightPathTable {
-    /// The lights: area lights, then those without an area, kind after kind, each in spawn order, then the sky.
+    /// The lights: area lights, then those without an area, kind after kind, each in spawn order, then the
+    /// environment image.
     pub light: Vec<LightSource>,
     /// The cumulative distribution in units of 2⁻³², as in [`super::AreaLightTable`].
     pub until: Vec<u64>,
@@ -121,9 +86,10 @@ impl Table for LightPathTable {
                 light.push(LightSource::Delta(source));
             }
         }
-        if let Some(sky) = Sky::of(scene)?.filter(|_| is_started(true)) {
-            powers.push(sky.strength() * across);
-            light.push(LightSource::Sky(sky));
+        if environment_light_evidence(scene).needed && is_started(true) {
+            let environment = scene.table::<EnvironmentTable>()?;
+            powers.push(environment_strength(&environment) * across);
+            light.push(LightSource::Environment(environment, scene.table()?));
         }
         let (until, probability) = light_distribution(&powers);
         Ok(Self { light, until, probability, targets: Targets::clone(&targets) })
@@ -143,7 +109,7 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     let (shapes, materials) = (scene.table::<ShapeTable>()?, scene.table::<MaterialTable>()?);
     let is_specular = |shape: usize| match shapes.material[shape] {
         NO_ROW => false,
-        material => matches!(materials.kind[material as usize], MaterialKind::Mirror | MaterialKind::Glass),
+        material => materials.kind[material as usize].is_specular(),
     };
     let (eye, entities) = (eye(scene)?, shape_entities(scene));
     let (mut found, mut infinite, mut all) = (Vec::new(), Vec::new(), None::<Bounds>);
@@ -175,11 +141,13 @@ fn find_targets(scene: &Census<'_>) -> Result<Targets, SceneError> {
     Ok(Targets { sphere: found, scene, infinite })
 }
 
-/// Evidence of a light from which light paths start outside the scene: one without a position, or the sky.
+/// Evidence of a light from which light paths start outside the scene: one without a position, or an environment image.
 ///
+/// None start on a background or a gradient: such light arrives from everywhere nearly alike, so that BSDF sampling
+/// finds it with a sixth of the variance.
 /// Where a mirror or glass is infinite, no area across such a light holds all that it sends there, and none starts.
 pub fn distant_start_evidence(scene: &Census<'_>) -> Evidence {
-    let distant = shadowed_evidence(scene, true).or(sky_evidence(scene));
+    let distant = shadowed_evidence(scene, true).or(environment_light_evidence(scene));
     distant.and(|| match targets(scene) {
         Ok(targets) if !targets.sphere.is_empty() => Evidence::always("every mirror and glass is bounded"),
         _ => Evidence { needed: false, reason: "a mirror or glass is infinite".into(), count: 0 },

@@ -1,88 +1,88 @@
-use super::blinn_phong::blinn_phong_colour;
-use super::check::{kind_and_name, reflectance};
-use super::glass::glass_numbers;
-use super::material_kind::{MaterialKind, in_use, material_entities, one_material};
-use super::metal::{metal_evidence, metal_numbers};
-use super::phong::phong_colour;
-use crate::plan::{Census, ComponentKind, Evidence, Table};
-use crate::scene::{BlinnPhong, Glass, Matte, Metal, Mirror, Phong, SceneError};
+//! Which materials shapes are made of, and the evidence that stages need of them.
+
+use super::shape_kind::shape_entities;
+use crate::material::{
+    Bsdf, BsdfClass, MaterialKind, REGISTERED, Registration, declared_materials, is_material, material_entities,
+    material_kind,
+};
+use crate::plan::{Census, Evidence};
+use crate::scene::{Disabled, UsesMaterial};
 use bevy_ecs::prelude::*;
+use std::collections::HashSet;
+use std::sync::Arc;
 
-/// The materials of shapes of all kinds, in spawn order; kinds with further parameters have a table of their own.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct MaterialTable {
-    /// The kind of each.
-    pub kind: Vec<MaterialKind>,
-    /// Its row in the table of its kind.
-    pub row: Vec<u32>,
-    /// The diffuse albedo of each: red, green, blue, from 0 to 1.
-    pub colour: Vec<[f64; 3]>,
+/// The enabled entity that holds a shape's material: itself, or the one that it uses.
+pub(super) fn used_material(scene: &Census<'_>, shape: Entity) -> Option<Entity> {
+    let used = scene.get::<UsesMaterial>(shape).map(|used| used.0);
+    let is_there = |entity: &Entity| is_material(scene, *entity) && scene.get::<Disabled>(*entity).is_none();
+    [Some(shape), used].into_iter().flatten().find(is_there)
 }
 
-impl Table for MaterialTable {
-    const NAME: &'static str = "materials";
-
-    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let mut table = Self::default();
-        let mut rows_of_kind = [0; MaterialKind::COUNT];
-        for &entity in material_entities(scene).iter() {
-            let written = one_material(scene, entity)?;
-            let kind = (written.kind)(scene, entity);
-            let rows = &mut rows_of_kind[kind as usize];
-            table.row.push(*rows);
-            *rows += 1;
-            table.kind.push(kind);
-            table.colour.push(colour(scene, entity, &kind_and_name(scene, written.word, entity))?);
-        }
-        Ok(table)
-    }
-
-    fn bytes(&self) -> usize {
-        self.kind.len() * (size_of::<MaterialKind>() + size_of::<u32>() + size_of::<[f64; 3]>())
-    }
-}
-
-/// The diffuse colour of a material, after checking all of its values; black where it has none.
-fn colour(scene: &Census<'_>, entity: Entity, who: &str) -> Result<[f64; 3], SceneError> {
-    let own = scene.entity(entity);
-    if let Some(matte) = own.get::<Matte>() {
-        return Ok(reflectance(who, "colour", matte.colour)?.to_array());
-    }
-    if own.contains::<Phong>() {
-        return phong_colour(scene, entity, who);
-    }
-    if own.contains::<BlinnPhong>() {
-        return blinn_phong_colour(scene, entity, who);
-    }
-    if let Some(mirror) = own.get::<Mirror>() {
-        reflectance(who, "colour", mirror.colour)?;
-    }
-    if own.contains::<Glass>() {
-        glass_numbers(scene, entity)?;
-    }
-    if own.contains::<Metal>() {
-        metal_numbers(scene, entity)?;
-    }
-    Ok([0.0; 3])
-}
-
-const MATTE: [ComponentKind; 3] =
-    [ComponentKind::of::<Matte>(), ComponentKind::of::<Phong>(), ComponentKind::of::<BlinnPhong>()];
-
-/// Evidence of a shape whose material is not specular: any but mirrors and glass.
-pub fn material_evidence(scene: &Census<'_>) -> Evidence {
+/// The entities that hold the materials of shapes.
+pub(super) fn in_use(scene: &Census<'_>) -> Arc<HashSet<Entity>> {
     scene.once(|scene| {
-        let in_use = in_use(scene);
-        let matte = Evidence::among_any(scene, "material", &MATTE, |entity| in_use.contains(&entity.id()));
-        let metal = metal_evidence(scene);
-        if metal.needed { matte.or(metal) } else { matte }
+        let shapes = shape_entities(scene);
+        let used = shapes.iter().filter_map(|&shape| scene.get::<UsesMaterial>(shape)).map(|used| used.0);
+        Arc::new(used.chain(shapes.iter().copied()).collect())
     })
+}
+
+/// Evidence of a shape that carries this component, or uses a material that does.
+pub fn material_kind_evidence<C: Component>(scene: &Census<'_>, noun: &str) -> Evidence {
+    let in_use = in_use(scene);
+    Evidence::among::<With<C>>(scene, noun, |entity| in_use.contains(&entity.id()))
+}
+
+/// Evidence of a shape whose material is of a kind that passes a test; `noun` names one such surface.
+pub fn materials_evidence(scene: &Census<'_>, noun: &str, such: impl Fn(MaterialKind) -> bool) -> Evidence {
+    let (in_use, such) = (in_use(scene), |&entity: &Entity| material_kind(scene, entity).is_some_and(&such));
+    let of = |entities: Arc<[Entity]>| entities.iter().copied().filter(such).collect::<Vec<_>>();
+    let (enabled, declared) = (of(material_entities(scene)), of(declared_materials(scene)));
+    Evidence::among_entities(scene, noun, |entity| in_use.contains(&entity), &enabled, &declared)
+}
+
+/// Evidence of a shape with this BSDF.
+pub fn bsdf_evidence<B: Bsdf>(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| materials_evidence(scene, B::NOUN, |kind| kind == B::KIND))
+}
+
+/// The evidence of each BSDF that passes a test, those in use one after another.
+fn any_evidence(scene: &Census<'_>, none: &str, such: impl Fn(&Registration) -> bool) -> Evidence {
+    let each = REGISTERED.iter().filter(|own| such(own));
+    let each = each.map(|own| materials_evidence(scene, own.noun, |kind| kind == own.kind));
+    let found = each.filter(|own| own.needed).reduce(Evidence::or);
+    found.unwrap_or_else(|| materials_evidence(scene, none, |kind| such(&REGISTERED[kind as usize])))
+}
+
+/// Evidence of a shape whose material is not specular: any but mirrors and smooth glass.
+pub fn material_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| materials_evidence(scene, "material", |kind| !kind.is_specular()))
 }
 
 /// Evidence of a shape with diffuse reflection, whatever else its material has.
 pub fn matte_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| materials_evidence(scene, "matte surface", MaterialKind::is_lambertian))
+}
+
+/// Evidence of a shape whose material is glossy, so that it shows what surrounds it.
+pub fn glossy_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| any_evidence(scene, "glossy surface", |own| own.class == BsdfClass::Glossy))
+}
+
+/// Evidence of a shape whose material is specular.
+pub fn specular_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| any_evidence(scene, "specular surface", |own| own.class == BsdfClass::Specular))
+}
+
+/// Evidence of a shape whose surface transmits light.
+pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
+    scene.once(|scene| any_evidence(scene, "glass surface", |own| own.transmits))
+}
+
+/// Evidence of a shape that transmits light and is lit by light sampling.
+pub fn lit_from_behind_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
-        let in_use = in_use(scene);
-        Evidence::among_any(scene, "matte surface", &MATTE, |entity| in_use.contains(&entity.id()))
+        let such = |own: &Registration| own.transmits && own.class != BsdfClass::Specular;
+        any_evidence(scene, "surface that transmits light diffusely", such)
     })
 }

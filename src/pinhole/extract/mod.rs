@@ -23,17 +23,14 @@
 mod adaptive;
 mod area_light;
 mod background;
-mod blinn_phong;
 mod camera;
 mod camera_entity;
 mod camera_join;
-mod check;
 mod closed_mesh;
 mod emissive;
 mod environment;
 mod environment_light;
 mod filter;
-mod fisheye;
 mod glass;
 mod glass_overlap;
 mod gradient;
@@ -49,15 +46,13 @@ mod light_path;
 mod light_tracing;
 mod lights_of;
 mod material;
-mod material_kind;
-mod metal;
-mod mirror;
 mod motion;
 mod moving;
-mod phong;
+mod on_camera;
 mod pixel_steps;
 mod pose;
 mod pyramid;
+mod ray_origins;
 mod sampling;
 mod shape;
 mod shape_kind;
@@ -71,22 +66,22 @@ mod uv_slope;
 mod uv_space;
 mod velocity;
 
+pub use crate::cameras::{
+    ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across,
+    angle_of_tan_half, half_extent, tan_half,
+};
+pub use crate::filters::{FilterCells, Span, cells_of, filter_area, filter_value, radius_of, sign_change};
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
-pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak};
-pub use camera::{
-    CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
-    eye, half_extent, tan_half,
-};
-pub use camera_entity::camera_entity;
+pub use camera::{CameraAxes, camera_spread, eye};
+pub use camera_entity::{CAMERA_KINDS, CameraKind, camera_entity, camera_kind};
 pub use camera_join::CameraJoinTable;
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
-pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
-pub use fisheye::{ImageCircle, fisheye_evidence};
-pub use glass::{GlassTable, glass_evidence};
+pub use filter::FilterTable;
+pub use glass::GlassTable;
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
 pub use image_file::{Texels, read_exr};
@@ -99,25 +94,25 @@ pub use integrator::{
 pub use integrator_table::IntegratorTable;
 pub use layers::{LayerTable, layer_evidence};
 pub use lens::{LensTable, lens_evidence};
-pub use light_path::{LightPathTable, LightSource, Sky, distant_start_evidence};
+pub use light_path::{LightPathTable, LightSource, distant_start_evidence};
 pub use light_tracing::{
-    LightTracingTable, shadowed_distant_evidence, shadowed_point_evidence, sky_traced_evidence, started_on_evidence,
-    traced_evidence,
+    LightTracingTable, environment_traced_evidence, shadowed_distant_evidence, shadowed_point_evidence,
+    started_on_evidence, traced_evidence,
 };
 pub use lights_of::{
     DirectionalLightTable, LightKind, LightsOf, PointLightTable, SpotLightTable, delta_light_evidence, light_kinds,
     point_evidence,
 };
-pub use material::{MaterialTable, material_evidence, matte_evidence};
-pub use material_kind::{MaterialKind, NO_ROW, SMOOTHEST_METAL, material_kind_evidence};
-pub use metal::{MetalTable, metal_evidence, multiple_scattering_evidence, multiple_scattering_metals};
-pub use mirror::{MirrorTable, mirror_evidence};
+pub use material::{
+    bsdf_evidence, glass_evidence, glossy_evidence, lit_from_behind_evidence, material_evidence,
+    material_kind_evidence, matte_evidence, specular_evidence,
+};
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
-pub use phong::{PhongTable, phong_peak};
 pub use pixel_steps::PixelSteps;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
+pub use ray_origins::{RayOrigins, ray_origins_evidence};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
 pub use shape_kind::{
@@ -138,6 +133,8 @@ pub use uv_slope::UvSlopes;
 pub use uv_space::UvSpaceTable;
 pub use velocity::{moves_while_open, velocity_of};
 
+use crate::check;
+pub use crate::material::{MaterialKind, MaterialTable, NO_ROW};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, View};
 
@@ -146,12 +143,11 @@ use crate::scene::{SceneError, View};
 ///
 /// A new kind of component is added with a line; every other table is made from what these have checked.
 const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
+    on_camera::check_on_camera,
     answer::<ImageFrame>,
     answer::<ShutterTable>,
     answer::<CameraAxes>,
-    answer::<PerspectiveProjection>,
-    answer::<ImageCircle>,
-    answer::<OrthographicWindow>,
+    |scene| camera_spread(scene).map(drop),
     answer::<LensTable>,
     answer::<SamplingTable>,
     answer::<FilterTable>,

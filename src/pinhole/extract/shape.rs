@@ -1,8 +1,8 @@
 use super::check::kind_and_name;
 use super::emissive::emissive_entities;
-use super::material_kind::{MaterialKind, NO_ROW, material_entities, material_kind, materials_in_words};
 use super::shape_kind::{one_shape, shape_entities};
 use super::velocity::moves_while_open;
+use crate::material::{NO_ROW, components_in_words, material_entities, material_kind};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, UsesMaterial, called};
 use crate::shapes::ShapeKind;
@@ -30,7 +30,7 @@ impl Table for ShapeTable {
         let (materials, emissive) = (material_entities(scene), emissive_entities(scene));
         let kinds: Vec<_> = materials.iter().map(|&material| material_kind(scene, material)).collect();
         let non_specular =
-            |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(MaterialKind::is_non_specular);
+            |row: u32| kinds.get(row as usize).copied().flatten().is_some_and(|kind| !kind.is_specular());
         let mut table = Self::default();
         let (mut rows_of_kind, moves) = ([0; ShapeKind::Moving as usize + 1], moves_while_open(scene));
         for &entity in shape_entities(scene).iter() {
@@ -70,12 +70,15 @@ fn wrong_material(scene: &Census<'_>, who: &str, has_own: bool, used: Option<Ent
         }
         (_, Some(used)) => {
             let value = format!("used from {}", called(scene, used));
-            let accepted =
-                format!("that entity must carry a {} or an Emissive and not be disabled", materials_in_words());
+            let accepted = format!(
+                "that entity must carry a {} or an Emissive and not be disabled",
+                components_in_words("", |_| true)
+            );
             SceneError::new(who, "material", value, accepted)
         }
         (_, None) => {
-            let accepted = format!("a shape must carry a {}, a UsesMaterial or an Emissive", materials_in_words());
+            let accepted =
+                format!("a shape must carry a {}, a UsesMaterial or an Emissive", components_in_words("", |_| true));
             SceneError::new(who, "material", "missing", accepted)
         }
     }

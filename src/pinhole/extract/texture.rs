@@ -1,10 +1,11 @@
 use super::camera::eye;
 use super::check::{kind_and_name, positive_length, triple};
-use super::material_kind::{MaterialKind, in_use, material_entities, material_kind};
+use super::material::in_use;
 use super::pose::pose;
 use super::shape_kind::shape_entities;
+use crate::material::{components_in_words, material_entities, one_material};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{Checker, ImageTexture, SceneError, Stripes, TextureBy};
+use crate::scene::{Checker, ImageTexture, Rgb, SceneError, Stripes, TextureBy};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
@@ -211,16 +212,11 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
             let accepted = "a texture belongs on an entity that is a material, such as one with a Matte";
             return Err(SceneError::new(who, "material", "missing", accepted));
         }
-        let colourless = match material_kind(scene, owner) {
-            Some(MaterialKind::Mirror) => "a mirror",
-            Some(MaterialKind::Glass) => "glass",
-            Some(MaterialKind::Metal) => "metal",
-            _ => "",
-        };
-        if !colourless.is_empty() {
-            let accepted = "a texture colours diffuse reflection, as of a Matte, a Phong or a \
-                            BlinnPhong";
-            return Err(SceneError::new(who, "material", colourless, accepted));
+        let own = one_material(scene, owner)?;
+        if !own.textured {
+            let textured = components_in_words("a ", |own| own.textured);
+            let accepted = format!("a texture colours diffuse reflection, as of {textured}");
+            return Err(SceneError::new(who, "material", own.word, accepted));
         }
         if let Some((_, other)) = owned.get(at + 1).filter(|(other, _)| *other == owner) {
             let value = format!("given twice, as {word} and as {other}");
@@ -228,6 +224,26 @@ fn check_owners(scene: &Census<'_>) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+/// Checks that a texture's colour and the albedo that its material has beside it add up to at most 1; `largest` is the
+/// texture's maximum in each component.
+pub(super) fn check_beside_colour(
+    scene: &Census<'_>,
+    material: Entity,
+    (who, field, value): (&str, &'static str, String),
+    largest: Rgb,
+) -> Result<(), SceneError> {
+    let beside = one_material(scene, material)?.albedo_beside_colour(scene, material);
+    let Some(beside) = beside.filter(|own| (own.to_vec() + largest.to_vec()).max_element() > 1.0) else {
+        return Ok(());
+    };
+    let (beside, largest) = (triple(beside.to_vec()), triple(largest.to_vec()));
+    let accepted = format!(
+        "its parts are at most {largest} and with the material's specular colour {beside} must add up to at most 1, for a \
+         surface gives back no more than it gets"
+    );
+    Err(SceneError::new(who, field, value, accepted))
 }
 
 /// The row of each material among those with a texture of one kind, and the entities of these rows.

@@ -1,6 +1,5 @@
 use super::check::{kind_and_name, reflectance, triple};
-use super::phong::beside_highlight;
-use super::texture::{Texture, rows_of_kind};
+use super::texture::{Texture, check_beside_colour, rows_of_kind};
 use crate::plan::{Census, Table};
 use crate::scene::{Checker, Rgb, SceneError, Stripes};
 use bevy_ecs::prelude::*;
@@ -29,7 +28,7 @@ impl TwoColours {
             for (field, colour, colours) in [("first", first, &mut table.first), ("second", second, &mut table.second)]
             {
                 colours.push(reflectance(&who, field, colour)?.to_array());
-                beside_highlight(scene, material, (&who, field, triple(colour.to_vec())), colour)?;
+                check_beside_colour(scene, material, (&who, field, triple(colour.to_vec())), colour)?;
             }
             table.filter.push(texture.filter());
         }

@@ -1,4 +1,4 @@
-use crate::extract::{sky_traced_evidence, traced_evidence};
+use crate::extract::{environment_traced_evidence, traced_evidence};
 use crate::intersect::{Hits, MaterialRows, NO_SHAPE};
 use crate::plan::{Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, WorldRays};
@@ -41,10 +41,10 @@ pub fn caustic_paths_stage() -> Stage {
         .when(traced_evidence)
 }
 
-/// The paths that hit nothing, and the radiance of the sky that they found.
+/// The paths that hit nothing, and the radiance of the environment that they found.
 #[derive(QueryData)]
 #[query_data(mutable)]
-pub struct SkyCausticsView {
+pub struct EnvironmentCausticsView {
     depth: &'static Depth,
     paths: &'static Paths,
     caustic: &'static CausticPaths,
@@ -52,12 +52,12 @@ pub struct SkyCausticsView {
     radiance: &'static mut Radiance,
 }
 
-/// Leaves the sky's light that the camera's paths find behind mirrors or glass to light tracing, which finds the same
-/// light from the sky.
+/// Leaves the environment's light that the camera's paths find behind mirrors or glass to light tracing, which finds the
+/// same light from its other end.
 ///
 /// As with emission, that is so where the first surface is not specular and the last one is.
-pub fn leave_sky_caustics(mut tiles: Query<SkyCausticsView>) {
-    for SkyCausticsViewItem { depth, paths, caustic, hits, mut radiance } in &mut tiles {
+pub fn leave_environment_caustics(mut tiles: Query<EnvironmentCausticsView>) {
+    for EnvironmentCausticsViewItem { depth, paths, caustic, hits, mut radiance } in &mut tiles {
         if depth.0 == 0 {
             continue;
         }
@@ -72,10 +72,10 @@ pub fn leave_sky_caustics(mut tiles: Query<SkyCausticsView>) {
     }
 }
 
-/// The stage that runs [`leave_sky_caustics`].
-pub fn sky_caustics_stage() -> Stage {
-    Stage::new("Leave the sky's caustics to light tracing", TileSystems::Background, leave_sky_caustics)
+/// The stage that runs [`leave_environment_caustics`].
+pub fn environment_caustics_stage() -> Stage {
+    Stage::new("Leave the environment's caustics to light tracing", TileSystems::Background, leave_environment_caustics)
         .on_camera_paths()
         .kind(StageKind::Alternative)
-        .when(sky_traced_evidence)
+        .when(environment_traced_evidence)
 }

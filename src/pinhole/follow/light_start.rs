@@ -1,16 +1,15 @@
-use super::{cosine_direction, frame_of};
-use crate::extract::{GradientTable, LightPathTable, LightSource, SamplingTable, Sky, luminance, traced_evidence};
+use crate::extract::{LightPathTable, LightSource, SamplingTable, traced_evidence};
 use crate::lights::{LightStart, MAX_TARGETS_SOLID_ANGLE, StartDraws, direction_to_targets};
+use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Shared, Stage, StageKind, TileSystems, column};
 use crate::rays::{Depth, Paths, SampleNumber, Tile, WorldRays};
 use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
-use crate::shade::{Radiance, environment_direction, environment_radiance, gradient_radiance};
-use crate::shapes::emitter::sphere_direction;
+use crate::shade::{Radiance, environment_direction, environment_radiance};
 use crate::shapes::{leaving_point, offset_bound, offset_origin};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// The number of light paths in a batch.
 pub const LIGHT_PATHS: u32 = 1024;
@@ -37,8 +36,8 @@ impl LightPower {
 // ANCHOR: light_start
 /// Samples a ray that leaves a light, towards mirrors and glass where these subtend a small solid angle.
 ///
-/// An area light emits L cos θ per unit area and steradian, a point light I per steradian, the sky L per steradian
-/// through each unit of area across it; divided by the pdfs of point and direction, that is the ray's power.
+/// An area light emits L cos θ per unit area and steradian, a point light I per steradian, an environment L per
+/// steradian through each unit of area at right angles; divided by the pdfs of point and direction, that is the ray's power.
 /// No caustic is missed, since the first surface of a caustic path is a mirror or glass.
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
@@ -61,10 +60,11 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
             }
         }
         LightSource::Delta(light) => times(light.start(&table.targets, draws), chosen),
-        LightSource::Sky(sky) => {
-            let (to_sky, radiance, pdf) = sky_direction(sky, draws.direction);
+        LightSource::Environment(environment, light) => {
+            let (to_light, pdf) = environment_direction(light, environment.turn, draws.direction);
+            let radiance = environment_radiance(environment, to_light);
             let irradiance = radiance.map(|part| if pdf > 0.0 { part / pdf } else { 0.0 });
-            times(table.targets.parallel_start(-to_sky, irradiance, draws), chosen)
+            times(table.targets.parallel_start(-to_light, irradiance, draws), chosen)
         }
     }
 }
@@ -74,37 +74,6 @@ pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {
 #[inline(always)]
 fn times(start: LightStart, weight: f64) -> LightStart {
     LightStart { power: start.power.map(|part| part * weight), ..start }
-}
-
-/// A direction to the sky, sampled by its luminance, its radiance there, and its pdf, in 1/sr.
-#[inline(always)]
-fn sky_direction(sky: &Sky, u: [f64; 2]) -> (DVec3, [f64; 3], f64) {
-    const EVEN: f64 = 1.0 / (4.0 * PI);
-    match sky {
-        Sky::Even(radiance) => (sphere_direction(u), *radiance, EVEN),
-        Sky::Gradient(GradientTable { bottom, top }) => {
-            let (y, pdf) = elevation(luminance(*bottom), luminance(*top), u[0]);
-            let (level, (sine, cosine)) = ((1.0 - y * y).max(0.0).sqrt(), libm::sincos(TAU * u[1]));
-            (DVec3::new(level * cosine, y, level * sine), gradient_radiance(*bottom, *top, y), pdf * EVEN)
-        }
-        Sky::Image(environment, light) => {
-            let (direction, pdf) = environment_direction(light, environment.turn, u);
-            (direction, environment_radiance(environment, direction), pdf)
-        }
-    }
-}
-
-/// y in [−1, 1], sampled in proportion to a value that rises linearly from `bottom` to `top`, and the ratio of its pdf
-/// to that of uniform directions.
-///
-/// The fraction of all light below t = (y + 1) / 2 is (bottom t + (top − bottom) t² / 2) over the mean, a quadratic;
-/// this root of it loses no digits where bottom and top are nearly equal.
-#[inline(always)]
-fn elevation(bottom: f64, top: f64, u: f64) -> (f64, f64) {
-    let (mean, rise) = (0.5 * (bottom + top), top - bottom);
-    let root = (bottom * bottom + 2.0 * rise * mean * u).max(0.0).sqrt();
-    let t = if root + bottom > 0.0 { (2.0 * mean * u / (bottom + root)).clamp(0.0, 1.0) } else { 0.5 };
-    (2.0 * t - 1.0, (bottom + rise * t) / mean)
 }
 
 /// A tile of paths from lights, and what each of them starts with.
@@ -177,29 +146,4 @@ pub fn light_start_stage() -> Stage {
         .on_light_paths()
         .kind(StageKind::Alternative)
         .when(traced_evidence)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The number that an elevation was sampled by is the fraction of the light below it, and the pdf its slope.
-    #[test]
-    fn elevations_fall_as_a_gradient_s_light() {
-        let mut tried = 0;
-        for [bottom, top] in [[1.0, 1.0], [0.0, 2.0], [3.0, 0.0], [1.0, 1.0 + 1e-12], [0.2, 50.0], [1e-30, 4e-30]] {
-            let mean = 0.5 * (bottom + top);
-            for step in 0..1000 {
-                let u = (f64::from(step) + 0.5) / 1000.0;
-                let (y, pdf) = elevation(bottom, top, u);
-                let t = 0.5 * (y + 1.0);
-                let below = (bottom * t + 0.5 * (top - bottom) * t * t) / mean;
-                assert!((below - u).abs() < 1e-12, "{bottom} {top}: {below} for {u}");
-                let value = gradient_radiance([bottom; 3], [top; 3], y)[0];
-                assert!((pdf * mean / value - 1.0).abs() < 1e-9, "{bottom} {top} at {y}: {pdf}");
-                tried += 1;
-            }
-        }
-        eprintln!("elevations: {tried}");
-    }
 }

@@ -1,9 +1,11 @@
 use super::deeper_media::{Carrier, deeper_media_evidence};
-use super::{DeeperMedia, GlassRows, MediumStack, Scattered, transmittance};
-use crate::extract::{GlassTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that};
-use crate::intersect::{Hits, SurfaceSides, Surfaces};
+use super::{DeeperMedia, MediumStack, Scattered, transmittance};
+use crate::extract::{
+    GlassTable, MaterialTable, NO_ROW, followed_evidence, glass_evidence, glass_overlaps, glass_that,
+};
+use crate::intersect::{Hits, NO_SHAPE, SurfaceSides, Surfaces};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
-use crate::rays::{Paths, WorldRays};
+use crate::rays::Paths;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use glam::DVec3;
@@ -49,16 +51,19 @@ impl Media {
 /// Starts every camera ray outside all glass, except those that hit glass from within, which start in it.
 ///
 /// Other objects inside the glass hide its wall, and then the medium is unknown.
-pub fn start_media(mut tiles: Query<(&WorldRays, &SurfaceSides, &GlassRows, &mut Media, Option<&mut DeeperMedia>)>) {
-    for (rays, sides, list, mut media, deeper) in &mut tiles {
+pub fn start_media(
+    materials: Res<Shared<MaterialTable>>,
+    mut tiles: Query<(&Hits, &Surfaces, &SurfaceSides, &mut Media, Option<&mut DeeperMedia>)>,
+) {
+    for (hits, surfaces, sides, mut media, deeper) in &mut tiles {
         if let Some(mut deeper) = deeper {
-            deeper.start(rays.rows());
+            deeper.start(hits.rows());
         }
-        let (first, second, third, fourth) = media.slices_mut(rays.rows());
+        let (first, second, third, fourth) = media.slices_mut(hits.rows());
         [&mut *first, second, third, fourth].into_iter().for_each(|component| component.fill(NO_ROW));
-        for (&row, &of) in list.row.iter().zip(&list.of) {
-            if sides.outside[row as usize] == 0 {
-                first[row as usize] = of;
+        for (row, first) in first.iter_mut().enumerate() {
+            if hits.shape[row] != NO_SHAPE && sides.outside[row] == 0 {
+                *first = materials.interior.get(surfaces.material[row] as usize).copied().unwrap_or(NO_ROW);
             }
         }
     }
@@ -88,7 +93,6 @@ pub struct CarryView {
     scattered: &'static Scattered,
     surfaces: &'static Surfaces,
     sides: &'static SurfaceSides,
-    list: &'static GlassRows,
     media: &'static mut Media,
     deeper: Option<&'static mut DeeperMedia>,
 }
@@ -96,23 +100,20 @@ pub struct CarryView {
 /// Gives each scattered ray the media of the ray it was scattered from, with the glass that it entered or left by
 /// refraction.
 pub fn carry_media(
-    glass: Res<Shared<GlassTable>>,
+    (materials, glass): (Res<Shared<MaterialTable>>, Res<Shared<GlassTable>>),
     mut kept: Local<Media>,
-    mut glass_of: Local<Vec<u32>>,
     mut carrier: Local<Carrier>,
     mut tiles: Query<CarryView>,
 ) {
-    for CarryViewItem { scattered, surfaces, sides, list, mut media, mut deeper } in &mut tiles {
+    for CarryViewItem { scattered, surfaces, sides, mut media, mut deeper } in &mut tiles {
         carrier.start();
-        glass_of.clear();
-        glass_of.resize(surfaces.rows(), NO_ROW);
-        list.row.iter().zip(&list.of).for_each(|(&row, &of)| glass_of[row as usize] = of);
         kept.slices_mut(scattered.rows());
         for ray in 0..scattered.rows() {
             let row = scattered.path[ray] as usize;
             let goes = DVec3::new(scattered.dx[ray].into(), scattered.dy[ray].into(), scattered.dz[ray].into());
-            let through = glass_of[row] != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
-            let (stack, crossed) = (media.get(row), (glass_of[row], sides.outside[row] != 0));
+            let own = materials.interior[surfaces.material[row] as usize];
+            let through = own != NO_ROW && goes.dot(surfaces.get(row).normal.as_dvec3()) < 0.0;
+            let (stack, crossed) = (media.get(row), (own, sides.outside[row] != 0));
             let crossing = || stack.crossing(crossed.0, crossed.1, &glass.priority);
             let next = match &deeper {
                 Some(deeper) => carrier.push((stack, deeper.get(row)), through.then_some(crossed), &glass.priority),
@@ -150,7 +151,7 @@ pub fn carry_media_stage() -> Stage {
 
 /// Evidence that a shape is made of absorbing glass.
 fn absorption_evidence(scene: &Census<'_>) -> Evidence {
-    glass_that(scene, "absorbing glass surface", |glass| glass.absorption.to_array() != [0.0; 3])
+    glass_that(scene, "absorbing glass surface", |glass| glass.absorption != [0.0; 3])
 }
 
 /// Evidence that the media along rays must be known: glass absorbs, or two glass shapes overlap.

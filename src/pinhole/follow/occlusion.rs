@@ -1,6 +1,6 @@
-use super::frame::{cosine_direction, frame_of};
 use crate::extract::{IntegratorTable, SamplingTable, occlusion_evidence};
 use crate::intersect::{Hits, NO_SHAPE, Surfaces, shape_evidence};
+use crate::material::{cosine_direction, frame_of};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{Depth, Draws, PixelSamples, SampleNumber, Tile, draws_of_two};
 use crate::sample::Purpose;

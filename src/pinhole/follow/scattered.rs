@@ -1,6 +1,6 @@
-use super::frame_of;
 use crate::extract::followed_evidence;
 use crate::intersect::{ShadingNormals, Surface, Surfaces};
+use crate::material::{Bsdf, BsdfSample};
 use crate::plan::{Stage, TileSystems, column};
 use crate::rays::{Paths, WorldRays};
 use crate::shapes::offset_origin;
@@ -49,29 +49,31 @@ pub struct ScatteredRay {
 }
 
 impl ScatteredRay {
-    /// The ray that a BSDF scatters from a surface hit by `rays`; of throughput 0 where it gives none, or one below the
-    /// geometric surface.
+    /// The ray that a BSDF scatters from a surface hit by `rays`; of throughput 0 where it gives none, or one to the wrong
+    /// side of the geometric surface.
     ///
-    /// `sample` gets the direction to the eye in the frame of the shading normal, and answers with a direction in that
-    /// frame, its pdf, and BSDF · cosine / pdf.
+    /// `sample` gets the direction to the eye in the frame of the shading normal.
     #[inline(always)]
-    pub(super) fn leaving(
+    pub(super) fn leaving<B: Bsdf>(
         row: usize,
         (rays, paths): (&WorldRays, &Paths),
         (surfaces, shading): (&Surfaces, Option<&ShadingNormals>),
-        sample: impl FnOnce(&Surface, DVec3) -> Option<(DVec3, f64, [f64; 3])>,
+        sample: impl FnOnce(&Surface, DVec3) -> Option<BsdfSample>,
     ) -> Self {
         let surface = surfaces.get(row);
         let own = surface.normal.as_dvec3();
-        let world_from_local = frame_of(shading.map_or(own, |normals| normals.get(row)));
+        let world_from_local = B::frame(shading.map_or(own, |normals| normals.get(row)));
         let to_eye = world_from_local.transpose() * -rays.direction_of(row);
-        let Some((to_light, pdf, weights)) = sample(&surface, to_eye) else { return Self::default() };
+        let Some(BsdfSample { to_light, pdf, weight }) = sample(&surface, to_eye) else { return Self::default() };
+        let through = B::TRANSMITS && to_light.z < 0.0;
+        let side = if through { -surface.normal } else { surface.normal };
         let direction = world_from_local * to_light;
-        let throughput = if direction.dot(own) > 0.0 { paths.throughput(row) } else { [0.0; 3] };
+        let leaves = direction.dot(side.as_dvec3()) > 0.0;
+        let throughput = if leaves { paths.throughput(row) } else { [0.0; 3] };
         Self {
-            origin: offset_origin(surface.position, surface.normal, surface.bound),
+            origin: offset_origin(surface.position, side, surface.bound),
             direction,
-            throughput: [0, 1, 2].map(|part| throughput[part] * weights[part]),
+            throughput: [0, 1, 2].map(|part| throughput[part] * weight[part]),
             pdf,
         }
     }

@@ -1,6 +1,6 @@
 use super::Scattered;
-use super::mirror::mirroring_normal;
-use crate::extract::{MaterialKind, MaterialTable, traced_evidence};
+use super::specular::mirroring_normal;
+use crate::extract::{MaterialTable, traced_evidence};
 use crate::intersect::{ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
@@ -21,9 +21,7 @@ pub fn shading_adjoint(normal: DVec3, shading: DVec3, to_light: DVec3, onward: D
 }
 // ANCHOR_END: shading_adjoint
 
-/// Applies that factor to the rays from lights that materials other than matte scatter.
-///
-/// The stage of matte surfaces applies its own.
+/// Applies that factor to the rays from lights that surfaces scatter.
 pub fn correct_for_shading_normals(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&WorldRays, &Surfaces, &ShadingNormals, &mut Scattered)>,
@@ -34,10 +32,10 @@ pub fn correct_for_shading_normals(
             let row = scattered.path[ray] as usize;
             let (surface, direction) = (surfaces.get(row), rays.direction_of(row));
             let own = surface.normal.as_dvec3();
-            let by = match materials.kind[surface.material as usize] {
-                MaterialKind::Mirror | MaterialKind::Glass => mirroring_normal(Some(shading), row, own, direction),
-                MaterialKind::Metal | MaterialKind::Phong | MaterialKind::BlinnPhong => shading.get(row),
-                MaterialKind::Matte => continue,
+            let by = if materials.kind[surface.material as usize].is_specular() {
+                mirroring_normal(Some(shading), row, own, direction)
+            } else {
+                shading.get(row)
             };
             let onward = [scattered.dx[ray], scattered.dy[ray], scattered.dz[ray]].map(f64::from);
             let more = shading_adjoint(own, by, -direction, DVec3::from(onward));

@@ -1,4 +1,4 @@
-use super::{LightPower, MetalRows};
+use super::LightPower;
 use crate::extract::{CameraJoinTable, lens_evidence, traced_evidence};
 use crate::intersect::MaterialRows;
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
@@ -33,13 +33,8 @@ impl Splats {
 
 /// Leaves light that goes straight from lights to non-specular surfaces to the camera's paths: at the first bounce,
 /// only mirrors and glass scatter.
-pub fn keep_specular(mut tiles: Query<(&mut MaterialRows, Option<&mut MetalRows>)>) {
-    for (mut list, metals) in &mut tiles {
-        list.row.clear();
-        if let Some(mut metals) = metals {
-            metals.clear();
-        }
-    }
+pub fn keep_specular(mut tiles: Query<&mut MaterialRows>) {
+    tiles.iter_mut().for_each(|mut list| list.row.clear());
 }
 
 /// The stage that runs [`keep_specular`].
@@ -48,7 +43,6 @@ pub fn keep_specular_stage() -> Stage {
         .on_light_paths()
         .on_first_bounce()
         .kind(StageKind::Alternative)
-        .changes::<MaterialRows>()
         .changes::<MaterialRows>()
         .when(traced_evidence)
 }

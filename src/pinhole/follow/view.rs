@@ -1,5 +1,5 @@
-use super::{DeeperMedia, GlassRows, Media, Scattered};
-use crate::intersect::{ShadingNormals, SurfaceSides, Surfaces};
+use super::Scattered;
+use crate::intersect::{ShadingNormals, Surfaces};
 use crate::rays::{Paths, WorldRays};
 use bevy_ecs::query::QueryData;
 
@@ -17,17 +17,4 @@ pub struct BsdfView {
     pub shading: Option<&'static ShadingNormals>,
     /// The rays that go on.
     pub scattered: &'static mut Scattered,
-}
-
-/// What sampling glass reads besides.
-#[derive(QueryData)]
-pub struct GlassView {
-    /// The sides on which surfaces were hit.
-    pub sides: &'static SurfaceSides,
-    /// The rows that hit glass.
-    pub list: &'static GlassRows,
-    /// The media that rays start in, where they may start in any.
-    pub media: Option<&'static Media>,
-    /// Those beyond the fourth.
-    pub deeper: Option<&'static DeeperMedia>,
 }

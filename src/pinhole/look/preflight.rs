@@ -5,11 +5,11 @@ use super::slow::{Effort, many_bounces, many_light_bounces, never_done, slow, wh
 use super::unseen::unseen;
 use crate::extract::{
     ImageFrame, IntegratorTable, LightTracingTable, SamplingTable, ShapeTable, distant_start_evidence,
-    emissive_evidence, followed_evidence, glass_evidence, integrator_of, light_sampling_evidence, mirror_evidence,
-    point_evidence, shadowed_distant_evidence, shadowed_point_evidence, shape_name, traced_evidence,
+    emissive_evidence, followed_evidence, integrator_of, light_sampling_evidence, point_evidence,
+    shadowed_distant_evidence, shadowed_point_evidence, shape_name, specular_evidence, traced_evidence,
 };
 use crate::plan::{Census, Evidence, ExtractedTable, Plan};
-use crate::scene::{Environment, Integrator};
+use crate::scene::Environment;
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
 
@@ -103,8 +103,8 @@ fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     let sampled = points.needed || light_sampling_evidence(scene).needed;
     let lights = points.or(areas);
     let blocked: usize = pilot.blocked.values().sum();
-    let integrator = integrator_of(scene).integrator;
-    if let Integrator::AmbientOcclusion { distance } = integrator {
+    let does = integrator_of(scene).integrator.transport();
+    if let Some(distance) = does.occlusion {
         return format!("within {distance} units, something hides the sky from everything that the camera sees");
     }
     if !lights.needed {
@@ -113,7 +113,7 @@ fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     if pilot.hits == 0 {
         return format!("none of {} rays hits a shape, and there is no background with a colour", pilot.rays);
     }
-    if !sampled && matches!(integrator, Integrator::Path { .. }) {
+    if !sampled && does.samples_diffuse {
         let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
         return format!(
             "{found} of {rays} rays hit a light at random ({}); LightStrategy::Mis samples lights as well",
@@ -156,7 +156,7 @@ fn effort(scene: &Census<'_>, conditions: Preflight) -> Result<Effort> {
 
 /// The paths of light that the integrator cannot sample in this scene at all.
 fn missing_paths(scene: &Census<'_>) -> Vec<String> {
-    let (points, bends) = (point_evidence(scene), glass_evidence(scene).or(mirror_evidence(scene)));
+    let (points, bends) = (point_evidence(scene), specular_evidence(scene));
     if !(points.needed && bends.needed && followed_evidence(scene).needed) {
         return Vec::new();
     }

@@ -62,6 +62,18 @@ impl Evidence {
         Self::found_among(scene, noun, &found, &found, &declared)
     }
 
+    /// Needed if any of these enabled entities is in use; those declared, the disabled ones among them, are mentioned
+    /// where none is.
+    pub fn among_entities(
+        scene: &Census<'_>,
+        noun: &str,
+        in_use: impl Fn(Entity) -> bool,
+        enabled: &[Entity],
+        declared: &[Entity],
+    ) -> Self {
+        Self::in_use(scene, noun, &|entity| in_use(entity.id()), enabled, declared)
+    }
+
     fn in_use(
         scene: &World,
         noun: &str,

@@ -55,6 +55,10 @@ pub enum TileSystems {
     Background,
     /// Layers of the film are recorded, before the path is traced further.
     Layers,
+    /// The medium along each ray is determined.
+    Media,
+    /// Throughput is multiplied by the transmittance along each ray.
+    Absorb,
     /// Points on the camera's lens to which light paths are connected.
     Join,
     /// Lights are sampled: shadow rays from surfaces towards them.
@@ -67,10 +71,6 @@ pub enum TileSystems {
     MisWeights,
     /// The radiance of emission and of direct light is added up.
     Shade,
-    /// The medium along each ray is determined.
-    Media,
-    /// Throughput is multiplied by the transmittance along each ray.
-    Absorb,
     /// BSDFs are sampled for further rays, one kind of material after another.
     SampleBsdfs,
     /// Some paths are terminated by Russian roulette.
@@ -112,14 +112,14 @@ impl TileSystems {
         Self::Texture,
         Self::Background,
         Self::Layers,
+        Self::Media,
+        Self::Absorb,
         Self::Join,
         Self::SampleLights,
         Self::ClearShadows,
         Self::TraceShadowRays,
         Self::MisWeights,
         Self::Shade,
-        Self::Media,
-        Self::Absorb,
         Self::SampleBsdfs,
         Self::Roulette,
         Self::AddBounce,

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 /// Paths that leave a light through specular surfaces, and whose last surface before the camera is non-specular, are
 /// then found by particles that start on the lights; all others by paths from the camera, as before.
 /// Point lights, spotlights and directional lights thus shine through glass too.
+/// Light paths start on these, on shapes that emit light and on an [`Environment`](super::Environment), but not on a
+/// [`Background`](super::Background) or a [`Gradient`](super::Gradient), whose light the camera's paths find with less
+/// variance.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightTracing {

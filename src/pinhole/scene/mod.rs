@@ -20,7 +20,6 @@
 mod adaptive;
 mod angle;
 mod background;
-mod blinn_phong;
 mod camera;
 mod check;
 mod checker;
@@ -35,22 +34,18 @@ mod file;
 mod filter;
 mod fisheye;
 mod folder;
-mod glass;
 mod gradient;
 mod image_texture;
 mod integrator;
 mod layers;
 mod lens;
 mod light_tracing;
-mod matte;
+mod material;
 mod memory;
-mod metal;
-mod mirror;
 mod motion;
 mod name;
 mod open_file;
 mod orientation;
-mod phong;
 mod placement;
 mod plane;
 mod point_light;
@@ -77,7 +72,6 @@ pub use bevy_ecs::entity_disabling::Disabled;
 pub use bevy_ecs::hierarchy::ChildOf;
 #[doc(no_inline)]
 pub use bevy_ecs::name::Name;
-pub use blinn_phong::BlinnPhong;
 pub use camera::{FovAxis, OrthographicCamera, PerspectiveCamera};
 pub(crate) use check::{colour_within, finite_point, light_colour, number, positive_length, triple};
 pub use checker::Checker;
@@ -99,29 +93,25 @@ pub use fisheye::FisheyeCamera;
 pub use folder::{EmbeddedFiles, SceneFolder};
 #[doc(no_inline)]
 pub use glam::DQuat;
-pub use glass::Glass;
 pub use gradient::Gradient;
 #[doc(hidden)]
 pub use image_texture::IMAGE_FILE;
 pub use image_texture::ImageTexture;
+#[doc(hidden)]
+pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
 pub use layers::{LayerKind, Layers};
 pub use lens::{Aperture, Lens};
 pub use light_tracing::LightTracing;
-#[doc(hidden)]
-pub use matte::UsedByShapes;
-pub use matte::{Matte, UsesMaterial};
+pub use material::*;
 #[doc(hidden)]
 pub use memory::{TooLittleMemory, check_memory, in_words};
-pub use metal::Metal;
-pub use mirror::Mirror;
 pub use motion::{Motion, Shutter};
 #[doc(hidden)]
 pub use name::{called, some_of};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 pub use orientation::{axis_angle, euler_xyz};
-pub use phong::Phong;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;

@@ -1,5 +1,6 @@
 use super::LightRays;
-use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_sampled, cosine_of, shadow_t_max};
+use super::light::{ShadowRay, cosine_of, shadow_t_max};
+use super::receivers::{LightRay, LightRows, RayLists, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{AreaLightTable, SamplingTable, area_light_evidence, light_sampling_evidence, material_evidence};
 use crate::intersect::Surface;
@@ -72,8 +73,8 @@ pub fn sample_area_lights(
     if lights.emitter.is_empty() {
         return;
     }
-    for (LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs }, draws, paths) in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         let (draws, to) = (draws.draws(&sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
         let (sample, key) = (draws.sample(), |row| draws.key(row));
         with_sampler!(sampling.sampler, D => {

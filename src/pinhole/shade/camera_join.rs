@@ -1,5 +1,6 @@
-use super::LightRays;
-use super::light::{LightRay, LightRows, ShadowRay, append_sampled, shadow_t_max};
+use super::light::{ShadowRay, shadow_t_max};
+use super::receivers::{LightRay, LightRows, append_sampled};
+use super::{LightRays, TransmissiveRows};
 use crate::extract::{CameraJoinTable, LensTable, SamplingTable, lens_evidence, traced_evidence};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces, falling_cosine};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems, column};
@@ -88,6 +89,7 @@ pub struct ConnectionView {
     surfaces: &'static Surfaces,
     shading: Option<&'static ShadingNormals>,
     list: &'static MaterialRows,
+    far: Option<&'static TransmissiveRows>,
     points: Option<&'static JoinPoints>,
     rays: &'static mut LightRays,
 }
@@ -98,8 +100,8 @@ pub struct ConnectionView {
 /// The camera takes the place of a light: the incident power is known, and the light sent to the camera is wanted; the
 /// BSDF is the same in both directions.
 pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<ConnectionView>) {
-    for ConnectionViewItem { arriving, surfaces, shading, list, points, mut rays } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for ConnectionViewItem { arriving, surfaces, shading, list, far, points, mut rays } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         append_sampled(&receivers, (&mut rays, None), |row, surface, normal| {
             let origin = offset_origin(surface.position, surface.normal, surface.bound);
             let lens = points.map_or(DVec2::ZERO, |points| points.get(row));
@@ -108,7 +110,9 @@ pub fn connect_to_camera(join: Res<Shared<CameraJoinTable>>, mut tiles: Query<Co
             let direction = (joined.to_camera * (1.0 / distance)).as_vec3();
             let (own, from) = (surface.normal.as_dvec3(), -arriving.direction_of(row));
             let seen = if distance > 0.0 { own.dot(direction.as_dvec3()) } else { 0.0 };
-            let cosine = join_cosine(seen, own.dot(from), falling_cosine(own, normal, from));
+            // Light that arrives on one side may leave on the other.
+            let side = own.dot(from).signum();
+            let cosine = join_cosine(seen, side * own.dot(from), falling_cosine(side * own, side * normal, from));
             let ray = ShadowRay { origin, direction, distance, cosine };
             (LightRay { ray, t_max: shadow_t_max(distance), irradiance: [joined.importance * cosine; 3] }, 0.0)
         });

@@ -1,7 +1,8 @@
 //! One stage for each registered light without an area: a shadow ray from each surface to each of its lights.
 
 use super::LightRays;
-use super::light::{LightRay, LightRows, RayLists, ShadowRay, append_rays, cosine_of, shadow_t_max};
+use super::light::{ShadowRay, cosine_of, shadow_t_max};
+use super::receivers::{LightRay, LightRows, RayLists, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{LightsOf, material_evidence, unless_occlusion};
 use crate::intersect::Surface;
@@ -38,8 +39,8 @@ fn shadow_ray_to<L: Light>(light: &L, surface: &Surface, normal: DVec3) -> Light
 
 /// Appends shadow rays to all lights of one kind, light after light.
 pub fn sample_lights<L: ListedLight>(lights: Res<Shared<LightsOf<L>>>, mut tiles: Query<LightSamplingView>) {
-    for LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs } in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs } in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         for (light, &casts_shadows) in lights.row.iter().zip(&lights.casts_shadows) {
             sample_rows(&receivers, light, casts_shadows, (&mut rays, pdfs.as_deref_mut()));
         }

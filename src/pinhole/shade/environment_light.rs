@@ -1,4 +1,5 @@
-use super::light::{LightRay, LightRows, ShadowRay, append_sampled, cosine_of};
+use super::light::{ShadowRay, cosine_of};
+use super::receivers::{LightRay, LightRows, append_sampled};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use super::{LightRays, environment_radiance, equirectangular, irradiance_from_area};
 use crate::extract::{
@@ -76,8 +77,8 @@ pub fn sample_environment(
     sampling: Res<Shared<SamplingTable>>,
     mut tiles: Query<(LightSamplingView, DrawsView, Option<&Paths>)>,
 ) {
-    for (LightSamplingViewItem { surfaces, shading, list, mut rays, mut pdfs }, draws, paths) in &mut tiles {
-        let receivers = LightRows { surfaces, shading, rows: &list.row };
+    for (LightSamplingViewItem { surfaces, shading, list, far, mut rays, mut pdfs }, draws, paths) in &mut tiles {
+        let receivers = LightRows::new(surfaces, shading, list, far);
         let (draws, to) = (draws.draws(&sampling, paths), (&mut *rays, pdfs.as_deref_mut()));
         with_sampler!(sampling.sampler, D => {
             let drawn = D::of(draws.sample(), Purpose::EnvironmentPoint);

@@ -3,7 +3,7 @@ use crate::extract::{
     MaterialTable, area_light_evidence, delta_light_evidence, environment_light_evidence, light_sampling_evidence,
     material_evidence, occlusion_evidence, traced_evidence, unless_occlusion,
 };
-use crate::intersect::{NO_SHAPE, RayColumn, ShadingNormals, Surface, Surfaces, falling_cosine};
+use crate::intersect::{NO_SHAPE, RayColumn, Surface, Surfaces, falling_cosine};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
 use crate::shapes::RaySlices;
 use bevy_ecs::prelude::*;
@@ -128,109 +128,6 @@ pub fn shadow_t_max(distance: f64) -> f32 {
 }
 // ANCHOR_END: shadow_t_max
 
-/// A shadow ray with the irradiance that it carries.
-pub(super) struct LightRay {
-    pub ray: ShadowRay,
-    pub t_max: f32,
-    pub irradiance: [f64; 3],
-}
-
-/// The surfaces that lights may illuminate.
-pub(super) struct LightRows<'a> {
-    pub surfaces: &'a Surfaces,
-    pub shading: Option<&'a ShadingNormals>,
-    pub rows: &'a [u32],
-}
-
-/// The columns that shadow rays are appended to.
-pub(super) type RayLists<'a> = (&'a mut LightRays, Option<&'a mut LightPdfs>);
-
-/// Appends the shadow rays from all surfaces of a list to one light, where they carry light.
-///
-/// A scene without shading normals has a loop of its own.
-#[inline(always)]
-pub(super) fn append_rays(
-    receivers: &LightRows<'_>,
-    (rays, pdfs): RayLists<'_>,
-    casts_shadows: bool,
-    ray_of: impl Fn(&Surface, DVec3) -> LightRay,
-) {
-    let surfaces = receivers.surfaces;
-    match receivers.shading {
-        None => append(receivers.rows, rays, casts_shadows, |row| {
-            let surface = surfaces.get(row);
-            ray_of(&surface, surface.normal.as_dvec3())
-        }),
-        Some(normals) => {
-            append(receivers.rows, rays, casts_shadows, |row| ray_of(&surfaces.get(row), normals.get(row)));
-        }
-    }
-    if let Some(pdfs) = pdfs {
-        let (path, _) = pdfs.slices_mut(rays.rows());
-        path.copy_from_slice(&rays.path);
-    }
-}
-
-/// Every row is written, and the next one overwrites it unless it counts, so that no branch depends on the surface.
-#[inline(always)]
-fn append(rows: &[u32], rays: &mut LightRays, casts_shadows: bool, ray_of: impl Fn(usize) -> LightRay) {
-    let length = rays.rows();
-    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(length + rows.len());
-    let mut at = length;
-    for &row in rows {
-        let light_ray = ray_of(row as usize);
-        path[at] = row;
-        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
-        t_max[at] = light_ray.t_max;
-        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
-        // At shorter distances the square is subnormal, and the direction is undefined.
-        let apart = light_ray.ray.distance * light_ray.ray.distance >= f64::MIN_POSITIVE;
-        at += usize::from(light_ray.ray.cosine > 0.0 && apart);
-    }
-    if !casts_shadows {
-        t_max[length..at].fill(0.0);
-    }
-    rays.slices_mut(at);
-}
-
-/// Appends one shadow ray per row in a sampled direction, and its pdf; all of them cast shadows.
-///
-/// `ray_of` gets the row, the surface and the shading normal.
-#[inline(always)]
-pub(super) fn append_sampled(
-    receivers: &LightRows<'_>,
-    (rays, mut pdfs): RayLists<'_>,
-    ray_of: impl Fn(usize, &Surface, DVec3) -> (LightRay, f64),
-) {
-    let length = rays.rows();
-    let most = length + receivers.rows.len();
-    let (path, ox, oy, oz, dx, dy, dz, t_max, r, g, b) = rays.slices_mut(most);
-    let mut pdf_columns = pdfs.as_deref_mut().map(|pdfs| pdfs.slices_mut(most));
-    let mut at = length;
-    for &row in receivers.rows {
-        let surface = receivers.surfaces.get(row as usize);
-        let normal = receivers.shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row as usize));
-        let (light_ray, pdf) = ray_of(row as usize, &surface, normal);
-        path[at] = row;
-        (ox[at], oy[at], oz[at]) = light_ray.ray.origin.into();
-        (dx[at], dy[at], dz[at]) = light_ray.ray.direction.into();
-        t_max[at] = light_ray.t_max;
-        [r[at], g[at], b[at]] = light_ray.irradiance.map(|part| part.min(MOST) as f32);
-        if let Some(columns) = &mut pdf_columns {
-            (columns.0[at], columns.1[at]) = (row, pdf);
-        }
-        at += usize::from(light_ray.ray.cosine > 0.0);
-    }
-    rays.slices_mut(at);
-    if let Some(pdfs) = pdfs {
-        pdfs.slices_mut(at);
-    }
-}
-
-/// The greatest irradiance of a ray: more than f32 can represent is clamped.
-const MOST: f64 = f32::MAX as f64;
-
 /// Clears every tile's list of shadow rays.
 pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
     for (mut rays, pdfs) in &mut tiles {
@@ -242,7 +139,7 @@ pub fn start_light(mut tiles: Query<(&mut LightRays, Option<&mut LightPdfs>)>) {
 }
 
 // ANCHOR: add_light
-/// Adds the light of each unblocked shadow ray that a matte surface reflects.
+/// Adds the light of each unblocked shadow ray that a matte surface reflects, or the matte part of another.
 pub fn add_light(
     materials: Res<Shared<MaterialTable>>,
     mut tiles: Query<(&Surfaces, Option<&SurfaceColours>, &LightRays, Option<&ShadowHits>, &mut Radiance)>,
@@ -254,6 +151,9 @@ pub fn add_light(
             }
             let path = rays.path[ray] as usize;
             let material = surfaces.material[path] as usize;
+            if materials.other_colours && !materials.kind[material].is_lambertian() {
+                continue;
+            }
             let colour = colours.map_or_else(|| materials.colour[material], |colours| colours.get(path));
             let [r, g, b] = matte_radiance(colour, rays.irradiance(ray));
             radiance.r[path] += r as f32;
@@ -288,7 +188,7 @@ pub fn lit_evidence(scene: &Census<'_>) -> Evidence {
 }
 
 /// Evidence that there is a light of any kind to which shadow rays are traced.
-pub(super) fn light_evidence(scene: &Census<'_>) -> Evidence {
+pub fn light_evidence(scene: &Census<'_>) -> Evidence {
     let sampled = unless_occlusion(scene, or_light(scene, delta_light_evidence(scene, "light", |_| true)));
     either(sampled, traced_evidence(scene))
 }

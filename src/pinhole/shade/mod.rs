@@ -16,7 +16,6 @@
 
 mod area_light;
 mod background;
-mod blinn_phong;
 mod camera_join;
 mod checker;
 mod colour;
@@ -26,16 +25,16 @@ mod environment;
 mod environment_light;
 mod footprint;
 mod gradient;
-mod highlight;
-mod image_circle;
+mod image_mask;
 mod image_texture;
 mod light;
 mod lookup;
-mod phong;
 mod radiance;
+mod receivers;
 mod shadow;
 mod surface_colour;
 mod texture_point;
+mod transmissive_rows;
 mod unintersected;
 mod unlit;
 mod view;
@@ -44,8 +43,6 @@ mod view;
 pub use area_light::{area_light_pdf, area_light_stage, irradiance_from_area, sample_area_lights};
 #[doc(hidden)]
 pub use background::{add_background, background_stage};
-#[doc(hidden)]
-pub use blinn_phong::{add_blinn_phong, blinn_phong_stage, half_vector_cosine};
 #[doc(hidden)]
 pub use camera_join::{
     JoinPoints, camera_join_stage, connect_to_camera, join_cosine, join_point_stage, sample_join_points,
@@ -75,20 +72,17 @@ pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_sur
 #[doc(hidden)]
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 #[doc(hidden)]
-pub use highlight::highlight;
-#[doc(hidden)]
-pub use image_circle::{image_circle_stage, in_image_circle, mask_image_circle};
+pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
 #[doc(hidden)]
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]
 pub use light::{
-    LightPdfs, LightRays, add_light, light_stage, lit_evidence, matte_radiance, shadow_t_max, start_light,
-    start_light_stage,
+    LightPdfs, LightRays, add_light, light_evidence, light_stage, lit_evidence, matte_radiance, shadow_t_max,
+    start_light, start_light_stage,
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
 #[doc(hidden)]
-pub use phong::{add_phong, mirror_cosine, phong_stage};
 pub use radiance::Radiance;
 #[doc(hidden)]
 pub use radiance::{start_radiance, start_stage};
@@ -101,6 +95,8 @@ pub use shadow::{
 pub use surface_colour::{colour_stage, colour_surfaces};
 #[doc(hidden)]
 pub use texture_point::{TexturePoint, TexturePoints, compute_texture_points, face_from_space, texture_point_stage};
+#[doc(hidden)]
+pub use transmissive_rows::{TransmissiveRows, list_transmissive_rows, transmissive_rows_stage};
 #[doc(hidden)]
 pub use unintersected::check_shapes_are_intersected;
 #[doc(hidden)]

@@ -1,4 +1,4 @@
-use super::{LightPdfs, LightRays, Radiance, ShadowHits};
+use super::{LightPdfs, LightRays, Radiance, ShadowHits, TransmissiveRows};
 use crate::intersect::{MaterialRows, ShadingNormals, Surfaces};
 use crate::rays::WorldRays;
 use bevy_ecs::query::QueryData;
@@ -13,6 +13,8 @@ pub struct LightSamplingView {
     pub shading: Option<&'static ShadingNormals>,
     /// The rows whose surfaces scatter light.
     pub list: &'static MaterialRows,
+    /// Those that are lit from behind as well.
+    pub far: Option<&'static TransmissiveRows>,
     /// Shadow rays, with the irradiance that each brings.
     pub rays: &'static mut LightRays,
     /// The probabilities with which they were sampled, where something reads them.

@@ -3,7 +3,7 @@
 use super::{ClosedForm, GREEN};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::follow::fresnel;
+use pinhole::material::fresnel;
 use pinhole::scene::{
     Cuboid, Emissive, Glass, Integrator, LightStrategy, LookAt, OrthographicCamera, Placement, Rgb, Sphere,
 };

@@ -8,16 +8,15 @@ use crate::naive::light::{
     highlight_f32, lit_f32, spot_falloff_by_cosine, spot_falloff_by_cosine_f32, sun_as_a_far_light,
 };
 use glam::{DVec3, Vec3};
-use pinhole::extract::{
-    BlinnPhongTable, DirectionalLightTable, MaterialKind, MaterialTable, PhongTable, PointLightTable, SpotLightTable,
-    blinn_phong_peak, phong_peak,
-};
+use pinhole::extract::{DirectionalLightTable, MaterialKind, MaterialTable, PointLightTable, SpotLightTable};
+use pinhole::follow;
 use pinhole::intersect::{MaterialRows, Surface, Surfaces};
 use pinhole::lights::{
     PlacedDirectionalLight, PlacedPointLight, PlacedSpotLight, spot_falloff, versine, versine_of_half,
 };
+use pinhole::material::{BlinnPhongTable, PhongTable, blinn_phong_peak, highlight, mirror_cosine, phong_peak};
 use pinhole::scene::Degrees;
-use pinhole::shade::{self, LightRays, Radiance, highlight, mirror_cosine};
+use pinhole::shade::{self, LightRays, Radiance};
 use pinhole::shapes::offset_bound;
 use std::ops::Range;
 
@@ -156,8 +155,8 @@ fn check_numbers(range: Range<u64>) -> Tally {
         shade::directional_light_stage(),
         shade::spot_light_stage(),
         shade::light_stage(),
-        shade::phong_stage(),
-        shade::blinn_phong_stage(),
+        follow::direct_light_stage::<PhongTable>(),
+        follow::direct_light_stage::<BlinnPhongTable>(),
     ];
     let (mut tally, mut bench) = (Tally::new(LIGHT.len()), Bench::new(&stages));
     bench.put(first_row());
@@ -206,7 +205,7 @@ fn check_numbers(range: Range<u64>) -> Tally {
 /// A matte, a Phong and a Blinn–Phong material of these numbers.
 fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64; 3]) {
     let kind = vec![MaterialKind::Matte, MaterialKind::Phong, MaterialKind::BlinnPhong];
-    bench.insert(MaterialTable { kind, row: vec![0; 3], colour: vec![colour; 3] });
+    bench.insert(MaterialTable::opaque(kind, vec![colour; 3]));
     let (specular, exponents) = (vec![specular], vec![exponent]);
     let peak = vec![phong_peak(exponent)];
     bench.insert(PhongTable { specular: specular.clone(), exponent: exponents.clone(), peak });

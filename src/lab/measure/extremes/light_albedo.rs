@@ -5,8 +5,7 @@ use crate::measure::hemisphere::Quadrature;
 use crate::measure::ray_aim::Draws;
 use crate::naive::light::{phong_without_factor, short_blinn_phong_peak};
 use glam::DVec3;
-use pinhole::extract::{blinn_phong_peak, phong_peak};
-use pinhole::shade::{half_vector_cosine, highlight, mirror_cosine};
+use pinhole::material::{blinn_phong_peak, half_vector_cosine, highlight, mirror_cosine, phong_peak};
 use std::ops::Range;
 
 /// How far a sum by quadrature may be off.

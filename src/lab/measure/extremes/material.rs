@@ -8,10 +8,9 @@ use crate::naive::material::{
     frame_by_division_f32, fresnel_by_sines_f32, ggx_brdf_unmasked, ggx_d_f32, refract_unchecked, schlick,
 };
 use glam::{DVec3, Vec3};
-use pinhole::extract::MetalTable;
-use pinhole::follow::{
-    MultipleScatteringTable, RoughMetals, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d, ggx_sample, refract,
-    visible_normal, visible_pdf,
+use pinhole::material::{
+    Bsdf, MetalTable, MultipleScattering, Site, cosine_direction, frame_of, fresnel, ggx_brdf, ggx_d, ggx_sample,
+    refract, visible_normal, visible_pdf,
 };
 use std::f64::consts::{FRAC_PI_2, LN_2};
 use std::ops::Range;
@@ -236,11 +235,12 @@ fn check_several(range: Range<u64>) -> Tally {
         let alpha = draws.power_of_ten(-1.3, 0.0);
         let angle = FRAC_PI_2 - draws.power_of_ten(-2.0, 0.19);
         tally.count(true);
-        let (metals, mut several) = (MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha] }, Default::default());
-        MultipleScatteringTable::push(&mut several, [1.0; 3], Some(alpha));
-        for (score, several) in tally.scores.iter_mut().zip([Some(&several), None]) {
-            let rough = RoughMetals { metals: &metals, several };
-            score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.brdf(0, l, v)[0]) - 1.0).abs());
+        let mut several = MultipleScattering::default();
+        several.push([1.0; 3], Some(alpha));
+        for (score, several) in tally.scores.iter_mut().zip([Some(several), None]) {
+            let (rough, site) =
+                (MetalTable { colour: vec![[1.0; 3]], alpha: vec![alpha], several }, Site::opaque(0, [0.0; 3]));
+            score.measure((rule.albedo(angle, 0.5 * alpha, |l, v| rough.eval(&site, l, v)[0]) - 1.0).abs());
         }
     }
     tally

@@ -82,7 +82,7 @@ impl ShadowStages {
         let to_light =
             [shade::start_light_stage(), shade::point_light_stage(), shade::start_shadow_stage(), shadow_stage];
         let mut stages = Self { to_surface: Bench::new(&to_surface), to_light: Bench::new(&to_light) };
-        stages.to_light.insert(MaterialTable { kind: vec![MaterialKind::Matte], row: vec![0], colour: vec![[0.5; 3]] });
+        stages.to_light.insert(MaterialTable::opaque(vec![MaterialKind::Matte], vec![[0.5; 3]]));
         let mut first = MaterialRows::default();
         first.slices_mut(1)[0] = 0;
         stages.to_light.put(first);

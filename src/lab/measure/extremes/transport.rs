@@ -5,7 +5,8 @@ use crate::measure::ray_aim::Draws;
 use crate::naive::path::{
     light_of_capped_path, power_heuristic_f32, uniform_direction, weight_without_cosine, weight_without_pi,
 };
-use pinhole::follow::{cosine_direction, cosine_pdf, power_heuristic, survival_probability};
+use pinhole::follow::{power_heuristic, survival_probability};
+use pinhole::material::{cosine_direction, cosine_pdf};
 use std::f64::consts::PI;
 use std::ops::Range;
 

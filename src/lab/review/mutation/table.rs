@@ -1,6 +1,7 @@
 use super::{Bug, Mutation, hits, light, moving, rays, shapes, textures, triangles};
 use bevy_ecs::prelude::*;
 use pinhole::film::film_stage;
+use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{
     classify_stage, cuboid_stage, cuboid_surface_stage, disk_stage, disk_surface_stage, ellipsoid_stage,
     ellipsoid_surface_stage, moving_stage, moving_surface_stage, plane_stage, plane_surface_stage, rectangle_stage,
@@ -8,15 +9,16 @@ use pinhole::intersect::{
     triangle_surface_stage,
 };
 use pinhole::look::view_stage;
+use pinhole::material::{BlinnPhongTable, PhongTable};
 use pinhole::plan::Stage;
 use pinhole::rays::{
     lens_point_stage, lens_stage, ndc_stage, orthographic_stage, perspective_stage, place_samples_stage, raster_stage,
     screen_stage, time_stage, world_stage,
 };
 use pinhole::shade::{
-    area_light_stage, background_stage, blinn_phong_stage, checker_stage, colour_stage, directional_light_stage,
-    emissive_stage, environment_stage, footprint_stage, gradient_stage, image_stage, light_stage, moving_shadow_stage,
-    phong_stage, plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
+    area_light_stage, background_stage, checker_stage, colour_stage, directional_light_stage, emissive_stage,
+    environment_stage, footprint_stage, gradient_stage, image_stage, light_stage, moving_shadow_stage,
+    plane_shadow_stage, point_light_stage, shape_shadow_stage, sphere_shadow_stage, spot_light_stage,
     start_light_stage, start_shadow_stage, stripes_stage, texture_point_stage, unlit_stage,
 };
 use pinhole::shapes::{Ellipsoid, PlacedDisk, PlacedRectangle, Slabs, TriangleRow};
@@ -122,8 +124,8 @@ pub static MUTATIONS: &[Mutation] = &[
     bug("movers-ignored", moving_shadow_stage, "not looked for", MOVING, Bug::Instead(|| moving::nothing_moves.into_configs())),
     bug("blue-first", unlit_stage, "blue, green, red", PARALLEL, Bug::After(|| light::blue_first.into_configs())),
     bug("shadow-forgotten", light_stage, "shadows not looked up", MOST, Bug::Instead(|| light::shadow_forgotten.into_configs())),
-    bug("phong-forgotten", phong_stage, "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
-    bug("blinn-phong-forgotten", blinn_phong_stage, "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
+    bug("phong-forgotten", direct_light_stage::<PhongTable>, "none added", REFLECTION, Bug::Instead(|| light::phong_forgotten.into_configs())),
+    bug("blinn-phong-forgotten", direct_light_stage::<BlinnPhongTable>, "none added", REFLECTION, Bug::Instead(|| light::blinn_phong_forgotten.into_configs())),
     bug("emitted-twice", emissive_stage, "added twice", REFLECTION, Bug::Instead(|| light::emitted_twice.into_configs())),
     bug("green-first", || view_stage(&[]), "green for x, red for y", PAINTED, Bug::After(|| light::green_first.into_configs())),
     bug("added-twice", film_stage, "added twice, counted once", MOST, Bug::After(|| light::added_twice.into_configs())),

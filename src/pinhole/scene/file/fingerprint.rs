@@ -27,7 +27,7 @@ pub fn fingerprint(scene: &World) -> String {
         let material = entity.get::<UsesMaterial>().map(|used| place(used.0));
         text += &format!("{name:?} {parent:?} {material:?} {}", entity.contains::<Disabled>());
         let counts = |word: &&Word| ![TypeId::of::<Statistics>(), TypeId::of::<Sampling>()].contains(&(word.kind)());
-        for word in Word::all().iter().filter(counts) {
+        for word in Word::all().filter(counts) {
             if let Some(Ok(value)) = (word.write)(entity) {
                 text += &format!(" {}: {value}", word.word);
             }

@@ -26,5 +26,5 @@ pub use fingerprint::{FNV_BASIS, fingerprint, fnv};
 pub use problem::{FileProblem, PlaceInFile};
 pub use scene_file::SceneFile;
 pub use sentence::in_words_of_files;
-pub use word::words;
+pub use word::{Word, words};
 pub use write::scene_text;

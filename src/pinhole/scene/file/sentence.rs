@@ -30,7 +30,7 @@ fn word_of(name: &str) -> Option<&'static str> {
     match name {
         "UsesMaterial" => Some("material"),
         "ChildOf" => Some("parent"),
-        _ => Word::all().iter().find(|word| (word.component)() == name).map(|word| word.word),
+        _ => Word::all().find(|word| (word.component)() == name).map(|word| word.word),
     }
 }
 
@@ -48,6 +48,6 @@ mod tests {
         }
         assert_eq!(in_words_of_files("a UsesMaterial or an Emissive"), "a material or an emissive");
         assert_eq!(in_words_of_files("„é“: PointLight(s)"), "„é“: point_light(s)");
-        eprintln!("components: {} named as a file names them", Word::all().len());
+        eprintln!("components: {} named as a file names them", Word::all().count());
     }
 }

@@ -1,8 +1,9 @@
+use crate::scene::material::MATERIALS;
 use crate::scene::{
-    Adaptive, Background, BlinnPhong, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment,
-    EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing,
-    LookAt, Matte, Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
-    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
+    Adaptive, Background, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, EquirectangularCamera,
+    FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Motion, OrthographicCamera,
+    PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight,
+    Statistics, Stripes, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -14,7 +15,7 @@ use std::any::TypeId;
 // ANCHOR: words
 /// Every component that a scene file may hold, with its word there; a new component adds one line.
 ///
-/// Files are written in this order.
+/// Files are written in this order; materials, which have a list of their own, come before what emits light.
 const WORDS: &[Word] = &[
     Word::of::<PerspectiveCamera>("perspective_camera"),
     Word::of::<OrthographicCamera>("orthographic_camera"),
@@ -39,12 +40,6 @@ const WORDS: &[Word] = &[
     Word::of::<Adaptive>("adaptive"),
     Word::of::<Integrator>("integrator"),
     Word::of::<LightTracing>("light_tracing"),
-    Word::of::<Matte>("matte"),
-    Word::of::<Phong>("phong"),
-    Word::of::<BlinnPhong>("blinn_phong"),
-    Word::of::<Mirror>("mirror"),
-    Word::of::<Glass>("glass"),
-    Word::of::<Metal>("metal"),
     Word::of::<Emissive>("emissive"),
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
@@ -63,7 +58,7 @@ pub const RELATIONS: [&str; 4] = ["name", "parent", "material", "disabled"];
 
 /// The words of all components, in the order in which files are written.
 pub fn words() -> impl Iterator<Item = &'static str> {
-    WORDS.iter().map(|word| word.word)
+    Word::all().map(|word| word.word)
 }
 
 /// Inserts a component that was read into an entity.
@@ -86,7 +81,8 @@ pub struct Word {
 }
 
 impl Word {
-    const fn of<C: Component + Clone + Serialize + DeserializeOwned>(word: &'static str) -> Self {
+    /// The word of a component.
+    pub const fn of<C: Component + Clone + Serialize + DeserializeOwned>(word: &'static str) -> Self {
         Self {
             word,
             component: component::<C>,
@@ -99,12 +95,14 @@ impl Word {
 
     /// Finds a component by its word.
     pub fn find(word: &str) -> Option<&'static Self> {
-        WORDS.iter().find(|own| own.word == word)
+        Self::all().find(|own| own.word == word)
     }
 
     /// All components, in order.
-    pub fn all() -> &'static [Self] {
-        WORDS
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        let emits = WORDS.iter().position(|word| word.word == "emissive").unwrap_or(WORDS.len());
+        let (before, after) = WORDS.split_at(emits);
+        before.iter().chain(MATERIALS).chain(after)
     }
 }
 

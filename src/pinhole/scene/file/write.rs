@@ -104,7 +104,7 @@ fn check_components(scene: &World, entity: &EntityRef<'_>, who: &str) -> Result<
         let Some(info) = scene.components().get_info(id) else { continue };
         let has_word = info
             .type_id()
-            .is_some_and(|kind| relations.contains(&kind) || Word::all().iter().any(|word| (word.kind)() == kind));
+            .is_some_and(|kind| relations.contains(&kind) || Word::all().any(|word| (word.kind)() == kind));
         if !has_word {
             let accepted = "scene files have no word for it";
             return Err(SceneError::new(who, "component", info.name().shortname(), accepted));

@@ -1,0 +1,212 @@
+//! The stages of BSDFs that are not specular, each generic over the BSDF.
+
+use super::deeper_media::deeper_media_evidence;
+use super::interface::{Interface, InterfaceView};
+use super::media::media_evidence;
+use super::view::{BsdfView, BsdfViewItem};
+use super::{DeeperMedia, Media, Scattered, ScatteredRay, power_heuristic};
+use crate::extract::{
+    GlassTable, MaterialTable, SamplingTable, area_light_evidence, bsdf_evidence, environment_light_evidence,
+    mis_evidence, needed_if, traced_evidence,
+};
+use crate::intersect::{MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, Surfaces};
+use crate::material::{Bsdf, BsdfClass, Site, Transport};
+use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
+use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
+use crate::sample::Purpose;
+use crate::shade::{LightPdfs, LightRays, ReflectionView, ReflectionViewItem, SurfaceColours, lit_evidence};
+use bevy_ecs::prelude::*;
+use bevy_ecs::query::QueryData;
+
+/// What a path carries, by the pass that a stage runs in.
+pub(super) const fn transport(from_light: bool) -> Transport {
+    if from_light { Transport::Importance } else { Transport::Radiance }
+}
+
+/// What a BSDF is evaluated for at a surface of a tile.
+#[inline(always)]
+pub(super) fn site<B: Bsdf>(
+    materials: &MaterialTable,
+    interface: &Interface<'_>,
+    (colours, row, material): (Option<&SurfaceColours>, usize, usize),
+    transport: Transport,
+) -> Site {
+    Site {
+        row: materials.row[material] as usize,
+        colour: colours.map_or_else(|| materials.colour[material], |colours| colours.get(row)),
+        eta: if B::TRANSMITS { interface.eta(materials.interior[material], row) } else { 1.0 },
+        transport,
+    }
+}
+
+// ANCHOR: sample_bsdf
+/// Samples the BSDF at every surface that has it, and appends the rays that go on.
+pub fn sample_bsdf<B: Bsdf, const FROM_LIGHT: bool>(
+    sampling: Res<Shared<SamplingTable>>,
+    (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    (mut list, mut points, mut choices): (Local<Vec<u32>>, Local<Vec<[f64; 2]>>, Local<Vec<f64>>),
+    mut tiles: Query<(BsdfView, DrawsView, Option<&SurfaceColours>, InterfaceView, &MaterialRows)>,
+) {
+    for (BsdfViewItem { rays, paths, surfaces, shading, mut scattered }, draws, colours, interface, rows) in &mut tiles
+    {
+        let interface = Interface::new(interface, glass.as_deref());
+        let has_bsdf = |row: &u32| materials.kind[surfaces.material[*row as usize] as usize] == B::KIND;
+        list.clear();
+        list.extend(rows.row.iter().copied().filter(has_bsdf));
+        let draws = draws.draws(&sampling, Some(paths));
+        draws_of_two(&draws, Purpose::Direction, &list, &mut points);
+        if bsdf.chooses() {
+            draws_of_one(&draws, Purpose::MaterialChoice, &list, &mut choices);
+        }
+        scattered.append(&list, |number, row| {
+            ScatteredRay::leaving::<B>(row, (rays, paths), (surfaces, shading), |surface, to_eye| {
+                let of_row = (colours, row, surface.material as usize);
+                let site = site::<B>(&materials, &interface, of_row, transport(FROM_LIGHT));
+                bsdf.sample(&site, to_eye, points[number], choices.get(number).copied().unwrap_or_default())
+            })
+        });
+    }
+}
+// ANCHOR_END: sample_bsdf
+
+/// What a stage reads to compute the MIS weights of light samples, and the shadow rays that it weights.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct LightWeightView {
+    /// The rays from the eye.
+    pub eye: &'static WorldRays,
+    /// The surfaces that they hit.
+    pub surfaces: &'static Surfaces,
+    /// Their shading normals, where they have any.
+    pub shading: Option<&'static ShadingNormals>,
+    /// Their colours, where textures give them any.
+    pub colours: Option<&'static SurfaceColours>,
+    /// The pdfs with which the shadow rays were sampled.
+    pub pdfs: &'static LightPdfs,
+    /// The shadow rays.
+    pub rays: &'static mut LightRays,
+}
+
+// ANCHOR: mis_bsdf
+/// Weights every light sample at a surface with this BSDF against BSDF sampling.
+pub fn mis_bsdf<B: Bsdf>(
+    (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut tiles: Query<(LightWeightView, InterfaceView)>,
+) {
+    for (LightWeightViewItem { eye, surfaces, shading, colours, pdfs, mut rays }, interface) in &mut tiles {
+        let interface = Interface::new(interface, glass.as_deref());
+        for ray in 0..rays.rows() {
+            let (row, by_light) = (rays.path[ray] as usize, pdfs.pdf[ray]);
+            let surface = surfaces.get(row);
+            let material = surface.material as usize;
+            if by_light == 0.0 || materials.kind[material] != B::KIND {
+                continue;
+            }
+            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |shading| shading.get(row));
+            let local_from_world = B::frame(normal).transpose();
+            let [to_light, to_eye] =
+                [rays.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+            let site = site::<B>(&materials, &interface, (colours, row, material), Transport::Radiance);
+            let by_bsdf = bsdf.pdf(&site, to_light, to_eye);
+            rays.weight_by(ray, power_heuristic(by_light, by_bsdf));
+        }
+    }
+}
+// ANCHOR_END: mis_bsdf
+
+/// Adds the light of each unblocked shadow ray that a surface with this BSDF reflects or transmits to the eye, but for
+/// its Lambertian part.
+pub fn add_direct_light<B: Bsdf, const FROM_LIGHT: bool>(
+    (materials, bsdf, glass): (Res<Shared<MaterialTable>>, Res<Shared<B>>, Option<Res<Shared<GlassTable>>>),
+    mut tiles: Query<(ReflectionView, Option<&SurfaceColours>, InterfaceView)>,
+) {
+    for (ReflectionViewItem { eye, surfaces, shading, light, shadow: hits, mut radiance }, colours, interface) in
+        &mut tiles
+    {
+        let interface = Interface::new(interface, glass.as_deref());
+        for ray in 0..light.rows() {
+            let row = light.path[ray] as usize;
+            let surface = surfaces.get(row);
+            let material = surface.material as usize;
+            if materials.kind[material] != B::KIND || hits.is_some_and(|hits| hits.shape[ray] != NO_SHAPE) {
+                continue;
+            }
+            let normal = shading.map_or_else(|| surface.normal.as_dvec3(), |normals| normals.get(row));
+            let local_from_world = B::frame(normal).transpose();
+            let [to_light, to_eye] =
+                [light.direction_of(ray), -eye.direction_of(row)].map(|direction| local_from_world * direction);
+            let site = site::<B>(&materials, &interface, (colours, row, material), transport(FROM_LIGHT));
+            let (bsdf, irradiance) = (bsdf.lobes(&site, to_light, to_eye), light.irradiance(ray));
+            let [r, g, b] = [0, 1, 2].map(|part| (bsdf[part] * irradiance[part]).min(f64::from(f32::MAX)) as f32);
+            radiance.r[row] += r;
+            radiance.g[row] += g;
+            radiance.b[row] += b;
+        }
+    }
+}
+
+/// The stage that samples a BSDF: for paths from both sides where radiance and importance are scattered alike.
+pub fn sample_stage<B: Bsdf>() -> Stage {
+    let stage = Stage::new(B::NAMES.sample, TileSystems::SampleBsdfs, sample_bsdf::<B, false>);
+    let stage = scatters::<B>(stage).when(|scene| bsdf_evidence::<B>(scene).and(|| continued_evidence::<B>(scene)));
+    if B::TRANSMITS { stage.on_camera_paths() } else { stage }
+}
+
+/// The stage that samples a BSDF for paths from lights.
+pub fn sample_from_lights_stage<B: Bsdf>() -> Stage {
+    let stage = Stage::new(B::NAMES.sample_from_lights, TileSystems::SampleBsdfs, sample_bsdf::<B, true>);
+    scatters::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}
+
+fn scatters<B: Bsdf>(stage: Stage) -> Stage {
+    at_interfaces::<B>(stage).kind(StageKind::Estimator).appends::<Scattered>()
+}
+
+/// The stage that weights light samples at surfaces with a BSDF.
+pub fn mis_stage<B: Bsdf>() -> Stage {
+    at_interfaces::<B>(Stage::new(B::NAMES.mis, TileSystems::MisWeights, mis_bsdf::<B>))
+        .kind(StageKind::Alternative)
+        .when(|scene| {
+            let lights = area_light_evidence(scene).or(environment_light_evidence(scene));
+            lights.and(|| mis_evidence(scene)).and(|| bsdf_evidence::<B>(scene))
+        })
+}
+
+/// The stage that evaluates a BSDF for direct light, and for connections to the camera where radiance and importance
+/// are scattered alike.
+pub fn direct_light_stage<B: Bsdf>() -> Stage {
+    let stage = Stage::new(B::NAMES.direct_light, TileSystems::Shade, add_direct_light::<B, false>);
+    let stage = at_interfaces::<B>(stage).when(|scene| bsdf_evidence::<B>(scene).and(|| lit_evidence(scene)));
+    if B::TRANSMITS { stage.on_camera_paths() } else { stage }
+}
+
+/// The stage that evaluates a BSDF for connections to the camera.
+pub fn connections_stage<B: Bsdf>() -> Stage {
+    let stage = Stage::new(B::NAMES.connections, TileSystems::Shade, add_direct_light::<B, true>);
+    at_interfaces::<B>(stage).on_light_paths().when(|scene| traced_evidence(scene).and(|| bsdf_evidence::<B>(scene)))
+}
+
+/// Requests what is known of the media at surfaces that transmit light, and of nothing of the kind elsewhere.
+pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
+    if B::TRANSMITS {
+        stage
+            .reads_where::<SurfaceSides>(bsdf_evidence::<B>)
+            .reads_where::<Media>(media_evidence)
+            .reads_where::<DeeperMedia>(deeper_media_evidence)
+    } else {
+        let never = |_: &Census<'_>| Evidence::default();
+        stage
+            .table_where::<GlassTable>(never)
+            .reads_where::<SurfaceSides>(never)
+            .reads_where::<Media>(never)
+            .reads_where::<DeeperMedia>(never)
+    }
+}
+
+/// Evidence that paths are continued from surfaces with a BSDF.
+fn continued_evidence<B: Bsdf>(scene: &Census<'_>) -> Evidence {
+    needed_if(scene, |integrator| {
+        let does = integrator.transport();
+        if B::CLASS == BsdfClass::Glossy { does.samples_glossy } else { does.samples_diffuse }
+    })
+}

@@ -1,0 +1,166 @@
+use super::{Bsdf, BsdfClass, Example, Interior, Site, SpecularSample, Transport, fresnel, mirror_direction, refract};
+use crate::check::{light_colour, number};
+use crate::plan::{Census, Table};
+use crate::scene::{Glass, SceneError};
+use glam::DVec3;
+
+/// The least accepted index of refraction, and the reciprocal of the greatest.
+const LEAST_INDEX: f64 = 1e-3;
+
+// ANCHOR: glass_samples
+/// Both directions at a smooth surface to a medium of relative index η: specular reflection, and refraction with the
+/// rest of the light.
+///
+/// A beam that enters a denser medium becomes narrower, so its radiance in there is η² times as large; seen from this
+/// side, the factor is 1/η².
+/// For total internal reflection, the second sample has weight 0.
+#[inline(always)]
+pub fn glass_samples(direction: DVec3, normal: DVec3, eta: f64) -> [SpecularSample; 2] {
+    let reflected = fresnel((-direction.dot(normal)).max(0.0), eta);
+    let mirrored = mirror_direction(direction, normal);
+    let mirrored = SpecularSample { direction: mirrored, weight: [reflected; 3], through: false };
+    let bent = refract(direction, normal, eta).map_or_else(SpecularSample::default, |direction| SpecularSample {
+        direction,
+        weight: [(1.0 - reflected) / (eta * eta); 3],
+        through: true,
+    });
+    [mirrored, bent]
+}
+// ANCHOR_END: glass_samples
+
+// ANCHOR: glass_event
+/// One of the two at random: reflection with the Fresnel reflectance as its probability, by a number in [0, 1); divided
+/// by the probability, the weight is 1 for reflection and 1/η² for refraction.
+#[inline(always)]
+pub fn glass_event(direction: DVec3, normal: DVec3, eta: f64, number: f64) -> SpecularSample {
+    let [mirrored, bent] = glass_samples(direction, normal, eta);
+    if number < mirrored.weight[0] || !bent.through {
+        SpecularSample { weight: [1.0; 3], ..mirrored }
+    } else {
+        SpecularSample { weight: [1.0 / (eta * eta); 3], ..bent }
+    }
+}
+// ANCHOR_END: glass_event
+
+/// Smooth glass, whose only parameter is the relative index of refraction at each surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SmoothGlass;
+
+impl Table for SmoothGlass {
+    const NAME: &'static str = "smooth glass";
+
+    fn extract(_: &Census<'_>) -> Result<Self, SceneError> {
+        Ok(Self)
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+}
+
+/// Index, absorption and priority of a dielectric, checked.
+pub(super) fn checked_interior(who: &str, glass: &Glass) -> Result<Interior, SceneError> {
+    let Glass { ior, absorption, priority } = *glass;
+    if !(LEAST_INDEX..=1.0 / LEAST_INDEX).contains(&ior) {
+        let accepted = format!("it must be a number from {LEAST_INDEX} to {}", 1.0 / LEAST_INDEX);
+        return Err(SceneError::new(who, "ior", number(ior), accepted));
+    }
+    Ok(Interior { ior, absorption: light_colour(who, "absorption", absorption)?.to_array(), priority })
+}
+
+impl Bsdf for SmoothGlass {
+    type Component = Glass;
+    const COMPONENT: &'static str = "Glass";
+    const WORD: &'static str = "glass";
+    const NOUN: &'static str = "glass surface";
+    const CLASS: BsdfClass = BsdfClass::Specular;
+    const TRANSMITS: bool = true;
+
+    fn colour(glass: &Glass, who: &str) -> Result<[f64; 3], SceneError> {
+        checked_interior(who, glass).map(|_| [0.0; 3])
+    }
+
+    fn interior(glass: &Glass, who: &str) -> Result<Option<Interior>, SceneError> {
+        checked_interior(who, glass).map(Some)
+    }
+
+    fn chooses(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn specular_directions(&self, site: &Site, direction: DVec3, normal: DVec3) -> [SpecularSample; 2] {
+        glass_samples(direction, normal, site.eta)
+    }
+
+    /// A ray from a light keeps all of its power, where radiance would get its 1/η² (Veach 1997, 5.2).
+    #[inline(always)]
+    fn sample_specular(&self, site: &Site, direction: DVec3, normal: DVec3, number: f64) -> SpecularSample {
+        let sample = glass_event(direction, normal, site.eta, number);
+        match site.transport {
+            Transport::Radiance => sample,
+            Transport::Importance => SpecularSample { weight: [1.0; 3], ..sample },
+        }
+    }
+
+    fn examples() -> Vec<Example<Glass>> {
+        vec![Example { component: Glass::default(), lossless_to: None }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::ray_aim::Draws as Numbers;
+
+    /// The mean of the sampled weights is that of the two rays, and no light is lost or gained.
+    #[test]
+    fn sampling_agrees_with_splitting_and_nothing_is_lost() {
+        const STEPS: u32 = 4000;
+        for index in 0..400 {
+            let mut draws = Numbers::new(1951, index);
+            let (normal, eta) = (draws.unit_vector().normalize(), draws.power_of_ten(-0.5, 0.5));
+            let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
+            let [mirrored, bent] = glass_samples(direction, normal, eta);
+            assert!((mirrored.weight[0] + bent.weight[0] * eta * eta - 1.0).abs() < 1e-12 || !bent.through);
+            let mut sums = [0.0; 2];
+            for step in 0..STEPS {
+                let sample = glass_event(direction, normal, eta, (f64::from(step) + 0.5) / f64::from(STEPS));
+                sums[usize::from(sample.through)] += sample.weight[0] / f64::from(STEPS);
+                assert_eq!(sample.direction, if sample.through { bent.direction } else { mirrored.direction });
+            }
+            let step = 1.0 / f64::from(STEPS) / (eta * eta).min(1.0);
+            assert!(
+                (sums[0] - mirrored.weight[0]).abs() <= step && (sums[1] - bent.weight[0]).abs() <= step,
+                "{index}"
+            );
+        }
+        eprintln!("glass: 400 surfaces, sampled and split");
+    }
+
+    /// In and out again through parallel faces, the direction comes back and the factors 1/η² and η² cancel.
+    #[test]
+    fn through_a_pane_radiance_is_unscaled() {
+        for index in 0..2000 {
+            let mut draws = Numbers::new(1952, index);
+            let (normal, eta) = (draws.unit_vector().normalize(), draws.between(1.0, 3.0));
+            let direction = (draws.unit_vector_across(normal) * draws.between(0.0, 3.0) - normal).normalize();
+            let [_, inward] = glass_samples(direction, normal, eta);
+            let [mirrored, outward] = glass_samples(inward.direction, normal, 1.0 / eta);
+            assert!((outward.direction - direction).length() < 1e-13, "{index}");
+            let once = 1.0 - mirrored.weight[0];
+            assert!(
+                (inward.weight[0] * outward.weight[0] - once * once).abs() < 1e-12,
+                "{index}: both faces transmit the same fraction"
+            );
+        }
+        eprintln!("panes: 2000 paths through, none bent, none brightened");
+    }
+
+    #[test]
+    fn a_surface_between_equals_is_none() {
+        let direction = DVec3::new(0.6, 0.0, -0.8);
+        let sample = glass_event(direction, DVec3::Z, 1.0, 0.0);
+        assert!(sample.through && sample.weight[0] == 1.0 && (sample.direction - direction).length() < 1e-15);
+    }
+}

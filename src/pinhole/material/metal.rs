@@ -1,0 +1,129 @@
+use super::registered::entities_of_kind;
+use super::{
+    Bsdf, BsdfClass, BsdfSample, Example, MaterialKind, MultipleScattering, Named, Site, cosine_direction, ggx_brdf,
+    ggx_sample, visible_pdf,
+};
+use crate::check::{kind_and_name, number, reflectance};
+use crate::plan::{Census, Table};
+use crate::scene::{Metal, Rgb, SceneError};
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+
+/// The least α of a rough metal; below it, metal is a perfect mirror.
+///
+/// There its highlight falls to one half within 0.07° of its centre.
+pub const SMOOTHEST_METAL: f64 = 1e-3;
+
+/// Rough metals, in spawn order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MetalTable {
+    /// The reflectance of each metal's microfacets: red, green, blue, from 0 to 1.
+    pub colour: Vec<[f64; 3]>,
+    /// GGX's α, from 0.001 to 1.
+    pub alpha: Vec<f64>,
+    /// The multiple-scattering lobes; none where no metal asks for it, and that energy is lost.
+    pub several: Option<MultipleScattering>,
+}
+
+impl Table for MetalTable {
+    const NAME: &'static str = "metals";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let (mut table, mut several) = (Self::default(), Vec::new());
+        for entity in entities_of_kind(scene, Self::KIND) {
+            let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
+            let (colour, alpha) = checked(&kind_and_name(scene, Self::WORD, entity), &metal)?;
+            table.colour.push(colour);
+            table.alpha.push(alpha);
+            several.push(metal.multiple_scattering);
+        }
+        if several.contains(&true) {
+            let mut lobes = MultipleScattering::default();
+            for (metal, several) in several.into_iter().enumerate() {
+                lobes.push(table.colour[metal], several.then_some(table.alpha[metal]));
+            }
+            table.several = Some(lobes);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.alpha.len() * size_of::<[f64; 4]>() + self.several.as_ref().map_or(0, MultipleScattering::bytes)
+    }
+}
+
+/// A metal's colour and roughness, checked.
+fn checked(who: &str, metal: &Metal) -> Result<([f64; 3], f64), SceneError> {
+    let colour = reflectance(who, "colour", metal.colour)?.to_array();
+    if (0.0..=1.0).contains(&metal.roughness) {
+        Ok((colour, metal.roughness))
+    } else {
+        Err(SceneError::new(who, "roughness", number(metal.roughness), "it must be a number from 0 to 1"))
+    }
+}
+
+/// The colour of a metal that is a mirror.
+pub(super) fn smooth_colour(scene: &Census<'_>, entity: Entity) -> Result<[f64; 3], SceneError> {
+    let metal = scene.get::<Metal>(entity).copied().unwrap_or_default();
+    Ok(checked(&kind_and_name(scene, MetalTable::WORD, entity), &metal)?.0)
+}
+
+impl Bsdf for MetalTable {
+    type Component = Metal;
+    const COMPONENT: &'static str = "Metal";
+    const WORD: &'static str = "metal";
+    const NOUN: &'static str = "rough metal";
+    const CLASS: BsdfClass = BsdfClass::Glossy;
+
+    fn kind_of(metal: &Metal) -> MaterialKind {
+        // NaN is rough, so that it is reported and not overlooked.
+        if metal.roughness < SMOOTHEST_METAL { MaterialKind::Mirror } else { Self::KIND }
+    }
+
+    fn colour(metal: &Metal, who: &str) -> Result<[f64; 3], SceneError> {
+        checked(who, metal).map(|_| [0.0; 3])
+    }
+
+    #[inline(always)]
+    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let once = ggx_brdf(to_light, to_eye, self.alpha[site.row]);
+        let once = self.colour[site.row].map(|colour| once * colour);
+        let Some(several) = &self.several else { return once };
+        let again = several.brdf(site.row, to_light, to_eye);
+        [0, 1, 2].map(|part| once[part] + again[part])
+    }
+
+    #[inline(always)]
+    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
+        let visible = visible_pdf(to_light, to_eye, self.alpha[site.row]);
+        self.several.as_ref().map_or(visible, |several| several.pdf(site.row, to_light, to_eye, visible))
+    }
+
+    /// By visible microfacet normals; `choice` selects the single- or the multiple-scattering lobe.
+    #[inline(always)]
+    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
+        let microfacet_sample = || ggx_sample(to_eye, self.alpha[site.row], numbers);
+        let Some(several) = &self.several else {
+            let (sample, colour) = (microfacet_sample()?, self.colour[site.row]);
+            let weight = colour.map(|colour| colour * sample.weight);
+            return Some(BsdfSample { to_light: sample.to_light, pdf: sample.pdf, weight });
+        };
+        let is_lost = several.is_lost(site.row, to_eye, choice);
+        let to_light = if is_lost { cosine_direction(numbers) } else { microfacet_sample()?.to_light };
+        let pdf = self.pdf(site, to_light, to_eye);
+        let weight = self.eval(site, to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
+        (pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
+    }
+
+    fn chooses(&self) -> bool {
+        self.several.is_some()
+    }
+
+    fn examples() -> Vec<Example<Metal>> {
+        let roughness = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0].into_iter();
+        let white = |roughness| Metal { colour: Rgb::grey(1.0), roughness, multiple_scattering: true };
+        let white = roughness.clone().map(|of| Example { component: white(of), lossless_to: Some(3e-3) });
+        let grey = |roughness| Metal { colour: Rgb::grey(0.9), roughness, multiple_scattering: false };
+        white.chain(roughness.map(|of| Example { component: grey(of), lossless_to: None })).collect()
+    }
+}

@@ -1,0 +1,77 @@
+//! Materials: how a surface scatters light, one file for each BSDF (bidirectional scattering distribution function).
+//!
+//! Reads: the components of materials.
+//! Writes: a table of parameters for each BSDF, and the [`MaterialTable`], which says which of them an entity has.
+//! Space: directions are unit vectors in the frame of the surface, whose normal is +z, but for specular BSDFs, which
+//! reflect and refract the rays of render space as they are.
+//!
+//! A BSDF implements [`Bsdf`] and stands in one list, `for_each_bsdf`; the stages that evaluate direct light, sample
+//! directions and weight light samples are generic over it, and nothing outside its file asks which material it is.
+//!
+//! ```
+//! use pinhole::material::fresnel;
+//!
+//! // Glass reflects 4 % of the light at normal incidence and all of it at grazing incidence.
+//! assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-15);
+//! assert_eq!(fresnel(0.0, 1.5), 1.0);
+//! ```
+
+mod blinn_phong;
+mod bsdf;
+mod erased;
+mod frame;
+mod fresnel;
+mod ggx;
+mod glass;
+mod highlight;
+mod kind;
+mod lobe;
+mod matte;
+mod metal;
+mod mirror;
+mod multiple_scattering;
+mod phong;
+mod principled;
+mod registered;
+mod rough_glass;
+mod table;
+
+/// Every BSDF: its kind, its table, and its name in the names of stages and columns; a new one is a line here.
+macro_rules! for_each_bsdf {
+    ($then:ident) => {
+        $then! {
+            Matte(MatteTable, "matte"),
+            Phong(PhongTable, "Phong"),
+            BlinnPhong(BlinnPhongTable, "Blinn–Phong"),
+            Mirror(MirrorTable, "mirror"),
+            Glass(SmoothGlass, "glass"),
+            Metal(MetalTable, "metal"),
+            RoughGlass(RoughGlassTable, "rough glass"),
+            Principled(PrincipledTable, "principled"),
+        }
+    };
+}
+pub(crate) use for_each_bsdf;
+
+pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
+pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Site, SpecularSample, StageNames, Transport};
+pub use erased::ErasedBsdf;
+pub use frame::{cosine_direction, cosine_pdf, frame_of, same_side};
+pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
+pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};
+pub use glass::{SmoothGlass, glass_event, glass_samples};
+pub use highlight::highlight;
+pub use kind::MaterialKind;
+pub use lobe::{Highlight, Lobe};
+pub use matte::MatteTable;
+pub use metal::{MetalTable, SMOOTHEST_METAL};
+pub use mirror::MirrorTable;
+pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
+pub use phong::{PhongTable, mirror_cosine, phong_peak};
+pub use principled::PrincipledTable;
+pub use registered::{
+    REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,
+};
+pub(crate) use registered::{components_in_words, interior_of, one_material};
+pub use rough_glass::RoughGlassTable;
+pub use table::{MaterialTable, NO_ROW};

@@ -1,0 +1,57 @@
+use super::{MaterialKind, material_entities, one_material};
+use crate::plan::{Census, Table};
+use crate::scene::SceneError;
+
+/// Stands for no row, in a column of row numbers.
+pub const NO_ROW: u32 = u32::MAX;
+
+/// The materials of shapes of all kinds, in spawn order; their further parameters are in the table of their BSDF.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MaterialTable {
+    /// The kind of each.
+    pub kind: Vec<MaterialKind>,
+    /// Its row in the table of its BSDF.
+    pub row: Vec<u32>,
+    /// The colour of each: red, green, blue, from 0 to 1; for most kinds the albedo of diffuse reflection.
+    pub colour: Vec<[f64; 3]>,
+    /// The row of what fills its shapes in the table of glass; [`NO_ROW`] for opaque materials.
+    pub interior: Vec<u32>,
+    /// Whether some material uses its colour otherwise than as a Lambertian albedo.
+    pub other_colours: bool,
+}
+
+impl MaterialTable {
+    /// Materials that are opaque and of one row each, as for tests.
+    pub fn opaque(kind: Vec<MaterialKind>, colour: Vec<[f64; 3]>) -> Self {
+        let count = kind.len();
+        Self { kind, row: vec![0; count], colour, interior: vec![NO_ROW; count], other_colours: false }
+    }
+}
+
+impl Table for MaterialTable {
+    const NAME: &'static str = "materials";
+
+    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
+        let mut table = Self::default();
+        let (mut rows_of_kind, mut interiors) = ([0; MaterialKind::COUNT], 0);
+        for &entity in material_entities(scene).iter() {
+            let written = one_material(scene, entity)?;
+            let kind = written.kind(scene, entity);
+            let rows = &mut rows_of_kind[kind as usize];
+            table.row.push(*rows);
+            *rows += 1;
+            table.kind.push(kind);
+            let colour = written.colour(scene, entity)?;
+            table.other_colours |= !kind.is_lambertian() && colour != [0.0; 3];
+            table.colour.push(colour);
+            let is_filled = written.interior(scene, entity)?.is_some();
+            table.interior.push(if is_filled { interiors } else { NO_ROW });
+            interiors += u32::from(is_filled);
+        }
+        Ok(table)
+    }
+
+    fn bytes(&self) -> usize {
+        self.kind.len() * (size_of::<MaterialKind>() + 2 * size_of::<u32>() + size_of::<[f64; 3]>())
+    }
+}

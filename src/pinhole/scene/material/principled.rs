@@ -1,0 +1,26 @@
+use crate::scene::Rgb;
+use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// The metallic–roughness material of glTF 2.0: a dielectric of index 1.5 over a diffuse base, a metal, or a mixture of
+/// both.
+///
+/// No energy is lost between microfacets: what single scattering loses is given back.
+/// A texture on the same entity gives it its base colour; an `Emissive` makes it shine.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Principled {
+    /// The diffuse albedo of the dielectric and the reflectance of the metal at normal incidence, linear Rec. 709, each
+    /// component from 0 to 1.
+    pub base_colour: Rgb,
+    /// 0 for a dielectric, 1 for a metal; in between the two are mixed.
+    pub metallic: f64,
+    /// The perceived roughness, from 0 to 1: its square is GGX's α, which is at least 0.001.
+    pub roughness: f64,
+}
+
+impl Default for Principled {
+    fn default() -> Self {
+        Self { base_colour: Rgb::grey(0.8), metallic: 0.0, roughness: 0.5 }
+    }
+}

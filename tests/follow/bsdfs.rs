@@ -1,0 +1,257 @@
+//! Every registered BSDF, by the examples that it gives of itself: energy, reciprocity, and sampling.
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use pinhole::material::{BsdfClass, ErasedBsdf, MaterialTable, REGISTERED, Registration, Site, Transport};
+use pinhole::plan::Census;
+use pinhole_lab::measure::chi_squared::{Bins, p_value};
+use pinhole_lab::measure::hemisphere::Quadrature;
+use pinhole_lab::measure::ray_aim::Draws;
+use std::f64::consts::{PI, TAU};
+
+/// Angles of the direction to the eye, in degrees.
+const ANGLES: [f64; 7] = [0.0, 20.0, 45.0, 65.0, 80.0, 86.0, 89.0];
+/// Indices of refraction beyond the surface over that on the side of the eye, where it transmits light.
+const ETAS: [f64; 2] = [1.5, 1.0 / 1.5];
+
+/// An example of a BSDF that is not specular.
+struct Example {
+    name: String,
+    bsdf: Box<dyn ErasedBsdf>,
+    sites: Vec<Site>,
+    lossless_to: Option<f64>,
+    transmits: bool,
+}
+
+fn examples_of(own: &Registration) -> Vec<Example> {
+    let example = |(number, (spawn, lossless_to)): (usize, (pinhole::material::Spawn, Option<f64>))| {
+        let mut world = World::new();
+        spawn(&mut world.spawn_empty());
+        let census = Census::of(&world);
+        let table = census.table::<MaterialTable>().expect("a material");
+        assert_eq!(table.kind[..], [own.kind], "{} {number} is of its own kind", own.component);
+        let opaque = Site::opaque(table.row[0] as usize, table.colour[0]);
+        let etas = if own.transmits { &ETAS[..] } else { &[1.0] };
+        Example {
+            name: format!("{} {number}", own.component),
+            bsdf: (own.bsdf)(&census).expect("its table"),
+            sites: etas.iter().map(|&eta| Site { eta, ..opaque }).collect(),
+            lossless_to,
+            transmits: own.transmits,
+        }
+    };
+    (own.examples)().into_iter().enumerate().map(example).collect()
+}
+
+fn examples() -> Vec<Example> {
+    let spread = REGISTERED.iter().filter(|own| own.class != BsdfClass::Specular);
+    let found: Vec<Example> = spread.flat_map(examples_of).collect();
+    assert!(found.len() > 10, "{} examples", found.len());
+    found
+}
+
+fn eye_at(degrees: f64) -> DVec3 {
+    let angle = degrees * PI / 180.0;
+    DVec3::new(libm::sin(angle), 0.0, libm::cos(angle))
+}
+
+/// A direction above the surface, or on either side of it.
+fn direction(draws: &mut Draws, either_side: bool) -> DVec3 {
+    let direction = draws.unit_vector().normalize();
+    if either_side { direction } else { DVec3::new(direction.x, direction.y, direction.z.abs()) }
+}
+
+/// The same direction, seen from the other side of the surface.
+fn flipped(direction: DVec3) -> DVec3 {
+    DVec3::new(direction.x, -direction.y, -direction.z)
+}
+
+/// The mean weight over a lattice in the three numbers that a sample takes, which is the albedo; every weight is what
+/// `eval` and `pdf` say.
+fn albedo(example: &Example, site: &Site, to_eye: DVec3) -> f64 {
+    const COUNT: u32 = 40_000;
+    // The lattice of the plastic number's cubic kin (Roberts 2018).
+    const G: f64 = 1.220_744_084_605_759_5;
+    let mut sum = 0.0;
+    for index in 0..COUNT {
+        let at = |power: f64| (0.5 + f64::from(index) / power).fract();
+        let (numbers, choice) = ([(f64::from(index) + 0.5) / f64::from(COUNT), at(G)], at(G * G));
+        let Some(sample) = example.bsdf.sample(site, to_eye, numbers, choice) else { continue };
+        let (light, whole) = (sample.to_light, sample.weight[0]);
+        let pdf = example.bsdf.pdf(site, light, to_eye);
+        let weight = example.bsdf.eval(site, light, to_eye)[0] * light.z.abs() / pdf;
+        let name = &example.name;
+        assert!((pdf / sample.pdf - 1.0).abs() < 1e-6, "{name} at {to_eye}: pdf {pdf} and {}", sample.pdf);
+        assert!((weight - whole).abs() <= 1e-6 * whole.max(1e-3), "{name} at {to_eye}: weight {weight} and {whole}");
+        assert!(example.transmits || light.z > 0.0, "{name} sends light through");
+        sum += whole;
+    }
+    sum / f64::from(COUNT)
+}
+
+/// What enters a denser medium is scaled by 1/η², and that is no loss: importance is not.
+fn in_furnace(site: &Site) -> Site {
+    Site { transport: Transport::Importance, ..*site }
+}
+
+#[test]
+fn no_material_gives_back_more_than_it_gets() {
+    let (mut tried, mut most, mut least) = (0, (0.0_f64, String::new()), (f64::INFINITY, String::new()));
+    for example in examples() {
+        for (site, angle) in example.sites.iter().flat_map(|site| ANGLES.map(|angle| (site, angle))) {
+            let all = albedo(&example, &in_furnace(site), eye_at(angle));
+            let what = format!("{} at {angle}°, η {:.2}", example.name, site.eta);
+            assert!(all <= 1.0 + 1e-3, "{what}: {all}");
+            if let Some(off) = example.lossless_to {
+                assert!(all >= 1.0 - off, "{what}: {all}");
+                least = if all < least.0 { (all, what.clone()) } else { least };
+            }
+            most = if all > most.0 { (all, what) } else { most };
+            tried += 1;
+        }
+    }
+    eprintln!("white furnace: {tried} albedos; the greatest {most:?}, the least without absorption {least:?}");
+}
+
+#[test]
+fn materials_are_reciprocal() {
+    let (mut tried, mut both_zero, mut worst) = (0, 0, 0.0_f64);
+    for example in examples() {
+        for (site, index) in example.sites.iter().flat_map(|site| (0..4000).map(move |index| (site, index))) {
+            let mut draws = Draws::new(3101, index);
+            let (mut eye, light) = (direction(&mut draws, false), direction(&mut draws, example.transmits));
+            if index % 2 == 0 {
+                // Near the mirrored direction, where narrow lobes are.
+                eye = (DVec3::new(-light.x, -light.y, light.z.abs()) + 0.02 * draws.unit_vector()).normalize();
+                eye.z = eye.z.abs();
+            }
+            let through = light.z < 0.0;
+            // Light that goes the other way through the surface finds the media exchanged.
+            let back = if through { Site { eta: 1.0 / site.eta, ..*site } } else { *site };
+            let [from, to] = if through { [eye, light].map(flipped) } else { [eye, light] };
+            let there = example.bsdf.eval(&in_furnace(site), light, eye);
+            let again = example.bsdf.eval(&back, from, to);
+            for part in 0..3 {
+                let larger = there[part].max(again[part]);
+                both_zero += u32::from(larger == 0.0);
+                let off = if larger > 0.0 { (there[part] - again[part]).abs() / larger } else { 0.0 };
+                worst = worst.max(off);
+                assert!(off <= 1e-6, "{} {index}: {there:?} and {again:?}, {light} {eye}", example.name);
+            }
+            assert!(there.iter().all(|part| *part >= 0.0 && part.is_finite()), "{} {index}: {there:?}", example.name);
+            tried += 1;
+        }
+    }
+    eprintln!("reciprocity: {tried} pairs of directions, worst {worst:.1e}; {both_zero} of their components are 0");
+    assert!(both_zero < tried, "most are 0");
+}
+
+/// A cell of directions: bounds of the cosine and of the azimuth.
+#[derive(Clone, Copy)]
+struct Cell {
+    z: [f64; 2],
+    turn: [f64; 2],
+}
+
+impl Cell {
+    fn parts(self) -> [Self; 4] {
+        let half = |[low, high]: [f64; 2]| [[low, 0.5 * (low + high)], [0.5 * (low + high), high]];
+        let (z, turn) = (half(self.z), half(self.turn));
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self { z: z[i], turn: turn[j] })
+    }
+
+    fn holds(self, z: f64, turn: f64) -> bool {
+        (self.z[0]..self.z[1]).contains(&z) && (self.turn[0]..self.turn[1]).contains(&turn)
+    }
+
+    /// ∫ f dω over the cell, refined until halving it changes little.
+    fn integral(self, rule: &Quadrature, depth: u32, f: &dyn Fn(DVec3) -> f64) -> f64 {
+        let whole = |cell: Self| {
+            rule.sum(cell.z[0], cell.z[1], |z| {
+                let across = (1.0 - z * z).max(0.0).sqrt();
+                rule.sum(cell.turn[0], cell.turn[1], |turn| {
+                    f(DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z))
+                })
+            })
+        };
+        let (all, parts) = (whole(self), self.parts());
+        let refined: f64 = parts.iter().map(|&part| whole(part)).sum();
+        if depth == 0 || (all - refined).abs() < 1e-6 {
+            return refined;
+        }
+        parts.iter().map(|part| part.integral(rule, depth - 1, f)).sum()
+    }
+}
+
+fn place_of(light: DVec3) -> (f64, f64) {
+    (light.z.clamp(-1.0, 1.0 - 1e-16), libm::atan2(light.y, light.x).rem_euclid(TAU).min(TAU * (1.0 - 1e-16)))
+}
+
+/// Cells that hold at most so many of these places each, of all directions to which light is sent.
+fn cells(places: &[(f64, f64)], most: usize, either_side: bool) -> Vec<Cell> {
+    let sides = if either_side { &[0.0, -1.0][..] } else { &[0.0] };
+    let whole = |&low: &f64| (Cell { z: [low, low + 1.0], turn: [0.0, TAU] }, places.to_vec(), 0);
+    let mut open: Vec<(Cell, Vec<(f64, f64)>, u32)> = sides.iter().map(whole).collect();
+    let mut found = Vec::new();
+    while let Some((cell, mut inside, depth)) = open.pop() {
+        inside.retain(|&(z, turn)| cell.holds(z, turn));
+        if inside.len() <= most || depth == 20 {
+            found.push(cell);
+        } else {
+            open.extend(cell.parts().map(|part| (part, inside.clone(), depth + 1)));
+        }
+    }
+    found
+}
+
+/// The probability of a χ² at least as large as that of the sampled directions against the pdf.
+fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
+    const SAMPLES: u64 = 20_000;
+    let eye = eye_at(angle);
+    let places = |seed| {
+        let sampled = (0..SAMPLES).filter_map(move |index| {
+            let mut draws = Draws::new(seed, index);
+            let numbers = [draws.unit(), draws.unit()];
+            example.bsdf.sample(site, eye, numbers, draws.unit())
+        });
+        sampled.map(|sample| place_of(sample.to_light)).collect::<Vec<_>>()
+    };
+    // The cells must not depend on the samples that are counted in them.
+    let (cells, rule) = (cells(&places(seed), 400, example.transmits), Quadrature::default());
+    let mut bins = Bins::new(cells.len() + 1);
+    for (bin, cell) in cells.iter().enumerate() {
+        let part = cell.integral(&rule, 6, &|light| example.bsdf.pdf(site, light, eye));
+        bins.expect(bin, part * SAMPLES as f64);
+    }
+    let sampled = places(seed + 1);
+    let none = SAMPLES as f64 - bins.total();
+    let what = format!("{} at {angle}°, η {:.2}", example.name, site.eta);
+    assert!(none > -1e-3 * SAMPLES as f64, "{what}: its pdf adds up to {}", bins.total() / SAMPLES as f64);
+    bins.expect(cells.len(), none.max(0.0));
+    (sampled.len() as u64..SAMPLES).for_each(|_| bins.count(cells.len()));
+    for (z, turn) in sampled {
+        bins.count(cells.iter().position(|cell| cell.holds(z, turn)).expect("cells cover all directions"));
+    }
+    let (statistic, freedom) = bins.statistic();
+    p_value(statistic, freedom)
+}
+
+#[test]
+fn sampled_directions_have_their_pdf() {
+    let (mut tried, mut least) = (0_u64, (1.0_f64, String::new()));
+    for example in examples() {
+        for site in &example.sites {
+            for angle in [0.0, 45.0, 80.0, 89.0] {
+                tried += 1;
+                let p = p_of(&example, site, angle, 5000 + 2 * tried);
+                if p < least.0 {
+                    least = (p, format!("{} at {angle}°, η {:.2}", example.name, site.eta));
+                }
+            }
+        }
+    }
+    // Šidák: the least of so many is below this once in a hundred.
+    let limit = 1.0 - libm::pow(0.99, 1.0 / tried as f64);
+    eprintln!("sampling: {tried} χ² tests, least p {:.5} ({}), limit {limit:.1e}", least.0, least.1);
+    assert!(least.0 > limit, "{least:?}");
+}
