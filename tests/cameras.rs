@@ -5,6 +5,7 @@ use crate::scenes;
 
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
+use pinhole::cameras::in_image_circle;
 use pinhole::extract::{ImageCircle, ImageFrame, half_extent};
 use pinhole::film::{Film, write_exr};
 use pinhole::plan::{Census, Column, Table};
@@ -15,7 +16,7 @@ use pinhole::rays::{
 use pinhole::render::{inspect, render};
 use pinhole::sample::{Purpose, uniform};
 use pinhole::scene::*;
-use pinhole::shade::{direction_of, in_image_circle};
+use pinhole::shade::direction_of;
 use scenes::{Setup, all_round, film, fisheye, named, offer, one_world, textured};
 use std::f64::consts::PI;
 

@@ -170,7 +170,9 @@ fn light_strategies_agree_on_the_chapters_scenes() {
             }
             world
         };
-        strategies_agree(name, &make, strategies, 8, 4);
+        // Its light is small and bright, so that its few pixels are the noisiest.
+        let samples = if name == "21_soft_shadows" { 32 } else { 16 };
+        strategies_agree(name, &make, strategies, samples, 4);
     }
 }
 

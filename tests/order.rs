@@ -15,6 +15,8 @@ const ORDER: &[(&str, &[&str])] = &[
             "plan",
             "check",
             "material",
+            "cameras",
+            "filters",
             "shapes",
             "extract",
             "sample",
@@ -39,13 +41,15 @@ const ORDER: &[(&str, &[&str])] = &[
 const ROOT: [&str; 2] = ["Error", "Result"];
 
 /// What stands at the root and belongs to a folder further down.
-const REEXPORTED: [(&str, &str); 8] = [
+const REEXPORTED: [(&str, &str); 10] = [
     ("Chapter", "chapter"),
     ("Overrides", "chapter"),
     ("SamplingOverrides", "chapter"),
     ("Size", "chapter"),
     ("column", "plan"),
     ("column_component", "plan"),
+    ("with_filter", "filters"),
+    ("with_sampler", "sample"),
     ("render_scene", "chapter"),
     ("run", "example"),
 ];

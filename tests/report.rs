@@ -83,9 +83,10 @@ fn stated_variances_are_those_of_many_repetitions() {
             let mean = values[which].iter().sum::<f64>() / REPETITIONS as f64;
             let spread: f64 = values[which].iter().map(|value| (value - mean) * (value - mean)).sum();
             let ratio = stated[which] / (spread / (REPETITIONS - 1) as f64);
-            // A variance of so many repetitions is known to √(2 / 2500), 3 %; parts of that of bias² are kept from
-            // falling below 0, so that with few runs it is stated too large.
-            let most = if which == 0 { 1.12 } else { 1.6 };
+            // A variance of so many repetitions is known to √(2 / 2500), 3 %; its parts are kept from falling below 0,
+            // so that with few runs it is stated too large, most so for bias². Counting twice what runs and reference
+            // vary together makes the first 1.29.
+            let most = if which == 0 { 1.2 } else { 1.6 };
             eprintln!("{name} of {runs} runs of {samples} samples: stated {ratio:.3} of the true variance");
             assert!((0.88..most).contains(&ratio), "{name} of {runs} runs: stated {ratio} of the true variance");
             tried += REPETITIONS;

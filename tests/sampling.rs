@@ -3,7 +3,7 @@
 use crate::scenes;
 
 use bevy_ecs::prelude::*;
-use pinhole::extract::FilterCells;
+use pinhole::extract::cells_of;
 use pinhole::film::{Film, FilmTile};
 use pinhole::plan::{Census, plan};
 use pinhole::rays::{PixelSamples, RasterPoints, SampleSigns, Tile};
@@ -104,7 +104,7 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
     for sampling in samplings() {
         let row_of_pixels = empty([WIDTH, 1], Sampling { samples: 4, seed: 9, ..sampling }, Rgb::grey(1.0));
         let inspection = inspect(&row_of_pixels, &offer(), 1024).expect("inspects");
-        let cells = FilterCells::of(sampling.filter);
+        let cells = cells_of(sampling.filter);
         for &tile in &inspection.tiles {
             let tile = inspection.world.entity(tile);
             let (place, raster) = (tile.get::<Tile>().expect("a tile"), tile.get::<RasterPoints>().expect("points"));

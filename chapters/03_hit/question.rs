@@ -28,7 +28,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Answer> {
     Question {
-        pinhole_has: ("src/pinhole/intersect/sphere.rs", "sphere_intersection"),
+        pinhole_has: ("src/pinhole/shapes/sphere.rs", "sphere_intersection"),
         probes: asked(),
         tell: |(origin, direction, centre, radius)| {
             let [origin, direction, centre] = [origin, direction, centre].map(Shown::shown);

@@ -38,7 +38,7 @@ fn question() -> Question<Input, Ray> {
     asked.extend(probes("a view as small as an atom, or smaller", at(403, 1.0, -18.0, -10.0)));
     asked.extend(probes("a view as large as a galaxy, in millimetres", at(404, 1.0, 10.0, 18.0)));
     Question {
-        pinhole_has: ("src/pinhole/rays/camera.rs", "camera_ray_orthographic"),
+        pinhole_has: ("src/pinhole/cameras/orthographic.rs", "camera_ray_orthographic"),
         probes: asked,
         tell: |(screen, view_height)| format!("screen {}, view_height {view_height:?}", screen.shown()),
         right: |&(screen, view_height)| ray(screen, view_height / 2.0),

@@ -41,7 +41,7 @@ fn question() -> Question<Input, [f64; 3]> {
     asked.extend(probes("a narrow angle, below 0.001°", at(504, 1.78, 1e-6, 1e-3)));
     asked.extend(probes("an image 10000 times as wide as high", at(505, 1e4, 10.0, 120.0)));
     Question {
-        pinhole_has: ("src/pinhole/rays/camera.rs", "camera_ray_perspective"),
+        pinhole_has: ("src/pinhole/cameras/perspective.rs", "camera_ray_perspective"),
         probes: asked,
         tell: |(screen, tangent)| format!("screen {}, tan_half_vertical {tangent:?}", screen.shown()),
         right: |&(screen, tangent)| camera_ray_perspective(screen.into(), tangent).into(),

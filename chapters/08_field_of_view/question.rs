@@ -36,7 +36,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/extract/camera.rs", "tan_half"),
+        pinhole_has: ("src/pinhole/cameras/field_of_view.rs", "tan_half"),
         probes: asked(),
         tell: |(angle, axis, width, height)| format!("angle {angle:?}°, axis {axis:?}, width {width}, height {height}"),
         right: |&(angle, axis, width, height)| {

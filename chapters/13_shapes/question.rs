@@ -27,7 +27,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, Answer> {
     Question {
-        pinhole_has: ("src/pinhole/intersect/cuboid.rs", "fn slab"),
+        pinhole_has: ("src/pinhole/shapes/cuboid.rs", "fn slab"),
         probes: asked(),
         tell: |(origin, direction, least, most)| {
             let [origin, direction, least, most] = [origin, direction, least, most].map(Shown::shown);

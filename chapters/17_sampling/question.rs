@@ -23,7 +23,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/sample/filter.rs", "tent_offset"),
+        pinhole_has: ("src/pinhole/filters/tent.rs", "tent_offset"),
         probes: asked(),
         tell: |(u, radius)| format!("u {}, radius {}", u.shown(), radius.shown()),
         right: |&(u, radius)| tent_offset(u, radius),

@@ -31,7 +31,7 @@ pub fn exercise(yours: Yours) -> Exercise {
 
 fn question() -> Question<Input, f64> {
     Question {
-        pinhole_has: ("src/pinhole/shade/emitter/mod.rs", "pdf_from_area"),
+        pinhole_has: ("src/pinhole/shapes/emitter/emitting.rs", "pdf_from_area"),
         probes: asked(),
         tell: |(from, at, normal, area)| {
             let [from, at, normal] = [from, at, normal].map(Shown::shown);

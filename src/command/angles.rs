@@ -2,9 +2,11 @@ use super::error::{Error, Result};
 use super::format::{Format, print_json};
 use super::options::SceneOptions;
 use super::subject::Subject;
-use pinhole::extract::{ImageFrame, PerspectiveProjection, angle_across, camera_entity, half_extent, validate};
+use pinhole::extract::{
+    ImageFrame, PerspectiveProjection, angle_across, camera_entity, camera_kind, half_extent, validate,
+};
 use pinhole::plan::{Census, Table};
-use pinhole::scene::{FovAxis, OrthographicCamera, PerspectiveCamera};
+use pinhole::scene::{FovAxis, PerspectiveCamera};
 use serde_json::json;
 use std::io::Write;
 
@@ -18,9 +20,12 @@ pub fn print_angles(subject: &Subject<'_>, options: &SceneOptions, format: Forma
     validate(census).map_err(|scene_error| subject.placed(scene_error.into(), &asked))?;
     let camera = camera_entity(&scene)?;
     let Some(&PerspectiveCamera { fov, axis }) = scene.get::<PerspectiveCamera>(camera) else {
-        let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
-        let told =
-            if orthographic { "is orthographic and has no angle" } else { "has no image plane to measure across" };
+        let kind = camera_kind(census)?;
+        let told = if kind.has_image_plane {
+            format!("is {} and has no angle", kind.names.noun)
+        } else {
+            "has no image plane to measure across".into()
+        };
         return Err(Error::usage(format!("the camera of {} {told}", subject.name())));
     };
     let (lens, image) = (PerspectiveProjection::extract(census)?, ImageFrame::extract(census)?);

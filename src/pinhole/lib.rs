@@ -48,24 +48,32 @@
 //! 1. [`scene`]: the components that describe a scene.
 //! 2. [`plan`]: which stages the scene needs, and why.
 //! 3. [`material`]: how surfaces scatter light, one file for each BSDF.
-//! 4. [`shapes`]: what a shape is, and the mathematics of each.
-//! 5. [`extract`]: entities → tables, as structures of arrays.
-//! 6. [`sample`]: samplers, random numbers and reconstruction filters.
-//! 7. [`rays`]: raster → NDC → screen → camera → world.
-//! 8. [`intersect`]: rays → the closest hit and its surface.
-//! 9. [`shade`]: surfaces → textures, lights and shadow rays.
-//! 10. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
-//! 11. [`film`]: radiance → pixels → files.
-//! 12. [`render`]: the loop over tiles.
-//! 13. [`look`]: traces, views and statistics.
-//! 14. [`stages`]: all stages, in the order of the data.
-//! 15. [`prelude`]: what a scene or a stage of one's own begins with.
+//! 4. [`cameras`]: what a camera is, and the mathematics of each.
+//! 5. [`filters`]: what a reconstruction filter is, and how each is sampled.
+//! 6. [`shapes`]: what a shape is, and the mathematics of each.
+//! 7. [`extract`]: entities → tables, as structures of arrays.
+//! 8. [`sample`]: samplers and random numbers.
+//! 9. [`rays`]: raster → NDC → screen → camera → world.
+//! 10. [`intersect`]: rays → the closest hit and its surface.
+//! 11. [`shade`]: surfaces → textures, lights and shadow rays.
+//! 12. [`follow`]: paths → the next bounce, with BSDF sampling, MIS and Russian roulette.
+//! 13. [`film`]: radiance → pixels → files.
+//! 14. [`render`]: the loop over tiles.
+//! 15. [`look`]: traces, views and statistics.
+//! 16. [`stages`]: all stages, in the order of the data.
+//! 17. [`prelude`]: what a scene or a stage of one's own begins with.
 
 pub mod scene;
 
 pub mod plan;
 
 pub mod material;
+
+#[doc(hidden)]
+pub mod cameras;
+
+#[doc(hidden)]
+pub mod filters;
 
 #[doc(hidden)]
 pub mod shapes;

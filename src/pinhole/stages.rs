@@ -12,10 +12,14 @@
 //! assert!(stages::all().len() > 90);
 //! ```
 
-use crate::follow::{BsdfRole, BsdfStage};
-use crate::material::BsdfClass;
+mod registered;
+
 use crate::plan::Stage;
 use crate::{film, follow, intersect, rays, shade};
+use registered::{
+    bsdf_rows, bsdf_samples, direct_light_of_bsdfs, image_masks, image_plane_rays, intersections, shadow_rays,
+    surface_points, wide_rays,
+};
 use std::any::TypeId;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -50,62 +54,13 @@ enum Group {
     LightTracing,
     Film,
 }
-use BsdfRole::*;
 use Group::*;
 
 /// A stage on offer, and the group that it belongs to.
 type Grouped = (Group, fn() -> Stage);
 
-/// Stages in order, and then those of every registered shape or BSDF.
+/// Stages in order, and then those of every registered shape, BSDF or camera.
 struct Part(&'static [Grouped], fn() -> Vec<Grouped>);
-
-/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
-fn group_of(group: Group, is_uneven: bool) -> Group {
-    if is_uneven { Transforms } else { group }
-}
-
-fn intersections() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
-}
-
-fn surface_points() -> Vec<Grouped> {
-    let stages = intersect::shape_stages().into_iter();
-    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
-}
-
-fn shadow_rays() -> Vec<Grouped> {
-    let stages = shade::shape_shadow_stages().into_iter();
-    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
-}
-
-/// The stages of all BSDFs for one purpose; specular BSDFs come before the others.
-fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
-    let group = |stage: &BsdfStage| match (role, stage.class) {
-        (MisWeights, _) => Mis,
-        (Connections | SampleFromLights, _) => LightTracing,
-        (_, _) if stage.transmits => Glass,
-        (_, BsdfClass::Specular) => SpecularReflection,
-        (_, BsdfClass::Glossy) => GlossyReflection,
-        (Evaluate, BsdfClass::Diffuse) => Highlights,
-        (_, BsdfClass::Diffuse) => PathContinuation,
-    };
-    let mut stages: Vec<BsdfStage> = follow::bsdf_stages().into_iter().filter(|own| own.role == role).collect();
-    stages.sort_by_key(|own| own.class != BsdfClass::Specular);
-    stages.iter().map(|own| (group(own), own.stage)).collect()
-}
-
-fn bsdf_rows() -> Vec<Grouped> {
-    of_bsdfs(Classify)
-}
-
-fn direct_light_of_bsdfs() -> Vec<Grouped> {
-    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
-}
-
-fn bsdf_samples() -> Vec<Grouped> {
-    [Split, Sample, SampleFromLights].into_iter().flat_map(of_bsdfs).collect()
-}
 
 /// All stages in the order of the data flow.
 ///
@@ -119,11 +74,9 @@ const LIST: &[Part] = &[Part(&[
     (CameraRays, rays::screen_stage),
     (Lens, rays::lens_point_stage),
     (Motion, rays::time_stage),
-    (CameraRays, rays::perspective_stage),
-    (CameraRays, rays::orthographic_stage),
+], image_plane_rays), Part(&[
     (Lens, rays::lens_stage),
-    (WideCameras, rays::fisheye_stage),
-    (WideCameras, rays::equirectangular_stage),
+], wide_rays), Part(&[
     (LightTracing, follow::light_start_stage),
     (CameraRays, rays::world_stage),
 
@@ -207,7 +160,7 @@ const LIST: &[Part] = &[Part(&[
     // All further bounces; then the light of the whole path is added to the film.
     (Bounces, follow::remaining_bounces_stage),
     (Bounces, follow::sum_bounces_stage),
-    (WideCameras, shade::image_circle_stage),
+], image_masks), Part(&[
     (Film, film::moments_stage),
     (Film, film::film_stage),
 ], Vec::new)];
@@ -218,7 +171,7 @@ fn of(group: Group) -> Vec<Stage> {
 
 /// The stages of some groups, each with its place in the list.
 fn listed(wanted: impl Fn(Group) -> bool) -> Vec<Stage> {
-    let all = LIST.iter().flat_map(|Part(stages, of_each)| stages.iter().copied().chain(of_each()));
+    let all = LIST.iter().flat_map(|Part(stages, registered)| stages.iter().copied().chain(registered()));
     let places = all.enumerate().filter(|&(_, (group, _))| wanted(group));
     places.map(|(place, (_, stage))| Stage { place, ..stage() }).collect()
 }

@@ -10,7 +10,7 @@
 mod interval;
 
 use interval::{cpu, median};
-use pinhole::extract::FilterCells;
+use pinhole::extract::cells_of;
 use pinhole::sample::{
     Draw, INTEGRANDS, Independent, MeanError, PixelKey, Purpose, Sobol, Stratified, box_offset, mean_error, slope,
     table_offset, tent_offset, unit,
@@ -75,7 +75,7 @@ fn points() {
 
 fn offsets() {
     for (word, filter) in Filter::ALL {
-        let cells = FilterCells::of(filter);
+        let cells = cells_of(filter);
         let sum = |offset: &dyn Fn(f64) -> f64| -> f64 {
             (0..PIXELS).map(|bits| offset(unit(bits.wrapping_mul(2_654_435_761)))).sum()
         };

@@ -1,11 +1,12 @@
 //! What stages read and write comes from their systems' parameters; little is left to declare.
 
 use super::*;
+use pinhole::cameras::ImageCircle;
 use pinhole::follow::remaining_bounces_stage;
 use pinhole::intersect::{classify_stage, sphere_stage};
 use pinhole::plan::{Column, Shared, column};
 use pinhole::rays::{CameraRays, RasterPoints, lens_point_stage, world_stage};
-use pinhole::shade::{Radiance, image_circle_stage, point_light_stage};
+use pinhole::shade::{Radiance, image_mask_stage, point_light_stage};
 use std::path::{Path, PathBuf};
 
 /// The most that is declared by hand; 592 before stages declared themselves.
@@ -175,7 +176,7 @@ fn stages_are_told_apart_by_their_systems() {
     assert_eq!(one, other, "a name does not tell stages apart");
     assert_ne!(one, Stage::new("one", TileSystems::Shade, darken));
     assert!(sphere_stage().is(sphere_stage) && !classify_stage().is(sphere_stage));
-    assert_ne!(image_circle_stage(), point_light_stage());
+    assert_ne!(image_mask_stage::<ImageCircle>(), point_light_stage());
 
     let both = Stage::new("both", TileSystems::Shade, (make, darken));
     let [mut reads, reads_if, _, mut writes, tables, _] = touched(&both);

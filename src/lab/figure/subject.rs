@@ -1,15 +1,15 @@
 use super::pixel_ray::{PixelRay, pixel_rays};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
+use pinhole::cameras::RaySpread;
 use pinhole::extract::{
-    CameraAxes, ImageFrame, MaterialTable, OrthographicWindow, PerspectiveProjection, PlaneTable, PointLightTable,
-    ShapeTable, SphereTable, camera_entity,
+    CameraAxes, ImageFrame, MaterialTable, PlaneTable, PointLightTable, ShapeTable, SphereTable, camera_spread,
 };
 use pinhole::intersect::Hits;
 use pinhole::plan::{Census, Table};
 use pinhole::rays::WorldRays;
 use pinhole::render::{Inspection, inspect};
-use pinhole::scene::{OrthographicCamera, PerspectiveCamera, Resolution};
+use pinhole::scene::Resolution;
 use pinhole::shapes::ShapeKind;
 use pinhole::{Chapter, Overrides};
 use pinhole::{Error, Result, stages};
@@ -146,13 +146,12 @@ fn inspected(chapter: &Chapter, scene: &World, side: u32) -> Result<Inspection> 
 }
 
 fn lens(scene: &World) -> Result<Lens> {
-    let camera = camera_entity(scene)?;
-    Ok(match scene.get::<PerspectiveCamera>(camera) {
-        Some(_) => Lens::Perspective(PerspectiveProjection::extract(&Census::of(scene))?.tan_half_vertical),
-        None if scene.get::<OrthographicCamera>(camera).is_some() => {
-            Lens::Orthographic(OrthographicWindow::extract(&Census::of(scene))?.half_height)
+    Ok(match camera_spread(&Census::of(scene))? {
+        RaySpread::Central(half_height) => Lens::Perspective(half_height),
+        RaySpread::Parallel(half_height) => Lens::Orthographic(half_height),
+        RaySpread::Angular(_) => {
+            return Err(Error::Usage("figures are drawn of perspective and orthographic cameras only".into()));
         }
-        None => return Err(Error::Usage("figures are drawn of perspective and orthographic cameras only".into())),
     })
 }
 

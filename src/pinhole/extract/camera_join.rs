@@ -1,10 +1,9 @@
-use super::camera_entity::camera_of;
-use super::{
-    CameraAxes, FilterTable, ImageFrame, LensTable, OrthographicWindow, PerspectiveProjection, lens_evidence, radius_of,
-};
+use super::camera::camera_spread;
+use super::light_tracing::no_image_plane;
+use super::{CameraAxes, FilterTable, LensTable, lens_evidence, radius_of};
+use crate::cameras::{ImageFrame, RaySpread};
 use crate::plan::{Census, Table};
-use crate::scene::{OrthographicCamera, SceneError};
-use bevy_ecs::prelude::*;
+use crate::scene::SceneError;
 use glam::{DMat3, DVec2};
 
 /// The camera's projection in the reverse direction, for connecting points to it.
@@ -39,11 +38,10 @@ impl Table for CameraJoinTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let image = scene.table::<ImageFrame>()?;
-        let is_perspective = scene.get::<OrthographicCamera>(camera_of(scene)?).is_none();
-        let half_height = if is_perspective {
-            scene.table::<PerspectiveProjection>()?.tan_half_vertical
-        } else {
-            scene.table::<OrthographicWindow>()?.half_height
+        let (is_perspective, half_height) = match camera_spread(scene)? {
+            RaySpread::Central(half_height) => (true, half_height),
+            RaySpread::Parallel(half_height) => (false, half_height),
+            RaySpread::Angular(_) => return no_image_plane(scene),
         };
         let lens = lens_evidence(scene).needed.then(|| scene.table::<LensTable>()).transpose()?;
         Ok(Self {

@@ -132,7 +132,7 @@ mod tests {
         for (name, solid) in solids() {
             for index in 0..20 {
                 let mut draws = Draws::new(27, index);
-                let turn = DQuat::from_axis_angle(draws.unit_vector().normalize(), draws.between(0.0, 6.0));
+                let turn = DQuat::from_vec4(draws.unit_vector().extend(draws.between(-1.0, 1.0))).normalize();
                 let (size, place) = (draws.power_of_ten(-6.0, 6.0), draws.unit_vector() * 3.0);
                 let solid: Vec<_> = solid.iter().map(|corners| corners.map(|at| size * (turn * at + place))).collect();
                 let found = |triangles: &[[DVec3; 3]]| {

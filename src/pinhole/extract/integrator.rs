@@ -3,7 +3,7 @@ use super::emissive::emissive_evidence;
 use super::material::{glossy_evidence, material_evidence, specular_evidence};
 use super::sky::sky_evidence;
 use crate::plan::{Census, Evidence};
-use crate::scene::{DirectionalLight, Integrator, LightStrategy, PointLight, SpotLight, called};
+use crate::scene::{DirectionalLight, Integrator, PointLight, SpotLight, called};
 use bevy_ecs::prelude::*;
 
 /// The integrator of a scene, and the reason for it.
@@ -34,7 +34,7 @@ pub fn integrator_of(scene: &Census<'_>) -> ChosenIntegrator {
         let (integrator, reason) = chosen_without_sky(scene);
         let chosen = ChosenIntegrator { integrator, reason, is_named: false, without_sky: None };
         let sky = sky_evidence(scene).and(|| material_evidence(scene));
-        if sky.needed && !matches!(integrator, Integrator::Path { .. }) {
+        if sky.needed && !integrator.transport().samples_diffuse {
             let reason = format!("light from the sky, {}", sky.reason);
             return ChosenIntegrator { integrator: Integrator::PATH, reason, without_sky: Some(integrator), ..chosen };
         }
@@ -76,13 +76,12 @@ fn has_points(scene: &Census<'_>) -> bool {
 
 /// Evidence that rays are traced beyond the first surface.
 pub fn followed_evidence(scene: &Census<'_>) -> Evidence {
-    let goes_on = |integrator| !matches!(integrator, Integrator::RayCasting | Integrator::AmbientOcclusion { .. });
-    needed_if(scene, goes_on)
+    needed_if(scene, |integrator| integrator.transport().follows_paths)
 }
 
 /// Evidence that the picture shows ambient occlusion.
 pub fn occlusion_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::AmbientOcclusion { .. }))
+    needed_if(scene, |integrator| integrator.transport().occlusion.is_some())
 }
 
 /// The evidence of something that lighting needs, except with ambient occlusion, which has no lights.
@@ -94,16 +93,12 @@ pub fn unless_occlusion(scene: &Census<'_>, evidence: Evidence) -> Evidence {
 
 /// Evidence that area lights are sampled (next-event estimation).
 pub fn light_sampling_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| match integrator {
-        Integrator::Distribution { .. } => true,
-        Integrator::Path { lights, .. } => lights != LightStrategy::Bsdf,
-        _ => false,
-    })
+    needed_if(scene, |integrator| integrator.transport().samples_lights())
 }
 
 /// Evidence that light sampling and BSDF sampling are combined by multiple importance sampling.
 pub fn mis_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Path { lights: LightStrategy::Mis, .. }))
+    needed_if(scene, |integrator| integrator.transport().is_mis())
 }
 
 /// Evidence that the scene's integrator is of a kind.

@@ -3,7 +3,7 @@ use super::check::{at_most_one, kind_and_name, positive_length};
 use super::integrator::integrator_of;
 use super::{GlassTable, glass_evidence};
 use crate::plan::{Census, Table};
-use crate::scene::{Integrator, LightStrategy, SceneError};
+use crate::scene::{Integrator, SceneError};
 use bevy_ecs::prelude::*;
 
 /// The integrator's parameters.
@@ -35,21 +35,20 @@ impl Table for IntegratorTable {
             let who = kind_and_name(scene, "integrator", other);
             return Err(SceneError::new(who, "integrator", "on no camera", "it must be on the camera"));
         }
-        // By default, light travels from a light by one surface to the camera.
-        let mut table = Self { max_depth: 2, eta_scale: eta_scale_in_glass(scene)?, ..Self::default() };
-        match integrator_of(scene).integrator {
-            Integrator::RayCasting => {}
-            Integrator::AmbientOcclusion { distance } if distance == f64::INFINITY => table.distance = f32::INFINITY,
-            Integrator::AmbientOcclusion { distance } => {
-                table.distance = positive_length(&who(), "integrator distance", distance)? as f32;
-            }
-            Integrator::Whitted { max_depth } => table.max_depth = max_depth,
-            Integrator::Distribution { max_depth } => (table.max_depth, table.samples_lights) = (max_depth, true),
-            Integrator::Path { max_depth, roulette, lights } => {
-                (table.max_depth, table.roulette, table.mis) = (max_depth, roulette, lights == LightStrategy::Mis);
-                table.samples_lights = lights != LightStrategy::Bsdf;
-            }
-        }
+        let does = integrator_of(scene).integrator.transport();
+        let distance = match does.occlusion {
+            Some(distance) if distance != f64::INFINITY => positive_length(&who(), "integrator distance", distance)?,
+            Some(distance) => distance,
+            None => 0.0,
+        };
+        let table = Self {
+            max_depth: does.max_depth,
+            roulette: does.roulette,
+            samples_lights: does.samples_lights(),
+            eta_scale: eta_scale_in_glass(scene)?,
+            mis: does.is_mis(),
+            distance: distance as f32,
+        };
         if table.max_depth == 0 {
             let accepted = "it must be at least 1, for emitted light, or 2, for direct light";
             return Err(SceneError::new(who(), "integrator max_depth", "0", accepted));

@@ -1,10 +1,10 @@
-use super::camera_entity::camera_of;
+use super::camera_entity::{CAMERA_KINDS, any_of, camera_kind, camera_of, named_camera, with_article};
 use super::check::{at_most_one, kind_and_name, number};
 use super::{
     ImageFrame, adaptive_of, area_light_evidence, integrator_of, material_evidence, motion_evidence, specular_evidence,
 };
 use crate::plan::{Census, ComponentKind, Evidence, Table};
-use crate::scene::{EquirectangularCamera, FisheyeCamera, Integrator, LightTracing, PointLight, SceneError, SpotLight};
+use crate::scene::{LightTracing, PointLight, SceneError, SpotLight};
 use bevy_ecs::prelude::*;
 
 /// The greatest number of light paths per camera path.
@@ -36,17 +36,14 @@ impl Table for LightTracingTable {
             return Err(SceneError::new(who, "light_tracing paths", number(paths), accepted));
         }
         let refused = |value: &str, accepted: &str| Err(SceneError::new(who, "light_tracing", value, accepted));
-        if !matches!(integrator_of(scene).integrator, Integrator::Path { .. }) {
+        if !integrator_of(scene).integrator.transport().samples_diffuse {
             return refused(
                 "without paths",
                 "light tracing complements the camera's paths: give it the integrator Path()",
             );
         }
-        let [fisheye, around] =
-            [scene.get::<FisheyeCamera>(camera).is_some(), scene.get::<EquirectangularCamera>(camera).is_some()];
-        if fisheye || around {
-            let camera = if fisheye { "on a fisheye camera" } else { "on an equirectangular camera" };
-            return refused(camera, "light paths are connected to a perspective or an orthographic camera");
+        if !camera_kind(scene)?.has_image_plane {
+            return no_image_plane(scene);
         }
         if motion_evidence(scene).needed {
             return refused("while something moves", "light paths need a scene without motion: remove the Motion");
@@ -62,6 +59,15 @@ impl Table for LightTracingTable {
     fn bytes(&self) -> usize {
         size_of::<Self>()
     }
+}
+
+/// The error of light tracing with a camera that has no image plane.
+pub(super) fn no_image_plane<T>(scene: &Census<'_>) -> Result<T, SceneError> {
+    let (who, _) = named_camera(scene)?;
+    let planes = CAMERA_KINDS.iter().filter(|kind| kind.has_image_plane).map(|kind| kind.names.noun);
+    let accepted = format!("light paths are connected to {} camera", any_of(planes));
+    let value = format!("on {} camera", with_article(camera_kind(scene)?.names.noun));
+    Err(SceneError::new(who, "light_tracing", value, accepted))
 }
 
 /// Evidence that caustics are traced from the lights: the camera requests it, and there are a light to start on,

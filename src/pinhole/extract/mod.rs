@@ -32,7 +32,6 @@ mod emissive;
 mod environment;
 mod environment_light;
 mod filter;
-mod fisheye;
 mod glass;
 mod glass_overlap;
 mod gradient;
@@ -49,10 +48,12 @@ mod light_tracing;
 mod material;
 mod motion;
 mod moving;
+mod on_camera;
 mod pixel_steps;
 mod point_light;
 mod pose;
 mod pyramid;
+mod ray_origins;
 mod sampling;
 mod shape;
 mod shape_kind;
@@ -67,21 +68,22 @@ mod uv_slope;
 mod uv_space;
 mod velocity;
 
+pub use crate::cameras::{
+    ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across,
+    angle_of_tan_half, half_extent, tan_half,
+};
+pub use crate::filters::{FilterCells, Span, cells_of, filter_area, filter_value, radius_of, sign_change};
 pub use adaptive::adaptive_of;
 pub use area_light::{AreaLightTable, area_light_evidence, luminance};
 pub use background::BackgroundTable;
-pub use camera::{
-    CameraAxes, ImageFrame, OrthographicWindow, PerspectiveProjection, SMALLEST_PIXEL, angle_across, angle_of_tan_half,
-    eye, half_extent, tan_half,
-};
-pub use camera_entity::camera_entity;
+pub use camera::{CameraAxes, camera_spread, eye};
+pub use camera_entity::{CAMERA_KINDS, CameraKind, camera_entity, camera_kind};
 pub use camera_join::CameraJoinTable;
 pub use directional_light::DirectionalLightTable;
 pub use emissive::{EmissiveTable, emissive_evidence, one_sided_evidence};
 pub use environment::EnvironmentTable;
 pub use environment_light::{EnvironmentLightTable, environment_light_evidence};
-pub use filter::{FilterCells, FilterTable, Span, filter_area, filter_value, radius_of, sign_change};
-pub use fisheye::{ImageCircle, fisheye_evidence};
+pub use filter::FilterTable;
 pub use glass::GlassTable;
 pub use glass_overlap::{deep_glass, glass_overlaps, glass_that};
 pub use gradient::GradientTable;
@@ -107,6 +109,7 @@ pub use pixel_steps::PixelSteps;
 pub use point_light::PointLightTable;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
+pub use ray_origins::{RayOrigins, ray_origins_evidence};
 pub use sampling::{MOST_SAMPLES, SamplingTable};
 pub use shape::ShapeTable;
 pub use shape_kind::{
@@ -138,12 +141,11 @@ use crate::scene::{SceneError, View};
 ///
 /// A new kind of component is added with a line; every other table is made from what these have checked.
 const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
+    on_camera::check_on_camera,
     answer::<ImageFrame>,
     answer::<ShutterTable>,
     answer::<CameraAxes>,
-    answer::<PerspectiveProjection>,
-    answer::<ImageCircle>,
-    answer::<OrthographicWindow>,
+    |scene| camera_spread(scene).map(drop),
     answer::<LensTable>,
     answer::<SamplingTable>,
     answer::<FilterTable>,

@@ -1,10 +1,9 @@
-use super::camera_entity::camera_of;
-use super::{CameraAxes, ImageCircle, ImageFrame, OrthographicWindow, PerspectiveProjection, SamplingTable};
+use super::camera::camera_spread;
+use super::{CameraAxes, SamplingTable};
+use crate::cameras::{ImageFrame, RaySpread};
 use crate::plan::{Census, Table};
-use crate::scene::{EquirectangularCamera, FisheyeCamera, OrthographicCamera, SceneError};
-use bevy_ecs::prelude::*;
+use crate::scene::SceneError;
 use glam::DVec3;
-use std::f64::consts::PI;
 
 /// The least fraction of a pixel that a sample stands for, however many samples there are, as in pbrt-v4: neighbouring
 /// samples are random, and so farther apart than the pixel's side over the square root of their number.
@@ -33,19 +32,12 @@ impl Table for PixelSteps {
         let fraction = (1.0 / f64::from(scene.table::<SamplingTable>()?.samples).sqrt()).max(MIN_FRACTION);
         let pixel = 2.0 / f64::from(image.height) * fraction;
         let steps = |length: f64| [axes.x_axis * length, -axes.y_axis * length];
-        let camera = scene.entity(camera_of(scene)?);
         let none = [DVec3::ZERO; 2];
-        let (mut direction, mut origin, mut angle) = (none, none, None);
-        if camera.contains::<OrthographicCamera>() {
-            origin = steps(pixel * scene.table::<OrthographicWindow>()?.half_height);
-        } else if camera.contains::<FisheyeCamera>() {
-            angle = Some(scene.table::<ImageCircle>()?.pixel(image) * fraction);
-        } else if camera.contains::<EquirectangularCamera>() {
-            // At the horizon; towards the poles the step to the right becomes shorter, while that down stays the same.
-            angle = Some((2.0 * PI / f64::from(image.width)).max(PI / f64::from(image.height)) * fraction);
-        } else {
-            direction = steps(pixel * scene.table::<PerspectiveProjection>()?.tan_half_vertical);
-        }
+        let (direction, origin, angle) = match camera_spread(scene)? {
+            RaySpread::Central(half_height) => (steps(pixel * half_height), none, None),
+            RaySpread::Parallel(half_height) => (none, steps(pixel * half_height), None),
+            RaySpread::Angular(pixel) => (none, none, Some(pixel * fraction)),
+        };
         Ok(Self { direction, origin, ahead: -axes.z_axis, angle })
     }
 

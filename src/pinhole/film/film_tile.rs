@@ -295,8 +295,7 @@ impl Film {
     ///
     /// If some of n samples have negative weights, with a sum W of all weights, it is the variance of a ratio estimator
     /// to first order: (n V + n (M − R)²) / W² with the variance V of a sample, the unweighted mean M and the weighted
-    /// mean R.
-    /// [`FilmMoments::variance`] is n² V / W² already.
+    /// mean R; [`FilmMoments::variance`] is n² V / W² already.
     pub fn variance_of_mean(&self, tile: usize, row: usize) -> [f64; 3] {
         let film = &self.tiles[tile];
         let (count, weight) = (film.count[row], film.weight(row));

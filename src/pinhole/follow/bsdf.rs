@@ -14,7 +14,6 @@ use crate::material::{Bsdf, BsdfClass, Site, Transport};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, WorldRays, draws_of_one, draws_of_two};
 use crate::sample::Purpose;
-use crate::scene::Integrator;
 use crate::shade::{LightPdfs, LightRays, ReflectionView, ReflectionViewItem, SurfaceColours, lit_evidence};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
@@ -206,9 +205,8 @@ pub(super) fn at_interfaces<B: Bsdf>(stage: Stage) -> Stage {
 
 /// Evidence that paths are continued from surfaces with a BSDF.
 fn continued_evidence<B: Bsdf>(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| match integrator {
-        Integrator::Path { .. } => true,
-        Integrator::Distribution { .. } => B::CLASS == BsdfClass::Glossy,
-        _ => false,
+    needed_if(scene, |integrator| {
+        let does = integrator.transport();
+        if B::CLASS == BsdfClass::Glossy { does.samples_glossy } else { does.samples_diffuse }
     })
 }

@@ -3,7 +3,6 @@ use crate::extract::{IntegratorTable, SamplingTable, needed_if};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
-use crate::scene::Integrator;
 use bevy_ecs::prelude::*;
 
 // ANCHOR: survival_probability
@@ -53,5 +52,5 @@ pub fn play_roulette(
 pub fn roulette_stage() -> Stage {
     Stage::new("Russian roulette", TileSystems::Roulette, play_roulette)
         .kind(StageKind::Estimator)
-        .when(|scene| needed_if(scene, |integrator| matches!(integrator, Integrator::Path { roulette: 1.., .. })))
+        .when(|scene| needed_if(scene, |integrator| integrator.transport().roulette > 0))
 }

@@ -13,7 +13,6 @@ use crate::material::{Bsdf, SpecularSample, mirror_direction};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems};
 use crate::rays::{DrawsView, Paths, draws_of_one};
 use crate::sample::Purpose;
-use crate::scene::Integrator;
 use crate::shapes::offset_origin;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -125,5 +124,5 @@ fn reading<B: Bsdf>(stage: Stage) -> Stage {
 
 /// Evidence that both rays are traced at glass.
 fn split_evidence(scene: &Census<'_>) -> Evidence {
-    needed_if(scene, |integrator| matches!(integrator, Integrator::Whitted { .. }))
+    needed_if(scene, |integrator| integrator.transport().splits_at_glass)
 }

@@ -1,9 +1,9 @@
-//! Surfaces that emit light in a way that strategies for direct light do not agree about, or cannot sample.
+//! Surfaces that emit light and that strategies for direct light do not agree about, or cannot sample.
 
 use crate::Result;
 use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, shape_name};
 use crate::plan::{Census, counted};
-use crate::scene::{Integrator, LightStrategy};
+use crate::scene::LightStrategy;
 use std::collections::HashMap;
 
 /// Lights are compared with one another up to this number.
@@ -12,11 +12,10 @@ const MOST_COMPARED: usize = 4096;
 /// A sentence about emitters that light sampling cannot sample, where it is the only strategy, and one about emitters
 /// that coincide.
 pub fn emitters(scene: &Census<'_>) -> Result<Vec<String>> {
-    let strategy = match integrator_of(scene).integrator {
-        Integrator::Path { lights, .. } => lights,
-        Integrator::Distribution { .. } => LightStrategy::Light,
-        _ => return Ok(Vec::new()),
-    };
+    let Some(strategy) = integrator_of(scene).integrator.transport().lights else { return Ok(Vec::new()) };
+    if scene.table::<EmissiveTable>()?.radiance.is_empty() {
+        return Ok(Vec::new());
+    }
     let mut warnings = Vec::new();
     if strategy == LightStrategy::Light {
         warnings.extend(unsampled(scene)?);
@@ -38,15 +37,18 @@ fn unsampled(scene: &Census<'_>) -> Result<Option<String>> {
     let Some(&first) = missed.first() else { return Ok(None) };
     let which =
         format!("{} (the first is the {})", counted(missed.len(), "emitting surface"), shape_name(scene, first));
-    Ok(Some(match integrator_of(scene).integrator {
-        Integrator::Distribution { .. } => format!(
-            "distribution ray tracing samples lights and nothing else, and it cannot sample {which}: their light on \
-             other surfaces is missing; Integrator::Path finds it"
-        ),
-        _ => format!(
+    let does = integrator_of(scene).integrator.transport();
+    Ok(Some(if does.samples_diffuse {
+        format!(
             "light sampling cannot sample {which}, so BSDF sampling finds their light, as with LightStrategy::Bsdf; \
              more samples, or a sphere, disk, rectangle, cuboid or triangles instead, lessen its noise"
-        ),
+        )
+    } else {
+        format!(
+            "{} samples lights and nothing else, and it cannot sample {which}: their light on other surfaces is \
+             missing; Integrator::Path finds it",
+            does.name
+        )
     }))
 }
 

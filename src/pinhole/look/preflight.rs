@@ -8,7 +8,7 @@ use crate::extract::{
     integrator_of, light_sampling_evidence, shadowed_point_evidence, shape_name, specular_evidence, traced_evidence,
 };
 use crate::plan::{Census, Evidence, ExtractedTable, Plan};
-use crate::scene::{DirectionalLight, Environment, Integrator};
+use crate::scene::{DirectionalLight, Environment};
 use crate::shade::point_evidence;
 use crate::{Error, Result};
 use std::time::{Duration, Instant};
@@ -103,8 +103,8 @@ fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     let sampled = points.needed || light_sampling_evidence(scene).needed;
     let lights = points.or(areas);
     let blocked: usize = pilot.blocked.values().sum();
-    let integrator = integrator_of(scene).integrator;
-    if let Integrator::AmbientOcclusion { distance } = integrator {
+    let does = integrator_of(scene).integrator.transport();
+    if let Some(distance) = does.occlusion {
         return format!("within {distance} units, something hides the sky from everything that the camera sees");
     }
     if !lights.needed {
@@ -113,7 +113,7 @@ fn why_black(scene: &Census<'_>, pilot: &Pilot) -> String {
     if pilot.hits == 0 {
         return format!("none of {} rays hits a shape, and there is no background with a colour", pilot.rays);
     }
-    if !sampled && matches!(integrator, Integrator::Path { .. }) {
+    if !sampled && does.samples_diffuse {
         let (found, rays) = (pilot.rays - pilot.black, pilot.rays);
         return format!(
             "{found} of {rays} rays hit a light at random ({}); LightStrategy::Mis samples lights as well",

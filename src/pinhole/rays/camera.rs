@@ -1,10 +1,10 @@
 use super::ScreenPoints;
-use crate::extract::{OrthographicWindow, PerspectiveProjection, lens_evidence};
+use crate::cameras::{
+    Camera, CameraRaySlices, Listed, OrthographicWindow, PerspectiveProjection, ScreenSlices, with_cameras,
+};
+use crate::extract::lens_evidence;
 use crate::plan::{Column, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::scene::{OrthographicCamera, PerspectiveCamera};
 use bevy_ecs::prelude::*;
-use glam::{DVec2, DVec3};
-use multiversion::multiversion;
 
 column! {
     /// Camera rays in camera space, where the camera is at the origin and looks down −z; directions are unit vectors.
@@ -31,86 +31,44 @@ impl CameraRays {
     }
 }
 
-// ANCHOR: camera_ray_perspective
-/// The direction from the eye at the origin through a screen point on the image plane at z = −1.
-#[inline(always)]
-pub fn camera_ray_perspective(screen: DVec2, tan_half_vertical: f64) -> DVec3 {
-    let point = DVec3::new(screen.x * tan_half_vertical, screen.y * tan_half_vertical, -1.0);
-    point / (point.x * point.x + point.y * point.y + 1.0).sqrt()
-}
-// ANCHOR_END: camera_ray_perspective
-
-// ANCHOR: camera_ray_orthographic
-/// The origin, in camera space, of the ray through a screen point of an orthographic camera; its direction is −z.
-#[inline(always)]
-pub fn camera_ray_orthographic(screen: DVec2, half_height: f64) -> DVec3 {
-    DVec3::new(screen.x * half_height, screen.y * half_height, 0.0)
-}
-// ANCHOR_END: camera_ray_orthographic
-
-/// Fills a tile's camera rays for a perspective camera; their origins stay 0.
-pub fn fill_perspective(
-    projection: Res<Shared<PerspectiveProjection>>,
-    mut tiles: Query<(&ScreenPoints, &mut CameraRays)>,
-) {
+/// Generates a tile's camera rays; what the camera does not write stays 0.
+pub fn generate_camera_rays<C: Listed>(projection: Res<Shared<C>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
     for (screen, mut rays) in &mut tiles {
-        perspective_rows(screen, projection.tan_half_vertical, &mut rays);
-    }
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn perspective_rows(screen: &ScreenPoints, tan_half_vertical: f64, rays: &mut CameraRays) {
-    let rows = screen.rows();
-    let (x, y) = screen.slices();
-    let (_, _, _, dx, dy, dz) = rays.slices_mut(rows);
-    for row in 0..rows {
-        let direction = camera_ray_perspective(DVec2::new(x[row], y[row]), tan_half_vertical);
-        (dx[row], dy[row], dz[row]) = (direction.x, direction.y, direction.z);
-    }
-}
-
-/// Fills a tile's camera rays for an orthographic camera; their directions are all −z.
-pub fn fill_orthographic(window: Res<Shared<OrthographicWindow>>, mut tiles: Query<(&ScreenPoints, &mut CameraRays)>) {
-    for (screen, mut rays) in &mut tiles {
-        let rows = screen.rows();
         let (x, y) = screen.slices();
-        let (ox, oy, _, _, _, dz) = rays.slices_mut(rows);
-        for row in 0..rows {
-            let origin = camera_ray_orthographic(DVec2::new(x[row], y[row]), window.half_height);
-            (ox[row], oy[row], dz[row]) = (origin.x, origin.y, -1.0);
-        }
+        let (ox, oy, oz, dx, dy, dz) = rays.slices_mut(screen.rows());
+        projection.generate(ScreenSlices { x, y }, CameraRaySlices { origin: [ox, oy, oz], direction: [dx, dy, dz] });
     }
 }
+
+/// The stage for cameras of one kind, where no lens takes their place.
+pub fn camera_stage<C: Listed>() -> Stage {
+    Stage::new(C::NAMES.stage, TileSystems::Camera, generate_camera_rays::<C>).kind(StageKind::Alternative).when(
+        |scene| {
+            let camera = Evidence::of::<C::Component>(scene, &format!("{} camera", C::NAMES.noun));
+            match lens_evidence(scene) {
+                lens if camera.needed && lens.needed => Evidence { needed: false, ..lens },
+                _ => camera,
+            }
+        },
+    )
+}
+
+macro_rules! stages {
+    ($($component:ident($camera:ty) $noun:literal,)+) => {
+        /// The stages of all cameras, each with whether its rays pass through a plane or a window.
+        pub fn camera_stages() -> Vec<(bool, fn() -> Stage)> {
+            vec![$((<$camera>::HAS_IMAGE_PLANE, camera_stage::<$camera>)),+]
+        }
+    };
+}
+with_cameras!(stages);
 
 /// The stage for perspective cameras without a lens.
 pub fn perspective_stage() -> Stage {
-    Stage::new("Generate camera rays: perspective", TileSystems::Camera, fill_perspective)
-        .kind(StageKind::Alternative)
-        .when(|scene| match lens_evidence(scene) {
-            lens if lens.needed => Evidence { needed: false, ..lens },
-            _ => Evidence::of::<PerspectiveCamera>(scene, "perspective camera"),
-        })
+    camera_stage::<PerspectiveProjection>()
 }
 
 /// The stage for orthographic cameras.
 pub fn orthographic_stage() -> Stage {
-    Stage::new("Generate camera rays: orthographic", TileSystems::Camera, fill_orthographic)
-        .kind(StageKind::Alternative)
-        .when(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_centre_looks_straight_ahead_to_the_last_bit() {
-        assert_eq!(camera_ray_perspective(DVec2::ZERO, 0.7), DVec3::NEG_Z);
-    }
-
-    #[test]
-    fn with_a_field_of_view_of_90_degrees_the_edge_is_at_45_degrees() {
-        let direction = camera_ray_perspective(DVec2::Y, crate::extract::tan_half(crate::scene::Degrees(90.0)));
-        assert!((direction.y + direction.z).abs() < 1e-15 && (direction.length() - 1.0).abs() < 1e-15);
-    }
+    camera_stage::<OrthographicWindow>()
 }

@@ -2,7 +2,8 @@
 //!
 //! Reads: the tile's rectangle, the resolution, and the camera's projection, lens and axes.
 //! Writes: [`RasterPoints`], [`NdcPoints`], [`ScreenPoints`], [`CameraRays`] in f64, [`WorldRays`] in f32.
-//! Each file holds a pure function for one row, and the system that fills a column with it.
+//! Each file holds a pure function for one row, and the system that fills a column with it; those of cameras stand in
+//! [`cameras`](crate::cameras).
 //!
 //! ```
 //! use pinhole::prelude::*;
@@ -20,8 +21,6 @@
 mod camera;
 mod depth;
 mod draws;
-mod equirectangular;
-mod fisheye;
 mod lens;
 mod ndc;
 mod paths;
@@ -33,22 +32,18 @@ mod screen;
 mod times;
 mod world;
 
+#[doc(hidden)]
+pub use crate::cameras::{
+    camera_ray_equirectangular, camera_ray_fisheye, camera_ray_orthographic, camera_ray_perspective,
+    screen_from_equirectangular, screen_from_fisheye,
+};
 pub use camera::CameraRays;
 #[doc(hidden)]
-pub use camera::{
-    camera_ray_orthographic, camera_ray_perspective, fill_orthographic, fill_perspective, orthographic_stage,
-    perspective_stage,
-};
+pub use camera::{camera_stage, camera_stages, generate_camera_rays, orthographic_stage, perspective_stage};
 #[doc(hidden)]
 pub use depth::{Depth, pixel_of_row};
 #[doc(hidden)]
 pub use draws::{Draws, DrawsView, DrawsViewItem, draws_of_one, draws_of_two};
-#[doc(hidden)]
-pub use equirectangular::{
-    camera_ray_equirectangular, equirectangular_stage, fill_equirectangular, screen_from_equirectangular,
-};
-#[doc(hidden)]
-pub use fisheye::{camera_ray_fisheye, fill_fisheye, fisheye_stage, screen_from_fisheye};
 #[doc(hidden)]
 pub use lens::{
     LensPoints, camera_ray_lens, disk_point, draw_lens_points, fill_lens_rays, lens_point, lens_point_stage,

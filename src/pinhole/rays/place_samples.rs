@@ -1,8 +1,9 @@
 use super::{RasterPoints, Tile};
-use crate::extract::{FilterCells, FilterTable, SamplingTable};
+use crate::extract::{FilterTable, SamplingTable};
+use crate::filters::{FilterCells, Kernel, table_offset, with_filter};
 use crate::plan::{Census, Evidence, Shared, Stage, StageKind, TileSystems, column};
-use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, box_offset, table_offset, tent_offset, unit, with_sampler};
-use crate::scene::{Filter, Sampling};
+use crate::sample::{Draw, PixelKey, Purpose, SampleIndex, unit, with_sampler};
+use crate::scene::Sampling;
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use multiversion::multiversion;
@@ -86,11 +87,8 @@ pub fn place_samples(
         if let Some(signs) = &mut signs {
             fill_signs(&filter.cells, xs, ys, signs.slices_mut(active.len()));
         }
-        match filter.filter {
-            Filter::Box { radius } => spread(|u| box_offset(u, radius), active, tile, xs, ys),
-            Filter::Tent { radius } => spread(|u| tent_offset(u, radius), active, tile, xs, ys),
-            _ => spread(|u| table_offset(u, &filter.cells).0, active, tile, xs, ys),
-        }
+        let cells = &filter.cells;
+        with_filter!(filter.filter, kernel => spread(|u| kernel.offset(u, cells).0, active, tile, xs, ys));
     }
 }
 // ANCHOR_END: place_samples

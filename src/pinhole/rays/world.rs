@@ -1,7 +1,6 @@
 use super::{CameraRays, RayTimes};
-use crate::extract::{CameraAxes, LensTable, OrthographicWindow, ShutterTable, camera_moves_evidence, lens_evidence};
-use crate::plan::{Column, Evidence, Shared, Stage, TileSystems, column};
-use crate::scene::OrthographicCamera;
+use crate::extract::{CameraAxes, RayOrigins, ShutterTable, camera_moves_evidence, ray_origins_evidence};
+use crate::plan::{Column, Shared, Stage, TileSystems, column};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
 use multiversion::multiversion;
@@ -38,13 +37,13 @@ impl WorldRays {
 /// leaves the column empty.
 pub fn fill_world(
     axes: Res<Shared<CameraAxes>>,
-    many_origins: (Option<Res<Shared<OrthographicWindow>>>, Option<Res<Shared<LensTable>>>),
+    many_origins: Option<Res<Shared<RayOrigins>>>,
     moves: Option<Res<Shared<ShutterTable>>>,
     mut tiles: Query<(&CameraRays, Option<&RayTimes>, &mut WorldRays)>,
 ) {
     for (camera, times, mut world) in &mut tiles {
         direction_rows(camera, axes.world_from_camera, &mut world);
-        if many_origins.0.is_some() || many_origins.1.is_some() {
+        if many_origins.is_some() {
             origin_rows(camera, axes.world_from_camera, &mut world);
         }
         if let (Some(shutter), Some(times)) = (&moves, times) {
@@ -92,6 +91,5 @@ pub fn world_stage() -> Stage {
     Stage::new("Transform rays to world space", TileSystems::World, fill_world)
         .reads_where::<RayTimes>(camera_moves_evidence)
         .table_where::<ShutterTable>(camera_moves_evidence)
-        .table_where::<OrthographicWindow>(|scene| Evidence::of::<OrthographicCamera>(scene, "orthographic camera"))
-        .table_where::<LensTable>(lens_evidence)
+        .table_where::<RayOrigins>(ray_origins_evidence)
 }

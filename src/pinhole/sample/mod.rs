@@ -3,10 +3,9 @@
 //! Therefore neither threads, tiles, the order of work, nor a stage that the plan drops can change one of them.
 //!
 //! Reads: the seed and the number of samples, nothing else of a scene.
-//! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits; and offsets from a pixel's centre,
-//! in pixels, distributed as the reconstruction filter.
+//! Gives: 32-bit fractions, which [`unit()`] converts to f64 in [0, 1) with 24 bits.
 //! Whatever all pixels of a tile have in common in one sample is computed once, in a [`Draw`]; which sampler to use is
-//! decided in one place, [`with_sampler!`](crate::with_sampler), outside all loops over pixels.
+//! decided in one place, [`with_sampler!`], outside all loops over pixels.
 //!
 //! ```
 //! use pinhole::sample::{Purpose, uniform};
@@ -18,7 +17,6 @@
 //! assert!((mean - 0.5).abs() < 0.02);
 //! ```
 
-mod filter;
 mod hash;
 mod independent;
 mod mean_error;
@@ -27,7 +25,7 @@ mod purpose;
 mod sobol;
 mod stratified;
 
-pub use filter::{box_offset, table_offset, tent_offset};
+pub use crate::filters::{box_offset, table_offset, tent_offset};
 pub use hash::{PixelKey, unit};
 pub use independent::{Independent, uniform};
 pub use mean_error::{INTEGRANDS, Integrand, MeanError, mean_error, slope};
@@ -49,7 +47,7 @@ pub struct SampleIndex {
 
 /// One sample's random numbers for one purpose, to be drawn for any pixel.
 ///
-/// A sampler implements this in a file of its own, and is registered in [`with_sampler!`](crate::with_sampler) and in
+/// A sampler implements this in a file of its own, and is registered in [`with_sampler!`] and in
 /// [`Sampler`](crate::scene::Sampler).
 pub trait Draw: Copy {
     /// The numbers of a sample for a purpose.
@@ -83,4 +81,4 @@ macro_rules! with_sampler {
         }
     };
 }
-pub use crate::with_sampler;
+pub use with_sampler;

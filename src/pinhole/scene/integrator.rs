@@ -86,13 +86,91 @@ impl Integrator {
 
     /// What it is called in a sentence.
     pub const fn in_words(self) -> &'static str {
+        self.transport().name
+    }
+
+    /// What it does: the one place that says so for each integrator.
+    #[doc(hidden)]
+    pub const fn transport(self) -> LightTransport {
+        let first_hit = LightTransport {
+            name: "ray casting",
+            // Light travels from a light by one surface to the camera.
+            max_depth: 2,
+            follows_paths: false,
+            splits_at_glass: false,
+            samples_glossy: false,
+            samples_diffuse: false,
+            lights: None,
+            roulette: 0,
+            occlusion: None,
+        };
         match self {
-            Self::RayCasting => "ray casting",
-            Self::Whitted { .. } => "Whitted's method",
-            Self::AmbientOcclusion { .. } => "ambient occlusion",
-            Self::Distribution { .. } => "distribution ray tracing",
-            Self::Path { .. } => "path tracing",
+            Self::RayCasting => first_hit,
+            Self::AmbientOcclusion { distance } => {
+                LightTransport { name: "ambient occlusion", occlusion: Some(distance), ..first_hit }
+            }
+            Self::Whitted { max_depth } => LightTransport {
+                name: "Whitted's method",
+                max_depth,
+                follows_paths: true,
+                splits_at_glass: true,
+                ..first_hit
+            },
+            Self::Distribution { max_depth } => LightTransport {
+                name: "distribution ray tracing",
+                max_depth,
+                follows_paths: true,
+                samples_glossy: true,
+                lights: Some(LightStrategy::Light),
+                ..first_hit
+            },
+            Self::Path { max_depth, lights, roulette } => LightTransport {
+                name: "path tracing",
+                max_depth,
+                follows_paths: true,
+                samples_glossy: true,
+                samples_diffuse: true,
+                lights: Some(lights),
+                roulette,
+                ..first_hit
+            },
         }
+    }
+}
+
+/// What an integrator does: all that stages, tables and warnings ask of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightTransport {
+    /// What the integrator is called in a sentence.
+    pub name: &'static str,
+    /// The largest number of path segments, camera ray included: 1 for emitted light only, 2 for direct light.
+    pub max_depth: u32,
+    /// Whether rays are traced beyond the first surface.
+    pub follows_paths: bool,
+    /// Whether both the reflected and the refracted ray are traced at glass.
+    pub splits_at_glass: bool,
+    /// Whether the BSDFs of glossy surfaces are sampled.
+    pub samples_glossy: bool,
+    /// Whether the BSDFs of diffuse surfaces are sampled, so that all light is found.
+    pub samples_diffuse: bool,
+    /// How direct light from area lights is estimated; none where they do not illuminate.
+    pub lights: Option<LightStrategy>,
+    /// The depth from which Russian roulette may terminate a path; 0 for never.
+    pub roulette: u32,
+    /// Where the picture shows ambient occlusion and nothing else, the distance within which a shape occludes the sky,
+    /// in scene units.
+    pub occlusion: Option<f64>,
+}
+
+impl LightTransport {
+    /// Whether area lights are sampled (next-event estimation).
+    pub fn samples_lights(&self) -> bool {
+        matches!(self.lights, Some(LightStrategy::Light | LightStrategy::Mis))
+    }
+
+    /// Whether light sampling and BSDF sampling are combined by multiple importance sampling.
+    pub fn is_mis(&self) -> bool {
+        self.lights == Some(LightStrategy::Mis)
     }
 }
 

@@ -97,6 +97,8 @@ pub use gradient::Gradient;
 #[doc(hidden)]
 pub use image_texture::IMAGE_FILE;
 pub use image_texture::ImageTexture;
+#[doc(hidden)]
+pub use integrator::LightTransport;
 pub use integrator::{Integrator, LightStrategy};
 pub use layers::{LayerKind, Layers};
 pub use lens::{Aperture, Lens};

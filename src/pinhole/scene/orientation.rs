@@ -99,7 +99,11 @@ mod tests {
             let mut draws = Draws::new(14, index);
             let [x, y, z] = [0; 3].map(|_| draws.between(-1000.0, 1000.0));
             let [a, b, c] = [x, y, z].map(|angle: f64| angle.to_radians());
-            let matrix = DMat3::from_rotation_z(c) * DMat3::from_rotation_y(b) * DMat3::from_rotation_x(a);
+            let [(sx, cx), (sy, cy), (sz, cz)] = [a, b, c].map(libm::sincos);
+            let about_x = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cx, sx), DVec3::new(0.0, -sx, cx));
+            let about_y = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
+            let about_z = DMat3::from_cols(DVec3::new(cz, sz, 0.0), DVec3::new(-sz, cz, 0.0), DVec3::Z);
+            let matrix = about_z * about_y * about_x;
             let turned = DMat3::from_quat(euler_xyz(Degrees(x), Degrees(y), Degrees(z)));
             worst = worst.max((matrix - turned).to_cols_array().iter().fold(0.0, |worst, part| worst.max(part.abs())));
             let axis = draws.unit_vector() * draws.power_of_ten(-200.0, 200.0);

@@ -25,7 +25,7 @@ mod environment;
 mod environment_light;
 mod footprint;
 mod gradient;
-mod image_circle;
+mod image_mask;
 mod image_texture;
 mod light;
 mod light_targets;
@@ -72,7 +72,7 @@ pub use footprint::{Footprints, compute_footprints, footprint_stage, step_on_sur
 #[doc(hidden)]
 pub use gradient::{add_gradient, gradient_radiance, gradient_stage};
 #[doc(hidden)]
-pub use image_circle::{image_circle_stage, in_image_circle, mask_image_circle};
+pub use image_mask::{image_mask_stage, image_mask_stages, mask_image};
 #[doc(hidden)]
 pub use image_texture::{evaluate_images, image_stage};
 #[doc(hidden)]

@@ -3,7 +3,7 @@
 use super::{Group, Method, Tally, Trial};
 use crate::measure::ray_aim::Draws;
 use crate::naive::sampling::{grid_place, mean_by_count, raster_plus_jitter_f32, unit_of_32_bits};
-use pinhole::extract::FilterCells;
+use pinhole::extract::cells_of;
 use pinhole::film::FilmTile;
 use pinhole::rays::Tile;
 use pinhole::sample::{Draw, Independent, PixelKey, Purpose, Sobol, table_offset, unit};
@@ -122,7 +122,7 @@ fn bright_fraction(period: f64, phase: f64) -> f64 {
 }
 
 fn check_constant(range: Range<u64>) -> Tally {
-    let cells = FilterCells::of(Filter::MITCHELL);
+    let cells = cells_of(Filter::MITCHELL);
     let whole = {
         // The filter's area over that of its absolute value, along both axes.
         let negative: f64 = cells.cells.iter().filter(|cell| cell.negative).map(|cell| 1.0 / cell.per_area).sum();

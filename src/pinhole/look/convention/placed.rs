@@ -1,6 +1,6 @@
-use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, eye};
+use crate::extract::{CameraAxes, ImageFrame, PerspectiveProjection, camera_entity, camera_kind, eye};
 use crate::plan::Census;
-use crate::scene::{ChildOf, LookAt, OrthographicCamera, PerspectiveCamera};
+use crate::scene::{ChildOf, LookAt, PerspectiveCamera};
 use crate::{Error, Result};
 use bevy_ecs::prelude::*;
 use glam::DMat3;
@@ -22,13 +22,12 @@ pub struct PlacedCamera {
 impl PlacedCamera {
     /// The camera of a scene.
     ///
-    /// Errors: whatever a render would refuse, and an orthographic camera, which has no field of view.
+    /// Errors: whatever a render would refuse, and a camera of another kind.
     pub fn of(scene: &World) -> Result<Self> {
         let scene = &Census::of(scene);
         let camera = camera_entity(scene)?;
         if scene.get::<PerspectiveCamera>(camera).is_none() {
-            let orthographic = scene.get::<OrthographicCamera>(camera).is_some();
-            let kind = if orthographic { "orthographic" } else { "none" };
+            let kind = camera_kind(scene)?.names.noun;
             let message =
                 format!("the conventions are those of perspective cameras, and this scene's camera is {kind}");
             return Err(Error::Usage(message));

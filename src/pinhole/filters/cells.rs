@@ -1,19 +1,30 @@
-use crate::extract::{FilterCells, Span};
-
-/// Samples the box filter of that radius: maps u in [0, 1) to an offset from the pixel's centre, linearly.
-#[inline(always)]
-pub fn box_offset(u: f64, radius: f64) -> f64 {
-    (2.0 * u - 1.0) * radius
+/// The area under |f| from the pixel's centre to one side, divided into cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilterCells {
+    /// For equal steps of the area, the first cell that ends beyond the step.
+    pub first: Vec<u16>,
+    /// The cells, from the centre outwards.
+    pub cells: Vec<Span>,
 }
 
-// ANCHOR: tent_offset
-/// Samples the tent filter of that radius by inverting its CDF, a parabola on each side.
-#[inline(always)]
-pub fn tent_offset(u: f64, radius: f64) -> f64 {
-    let side = 2.0 * u - 1.0;
-    (radius * (1.0 - (1.0 - side.abs()).sqrt())).copysign(side)
+/// A cell of a filter's table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The area before it, as a fraction of the whole.
+    pub start: f64,
+    /// The area at its end; that of the last cell is beyond the whole.
+    pub end: f64,
+    /// The reciprocal of its own area.
+    pub per_area: f64,
+    /// Where it begins, in pixels from the centre.
+    pub x: f64,
+    /// Its width, in pixels.
+    pub width: f64,
+    /// |f| at its beginning, as a fraction of the sum of |f| at both ends: 1/2 where |f| is constant.
+    pub slope: f64,
+    /// Whether f is negative in it.
+    pub negative: bool,
 }
-// ANCHOR_END: tent_offset
 
 /// Samples |f| of a filter f by a table of its CDF on one side of the centre: the offset, and whether f is negative
 /// there.
@@ -36,9 +47,9 @@ pub fn table_offset(u: f64, cells: &FilterCells) -> (f64, bool) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Draw, Independent, PixelKey, Purpose, unit};
     use super::*;
-    use crate::extract::{filter_area, filter_value, radius_of, sign_change};
+    use crate::filters::{Kernel, cells_of, filter_area, filter_value, radius_of, sign_change};
+    use crate::sample::{Draw, Independent, PixelKey, Purpose, unit};
     use crate::scene::Filter;
     use std::f64::consts::PI;
 
@@ -54,11 +65,7 @@ mod tests {
     }
 
     fn offset(filter: Filter, cells: &FilterCells, u: f64) -> (f64, bool) {
-        match filter {
-            Filter::Box { radius } => (box_offset(u, radius), false),
-            Filter::Tent { radius } => (tent_offset(u, radius), false),
-            _ => table_offset(u, cells),
-        }
+        crate::with_filter!(filter, kernel => kernel.offset(u, cells))
     }
 
     /// The fraction of the area under |f| that lies between −x and x.
@@ -74,7 +81,7 @@ mod tests {
     fn offsets_invert_the_exact_cdf() {
         let (mut tried, mut worst) = (0, 0.0_f64);
         for filter in filters() {
-            let (cells, mut last) = (FilterCells::of(filter), f64::NEG_INFINITY);
+            let (cells, mut last) = (cells_of(filter), f64::NEG_INFINITY);
             for bits in (0..1_u32 << 24).step_by(997).chain([1, (1 << 23) - 1, 1 << 23, (1 << 24) - 1]) {
                 let u = unit(bits << 8);
                 let (x, negative) = offset(filter, &cells, u);
@@ -95,7 +102,7 @@ mod tests {
     fn samples_are_distributed_as_the_filter() {
         const SAMPLES: u32 = 100_000;
         for (axis, filter) in filters().flat_map(|filter| [(0, filter), (1, filter)]) {
-            let cells = FilterCells::of(filter);
+            let cells = cells_of(filter);
             let place = |number: u32| {
                 let key = PixelKey::new(3, [number % 1000, number / 1000]);
                 offset(filter, &cells, unit(Independent::new(0, 0, Purpose::Pixel).two(key)[axis])).0
@@ -139,7 +146,7 @@ mod tests {
         const SAMPLES: u32 = 40_000;
         let mut tried = 0;
         for filter in filters() {
-            let cells = FilterCells::of(filter);
+            let cells = cells_of(filter);
             let step = |edge: f64| move |x: f64| if x < edge { 1.0 } else { 0.0 };
             let wave = |frequency: f64| move |x: f64| libm::cos(2.0 * PI * frequency * x);
             let functions: [(Box<dyn Fn(f64) -> f64>, f64); 5] = [

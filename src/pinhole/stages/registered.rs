@@ -1,0 +1,70 @@
+//! The stages of all that is registered: cameras, shapes and BSDFs, each with the group that offers it.
+
+use super::Group::*;
+use super::{Group, Grouped};
+use crate::follow::BsdfRole::*;
+use crate::follow::{self, BsdfRole, BsdfStage};
+use crate::material::BsdfClass;
+use crate::{intersect, rays, shade};
+
+/// The group of a shape's stages: those that only a non-uniform scale makes are offered with the transforms.
+fn group_of(group: Group, is_uneven: bool) -> Group {
+    if is_uneven { Transforms } else { group }
+}
+
+pub(super) fn image_plane_rays() -> Vec<Grouped> {
+    let stages = rays::camera_stages().into_iter();
+    stages.filter(|&(is_planar, _)| is_planar).map(|(_, stage)| (CameraRays, stage)).collect()
+}
+
+pub(super) fn wide_rays() -> Vec<Grouped> {
+    let stages = rays::camera_stages().into_iter();
+    stages.filter(|&(is_planar, _)| !is_planar).map(|(_, stage)| (WideCameras, stage)).collect()
+}
+
+pub(super) fn image_masks() -> Vec<Grouped> {
+    shade::image_mask_stages().into_iter().map(|stage| (WideCameras, stage)).collect()
+}
+
+pub(super) fn intersections() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [stage, _])| (group_of(Intersection, is_uneven), stage)).collect()
+}
+
+pub(super) fn surface_points() -> Vec<Grouped> {
+    let stages = intersect::shape_stages().into_iter();
+    stages.map(|(is_uneven, [_, stage])| (group_of(Surfaces, is_uneven), stage)).collect()
+}
+
+pub(super) fn shadow_rays() -> Vec<Grouped> {
+    let stages = shade::shape_shadow_stages().into_iter();
+    stages.map(|(is_uneven, stage)| (group_of(Shadows, is_uneven), stage)).collect()
+}
+
+/// The stages of all BSDFs for one purpose; specular BSDFs come before the others.
+fn of_bsdfs(role: BsdfRole) -> Vec<Grouped> {
+    let group = |stage: &BsdfStage| match (role, stage.class) {
+        (MisWeights, _) => Mis,
+        (Connections | SampleFromLights, _) => LightTracing,
+        (_, _) if stage.transmits => Glass,
+        (_, BsdfClass::Specular) => SpecularReflection,
+        (_, BsdfClass::Glossy) => GlossyReflection,
+        (Evaluate, BsdfClass::Diffuse) => Highlights,
+        (_, BsdfClass::Diffuse) => PathContinuation,
+    };
+    let mut stages: Vec<BsdfStage> = follow::bsdf_stages().into_iter().filter(|own| own.role == role).collect();
+    stages.sort_by_key(|own| own.class != BsdfClass::Specular);
+    stages.iter().map(|own| (group(own), own.stage)).collect()
+}
+
+pub(super) fn bsdf_rows() -> Vec<Grouped> {
+    of_bsdfs(Classify)
+}
+
+pub(super) fn direct_light_of_bsdfs() -> Vec<Grouped> {
+    [MisWeights, Evaluate, Connections].into_iter().flat_map(of_bsdfs).collect()
+}
+
+pub(super) fn bsdf_samples() -> Vec<Grouped> {
+    [Split, Sample, SampleFromLights].into_iter().flat_map(of_bsdfs).collect()
+}
