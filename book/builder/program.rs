@@ -1,4 +1,4 @@
-//! pinhole's program as the reader has it: built for release, asked by command lines, its answers kept.
+//! pinhole's program as the reader has it, asked by command lines, its answers kept.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -23,12 +23,18 @@ pub struct Program {
 impl Program {
     /// The program of this repository, to be shared by the pages of one build.
     ///
+    /// It is the one built for release; once its sources have been edited, the one of the profile for editing, which is
+    /// there in seconds.
     /// Errors: cargo's, where the program cannot be compiled.
     pub fn shared(repository: &Path) -> Result<Rc<RefCell<Self>>, String> {
         let top = repository.to_path_buf();
-        let place = compiled(&top)?;
-        let program = Self::with(move |words, out| ask(&place, words, out));
-        program.borrow_mut().make = Box::new(move || compiled(&top).map(|_| ()));
+        let place = Rc::new(RefCell::new(compiled(&top, "release")?));
+        let asked = Rc::clone(&place);
+        let program = Self::with(move |words, out| ask(&asked.borrow(), words, out));
+        program.borrow_mut().make = Box::new(move || {
+            *place.borrow_mut() = compiled(&top, "edit")?;
+            Ok(())
+        });
         Ok(program)
     }
 
@@ -90,19 +96,19 @@ impl Program {
     }
 }
 
-/// Compiles the program, as `cargo run --release` does, and says where it is.
-fn compiled(repository: &Path) -> Result<PathBuf, String> {
+/// Compiles the program, as `cargo run --profile` does, and says where it is.
+fn compiled(repository: &Path, profile: &str) -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let build = ["build", "--release", "--quiet", "--bin", "pinhole", "--message-format", "json-render-diagnostics"];
     let told = Command::new(&cargo)
-        .args(build)
+        .args(["build", "--profile", profile, "--quiet", "--bin", "pinhole"])
+        .args(["--message-format", "json-render-diagnostics"])
         .current_dir(repository)
         .stderr(Stdio::inherit())
         .output()
         .map_err(|error| format!("{} cannot be started: {error}.", Path::new(&cargo).display()))?;
     let place = String::from_utf8_lossy(&told.stdout).lines().rev().find_map(executable);
     let place = place.filter(|_| told.status.success());
-    place.ok_or_else(|| "pinhole cannot be compiled: `cargo build --release` says why.".to_owned())
+    place.ok_or_else(|| format!("pinhole cannot be compiled: `cargo build --profile {profile}` says why."))
 }
 
 /// The program that a line of cargo's messages tells of.

@@ -146,59 +146,66 @@ fn materials_are_reciprocal() {
     assert!(both_zero < tried, "most are 0");
 }
 
-/// A cell of directions: bounds of the cosine and of the azimuth.
+/// A cell of directions: bounds of the angle to the normal and of the azimuth.
 #[derive(Clone, Copy)]
 struct Cell {
-    z: [f64; 2],
+    angle: [f64; 2],
     turn: [f64; 2],
 }
 
 impl Cell {
-    fn parts(self) -> [Self; 4] {
+    /// Two halves, across the side that is longer on the sphere, so that cells close in on narrow lobes.
+    fn halves(self) -> [Self; 2] {
         let half = |[low, high]: [f64; 2]| [[low, 0.5 * (low + high)], [0.5 * (low + high), high]];
-        let (z, turn) = (half(self.z), half(self.turn));
-        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self { z: z[i], turn: turn[j] })
+        let across = libm::sin(self.angle[0]).max(libm::sin(self.angle[1])) * (self.turn[1] - self.turn[0]);
+        if self.angle[1] - self.angle[0] > across {
+            half(self.angle).map(|angle| Self { angle, ..self })
+        } else {
+            half(self.turn).map(|turn| Self { turn, ..self })
+        }
     }
 
-    fn holds(self, z: f64, turn: f64) -> bool {
-        (self.z[0]..self.z[1]).contains(&z) && (self.turn[0]..self.turn[1]).contains(&turn)
+    fn holds(self, angle: f64, turn: f64) -> bool {
+        (self.angle[0]..self.angle[1]).contains(&angle) && (self.turn[0]..self.turn[1]).contains(&turn)
     }
 
     /// ∫ f dω over the cell, refined until halving it changes little.
     fn integral(self, rule: &Quadrature, depth: u32, f: &dyn Fn(DVec3) -> f64) -> f64 {
         let whole = |cell: Self| {
-            rule.sum(cell.z[0], cell.z[1], |z| {
-                let across = (1.0 - z * z).max(0.0).sqrt();
-                rule.sum(cell.turn[0], cell.turn[1], |turn| {
-                    f(DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z))
-                })
+            rule.sum(cell.angle[0], cell.angle[1], |angle| {
+                let (across, z) = libm::sincos(angle);
+                across
+                    * rule.sum(cell.turn[0], cell.turn[1], |turn| {
+                        f(DVec3::new(across * libm::cos(turn), across * libm::sin(turn), z))
+                    })
             })
         };
-        let (all, parts) = (whole(self), self.parts());
-        let refined: f64 = parts.iter().map(|&part| whole(part)).sum();
+        let (all, halves) = (whole(self), self.halves());
+        let refined: f64 = halves.iter().map(|&half| whole(half)).sum();
         if depth == 0 || (all - refined).abs() < 1e-6 {
             return refined;
         }
-        parts.iter().map(|part| part.integral(rule, depth - 1, f)).sum()
+        halves.iter().map(|half| half.integral(rule, depth - 1, f)).sum()
     }
 }
 
 fn place_of(light: DVec3) -> (f64, f64) {
-    (light.z.clamp(-1.0, 1.0 - 1e-16), libm::atan2(light.y, light.x).rem_euclid(TAU).min(TAU * (1.0 - 1e-16)))
+    let angle = libm::atan2(light.x.hypot(light.y), light.z);
+    (angle.min(PI * (1.0 - 1e-16)), libm::atan2(light.y, light.x).rem_euclid(TAU).min(TAU * (1.0 - 1e-16)))
 }
 
 /// Cells that hold at most so many of these places each, of all directions to which light is sent.
 fn cells(places: &[(f64, f64)], most: usize, either_side: bool) -> Vec<Cell> {
-    let sides = if either_side { &[0.0, -1.0][..] } else { &[0.0] };
-    let whole = |&low: &f64| (Cell { z: [low, low + 1.0], turn: [0.0, TAU] }, places.to_vec(), 0);
+    let sides = if either_side { &[0.0, 0.5 * PI][..] } else { &[0.0] };
+    let whole = |&low: &f64| (Cell { angle: [low, low + 0.5 * PI], turn: [0.0, TAU] }, places.to_vec(), 0);
     let mut open: Vec<(Cell, Vec<(f64, f64)>, u32)> = sides.iter().map(whole).collect();
     let mut found = Vec::new();
     while let Some((cell, mut inside, depth)) = open.pop() {
-        inside.retain(|&(z, turn)| cell.holds(z, turn));
-        if inside.len() <= most || depth == 20 {
+        inside.retain(|&(angle, turn)| cell.holds(angle, turn));
+        if inside.len() <= most || depth == 48 {
             found.push(cell);
         } else {
-            open.extend(cell.parts().map(|part| (part, inside.clone(), depth + 1)));
+            open.extend(cell.halves().map(|half| (half, inside.clone(), depth + 1)));
         }
     }
     found
@@ -217,10 +224,10 @@ fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
         sampled.map(|sample| place_of(sample.to_light)).collect::<Vec<_>>()
     };
     // The cells must not depend on the samples that are counted in them.
-    let (cells, rule) = (cells(&places(seed), 400, example.transmits), Quadrature::default());
+    let (cells, rule) = (cells(&places(seed), 150, example.transmits), Quadrature::default());
     let mut bins = Bins::new(cells.len() + 1);
     for (bin, cell) in cells.iter().enumerate() {
-        let part = cell.integral(&rule, 6, &|light| example.bsdf.pdf(site, light, eye));
+        let part = cell.integral(&rule, 12, &|light| example.bsdf.pdf(site, light, eye));
         bins.expect(bin, part * SAMPLES as f64);
     }
     let sampled = places(seed + 1);
@@ -229,8 +236,8 @@ fn p_of(example: &Example, site: &Site, angle: f64, seed: u64) -> f64 {
     assert!(none > -1e-3 * SAMPLES as f64, "{what}: its pdf adds up to {}", bins.total() / SAMPLES as f64);
     bins.expect(cells.len(), none.max(0.0));
     (sampled.len() as u64..SAMPLES).for_each(|_| bins.count(cells.len()));
-    for (z, turn) in sampled {
-        bins.count(cells.iter().position(|cell| cell.holds(z, turn)).expect("cells cover all directions"));
+    for (angle, turn) in sampled {
+        bins.count(cells.iter().position(|cell| cell.holds(angle, turn)).expect("cells cover all directions"));
     }
     let (statistic, freedom) = bins.statistic();
     p_value(statistic, freedom)

@@ -289,7 +289,6 @@ fn a_scene_that_does_not_ask_for_it_has_nothing_of_it() {
         "Keep specular bounces first",
         "Connect to the camera",
         "Splat to the film",
-        "Sample BSDFs: matte, from lights",
         "Sample BSDFs: glass, from lights",
         "Mark caustic paths",
         "Correct for shading normals",

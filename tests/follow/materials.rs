@@ -4,29 +4,59 @@ use super::{ALL, NOT_BY_BSDF, strategies_agree};
 use crate::scenes::offer;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::{BsdfClass, REGISTERED, Spawn};
+use pinhole::material::{BsdfClass, MaterialTable, REGISTERED, Registration, Site, Spawn};
+use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
 use pinhole::scene::{
     Cuboid, Emissive, Environment, Integrator, LightStrategy, LookAt, OrthographicCamera, Placement, Rectangle,
     Resolution, Rgb, Sampling, Sphere,
 };
+use pinhole_lab::measure::ray_aim::Draws;
 use std::fs;
 use std::path::Path;
 
+/// The strategies that find what a narrow lobe reflects.
+const NOT_BY_LIGHT: &[LightStrategy] = &[LightStrategy::Bsdf, LightStrategy::Mis];
 /// Pixels of a plate, each side.
 const SIDE: u32 = 8;
 /// Plates lie so far apart.
 const STEP: f64 = 2.0;
 
-/// A plate for each example of a BSDF that is not specular, and whether it must enclose what fills it.
-fn plates() -> Vec<(Spawn, bool)> {
+/// From this pdf on, in 1/sr, a lobe is so narrow that light sampling hardly ever finds what it reflects.
+const NARROW: f64 = 30.0;
+
+/// Lights, and the middle of the row of plates that they illuminate.
+type Lights<'a> = &'a dyn Fn(&mut World, f64);
+
+/// A plate for each example of a BSDF that is not specular, and whether it must enclose what fills it; those with narrow
+/// lobes, or the others.
+fn plates(narrow: bool) -> Vec<(Spawn, bool)> {
     let spread = REGISTERED.iter().filter(|own| own.class != BsdfClass::Specular);
-    spread.flat_map(|own| (own.examples)().into_iter().map(|(spawn, _)| (spawn, own.transmits))).collect()
+    let all = spread.flat_map(|own| (own.examples)().into_iter().map(move |(spawn, _)| (spawn, own)));
+    all.filter(|(spawn, own)| (peak(spawn, own) > NARROW) == narrow)
+        .map(|(spawn, own)| (spawn, own.transmits))
+        .collect()
+}
+
+/// The greatest pdf among some samples, at 45°.
+fn peak(spawn: &Spawn, own: &Registration) -> f64 {
+    let mut world = World::new();
+    spawn(&mut world.spawn_empty());
+    let census = Census::of(&world);
+    let table = census.table::<MaterialTable>().expect("a material");
+    let opaque = Site::opaque(table.row[0] as usize, table.colour[0]);
+    let site = if own.transmits { Site { eta: 1.5, ..opaque } } else { opaque };
+    let (bsdf, eye) = ((own.bsdf)(&census).expect("its table"), DVec3::new(1.0, 0.0, 1.0).normalize());
+    let samples = (0..1000).filter_map(|index| {
+        let mut draws = Draws::new(3301, index);
+        bsdf.sample(&site, eye, [draws.unit(), draws.unit()], draws.unit())
+    });
+    samples.map(|sample| sample.pdf).fold(0.0, f64::max)
 }
 
 /// The plates in a row, seen from one side at 45°.
-fn scene(lights: &dyn Fn(&mut World, f64)) -> World {
-    let (mut world, plates) = (World::new(), plates());
+fn scene(lights: Lights<'_>, narrow: bool) -> World {
+    let (mut world, plates) = (World::new(), plates(narrow));
     let middle = 0.5 * STEP * (plates.len() - 1) as f64;
     let look = LookAt { eye: [middle, 4.0, 4.0].into(), target: [middle, 0.0, 0.0].into(), ..LookAt::default() };
     world.spawn((
@@ -68,9 +98,9 @@ fn light_strategies_agree_at_every_material() {
         let light = Rectangle { width: 2.0 * middle + 8.0, depth: 6.0 };
         world.spawn((light, Placement::at(middle, 2.0, -1.0), glow(1.0)));
     };
-    let small = |world: &mut World, _: f64| {
-        for number in 0..plates().len() {
-            let at = Placement::at(STEP * number as f64, 1.5, -1.5);
+    let small = |world: &mut World, middle: f64| {
+        for number in 0..=(2.0 * middle / STEP).round() as u32 {
+            let at = Placement::at(STEP * f64::from(number), 1.5, -1.5);
             world.spawn((Sphere { radius: 0.3 }, at, glow(20.0)));
         }
     };
@@ -78,14 +108,19 @@ fn light_strategies_agree_at_every_material() {
     let even = |world: &mut World, _: f64| {
         world.spawn(Environment { file: file.clone(), ..Environment::default() });
     };
-    let all: [(&str, &dyn Fn(&mut World, f64), &[LightStrategy]); 3] =
-        [("an even environment", &even, ALL), ("a large light", &large, ALL), ("small lights", &small, NOT_BY_BSDF)];
-    for (name, lights, strategies) in all {
-        let film = render(&scene(lights), &offer(), &Execution::default(), &()).expect("renders").film;
-        for plate in 0..plates().len() as u32 {
+    let all: [(&str, Lights<'_>, bool, &[LightStrategy]); 5] = [
+        ("broad lobes in an even environment", &even, false, ALL),
+        ("broad lobes under a large light", &large, false, ALL),
+        ("broad lobes under small lights", &small, false, NOT_BY_BSDF),
+        ("narrow lobes in an even environment", &even, true, NOT_BY_LIGHT),
+        ("narrow lobes under a large light", &large, true, NOT_BY_LIGHT),
+    ];
+    for (name, lights, narrow, strategies) in all {
+        let film = render(&scene(lights, narrow), &offer(), &Execution::default(), &()).expect("renders").film;
+        for plate in 0..plates(narrow).len() as u32 {
             let mean = film.mean(plate * SIDE + SIDE / 2, SIDE / 2);
-            assert!(mean[0] > 1e-4, "plate {plate} under {name} is black");
+            assert!(mean[0] > 1e-4, "plate {plate} of {name} is black");
         }
-        strategies_agree(&format!("plates under {name}"), &|| scene(lights), strategies, 32, SIDE);
+        strategies_agree(name, &|| scene(lights, narrow), strategies, 32, SIDE);
     }
 }

@@ -105,7 +105,7 @@ fn systems_say_what_stages_touch() {
     assert_eq!(touched(&stage), expected, "an optional column");
 
     let stage = world_stage();
-    let reasons = vec!["shutter", "view rectangle", "lens"];
+    let reasons = vec!["shutter", "ray origins"];
     let expected = [vec!["camera"], none.clone(), vec!["time"], vec!["world"], vec!["camera axes"], reasons];
     assert_eq!(touched(&stage), expected, "what the scene must give a reason for");
 

@@ -141,6 +141,15 @@ fn under_an_evening() -> World {
     world
 }
 
+/// Light traced onto rough glass and a principled material.
+fn on_frosted_glass() -> World {
+    let mut world = scenes::caustics::traced(|| scenes::caustics::caustics(true))();
+    let frosted = RoughGlass { roughness: 0.3, ..RoughGlass::default() };
+    world.spawn((Name::new("frosted ball"), Sphere { radius: 0.35 }, Placement::at(0.3, 0.45, 1.5), frosted));
+    world.spawn((Name::new("pebble"), Sphere { radius: 0.3 }, Placement::at(-1.5, 0.35, 1.4), Principled::default()));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -175,6 +184,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("light from lamps", scenes::caustics::traced(|| scenes::caustics::caustics(true))()),
         ("light from lamps through a lens", through_a_lens()),
         ("light from an environment", under_an_evening()),
+        ("light from lamps on frosted glass", on_frosted_glass()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -83,6 +83,6 @@ pub fn glass_evidence(scene: &Census<'_>) -> Evidence {
 pub fn lit_from_behind_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let such = |own: &Registration| own.transmits && own.class != BsdfClass::Specular;
-        any_evidence(scene, "surface that transmits light diffusely", such)
+        any_evidence(scene, "diffusely transmitting surface", such)
     })
 }

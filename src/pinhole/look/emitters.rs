@@ -13,7 +13,8 @@ const MOST_COMPARED: usize = 4096;
 /// that coincide.
 pub fn emitters(scene: &Census<'_>) -> Result<Vec<String>> {
     let Some(strategy) = integrator_of(scene).integrator.transport().lights else { return Ok(Vec::new()) };
-    if scene.table::<EmissiveTable>()?.radiance.is_empty() {
+    // BSDF sampling has no use for a table of lights.
+    if strategy == LightStrategy::Bsdf || scene.table::<EmissiveTable>()?.radiance.is_empty() {
         return Ok(Vec::new());
     }
     let mut warnings = Vec::new();

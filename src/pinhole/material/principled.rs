@@ -103,8 +103,8 @@ impl PrincipledTable {
     // ANCHOR: principled
     /// All other reflection, in 1/sr: by several microfacets, and diffuse below the dielectric.
     ///
-    /// Diffuse reflection gets what specular reflection leaves of the light on its way in and on its way out; its scale
-    /// makes the two add up to 1 where nothing is absorbed (Kelemen and Szirmay-Kalos 2001).
+    /// Diffuse reflection gets what specular reflection leaves of the light that enters and again of the light that
+    /// leaves; its scale makes the two add up to 1 where nothing is absorbed (Kelemen and Szirmay-Kalos 2001).
     #[inline(always)]
     fn broad(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
         let (energy, metallic) = (&self.energy[site.row], self.metallic[site.row]);
