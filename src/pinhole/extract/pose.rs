@@ -126,8 +126,8 @@ fn normalised(quaternion: DQuat) -> Option<DQuat> {
         return None;
     }
     let nearly_unit = (quaternion.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
-    Some(if nearly_unit { quaternion } else { DQuat::from_array(quaternion.to_array().map(|part| part / largest)) })
-        .map(DQuat::normalize)
+    let scaled = || DQuat::from_array(quaternion.to_array().map(|part| part / largest));
+    Some(if nearly_unit { quaternion } else { scaled() }.normalize())
 }
 
 fn quadruple(q: DQuat) -> String {

@@ -30,6 +30,7 @@ macro_rules! with_shapes {
 }
 pub use with_shapes;
 
+mod arithmetic;
 mod bounds;
 mod cuboid;
 mod disk;
@@ -39,6 +40,7 @@ mod double_double_planar;
 mod ellipsoid;
 pub mod emitter;
 mod exact_sum;
+mod frustum;
 mod interval;
 mod kind;
 mod offset;
@@ -55,9 +57,11 @@ mod triangle_edges;
 mod triangle_exact;
 mod triangle_hit;
 mod triangle_row;
+mod unit_space;
 mod uv;
 mod uv_slope;
 
+pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
 pub use bounds::Bounds;
 pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
@@ -66,6 +70,7 @@ pub use double_double_ellipsoid::{double_double_ellipsoid_point, double_double_e
 pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
+pub use frustum::Frustum;
 pub use kind::ShapeKind;
 pub use offset::{l1_norm, offset_bound, offset_origin};
 pub use planar::{Crossing, Planar, crossing};
@@ -84,5 +89,6 @@ pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersectio
 pub use triangle_exact::exact_triangle_t;
 pub use triangle_hit::{TriangleHit, triangle_surface};
 pub use triangle_row::TriangleRow;
+pub use unit_space::{UnitRay, UnitSpace};
 pub use uv::{face_axes, planar_uv, plane_axes, sphere_uv};
 pub use uv_slope::{UvSlope, most_of};
