@@ -24,6 +24,7 @@ pub mod oracle_camera;
 pub mod oracle_cuboid;
 pub mod oracle_disk;
 pub mod oracle_ellipsoid;
+pub mod oracle_frustum;
 pub mod oracle_plane;
 pub mod oracle_rectangle;
 pub mod oracle_sphere;

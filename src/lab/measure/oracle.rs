@@ -2,9 +2,12 @@
 
 use super::ray_aim::AimedRay;
 use super::{
-    oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_plane, oracle_rectangle, oracle_sphere, oracle_triangle,
+    oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
+    oracle_triangle,
 };
-use pinhole::shapes::{Ellipsoid, Listed, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
+use pinhole::shapes::{
+    Ellipsoid, Listed, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow,
+};
 
 /// A shape whose intersections are known exactly.
 pub trait Oracle: Listed {
@@ -53,5 +56,11 @@ impl Oracle for Slabs {
 impl Oracle for TriangleRow {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_triangle::triangle_t(origin, direction, self.corners)
+    }
+}
+
+impl Oracle for PlacedCylinder {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_frustum::frustum_t(origin, direction, &self.0)
     }
 }

@@ -24,6 +24,7 @@ macro_rules! with_shapes {
             Disk($crate::shapes::PlacedDisk) disk "disks",
             Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
             Cuboid($crate::shapes::Slabs) cuboid "cuboids",
+            Cylinder($crate::shapes::PlacedCylinder) cylinder "cylinders",
             Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
@@ -33,6 +34,7 @@ pub use with_shapes;
 mod arithmetic;
 mod bounds;
 mod cuboid;
+mod cylinder;
 mod disk;
 mod double_double;
 mod double_double_ellipsoid;
@@ -64,6 +66,7 @@ mod uv_slope;
 pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
 pub use bounds::Bounds;
 pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
+pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
 pub use double_double::double_double_sphere_t;
 pub use double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
