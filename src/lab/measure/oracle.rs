@@ -6,7 +6,8 @@ use super::{
     oracle_triangle,
 };
 use pinhole::shapes::{
-    Ellipsoid, Listed, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow,
+    Ellipsoid, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs,
+    TriangleRow,
 };
 
 /// A shape whose intersections are known exactly.
@@ -60,6 +61,12 @@ impl Oracle for TriangleRow {
 }
 
 impl Oracle for PlacedCylinder {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_frustum::frustum_t(origin, direction, &self.0)
+    }
+}
+
+impl Oracle for PlacedCone {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_frustum::frustum_t(origin, direction, &self.0)
     }

@@ -25,6 +25,7 @@ macro_rules! with_shapes {
             Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
             Cuboid($crate::shapes::Slabs) cuboid "cuboids",
             Cylinder($crate::shapes::PlacedCylinder) cylinder "cylinders",
+            Cone($crate::shapes::PlacedCone) cone "cones",
             Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
@@ -33,6 +34,7 @@ pub use with_shapes;
 
 mod arithmetic;
 mod bounds;
+mod cone;
 mod cuboid;
 mod cylinder;
 mod disk;
@@ -65,6 +67,7 @@ mod uv_slope;
 
 pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
 pub use bounds::Bounds;
+pub use cone::PlacedCone;
 pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
 pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};

@@ -1,5 +1,5 @@
 use crate::scene::{
-    Adaptive, Background, BlinnPhong, Checker, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
+    Adaptive, Background, BlinnPhong, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing,
     LookAt, Matte, Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
     Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
@@ -27,6 +27,7 @@ const WORDS: &[Word] = &[
     Word::of::<Rectangle>("rectangle"),
     Word::of::<Cuboid>("cuboid"),
     Word::of::<Cylinder>("cylinder"),
+    Word::of::<Cone>("cone"),
     Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<DirectionalLight>("directional_light"),
