@@ -28,6 +28,7 @@ pub mod oracle_frustum;
 pub mod oracle_plane;
 pub mod oracle_rectangle;
 pub mod oracle_sphere;
+pub mod oracle_torus;
 pub mod oracle_triangle;
 pub mod planar_aim;
 pub mod ray_aim;

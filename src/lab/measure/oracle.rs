@@ -3,11 +3,11 @@
 use super::ray_aim::AimedRay;
 use super::{
     oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
-    oracle_triangle,
+    oracle_torus, oracle_triangle,
 };
 use pinhole::shapes::{
-    Ellipsoid, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs,
-    TriangleRow,
+    Ellipsoid, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, PlacedTorus,
+    Slabs, TriangleRow,
 };
 
 /// A shape whose intersections are known exactly.
@@ -69,5 +69,11 @@ impl Oracle for PlacedCylinder {
 impl Oracle for PlacedCone {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_frustum::frustum_t(origin, direction, &self.0)
+    }
+}
+
+impl Oracle for PlacedTorus {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_torus::torus_t(origin, direction, self)
     }
 }

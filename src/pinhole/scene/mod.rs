@@ -66,6 +66,7 @@ mod sphere;
 mod spot_light;
 mod stripes;
 mod texture;
+mod torus;
 mod triangle;
 
 pub use adaptive::Adaptive;
@@ -142,4 +143,5 @@ pub use sphere::Sphere;
 pub use spot_light::SpotLight;
 pub use stripes::Stripes;
 pub use texture::{TextureBy, Wrap};
+pub use torus::Torus;
 pub use triangle::Triangle;

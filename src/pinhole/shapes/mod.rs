@@ -26,6 +26,7 @@ macro_rules! with_shapes {
             Cuboid($crate::shapes::Slabs) cuboid "cuboids",
             Cylinder($crate::shapes::PlacedCylinder) cylinder "cylinders",
             Cone($crate::shapes::PlacedCone) cone "cones",
+            Torus($crate::shapes::PlacedTorus) torus "tori",
             Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
@@ -50,12 +51,14 @@ mod kind;
 mod offset;
 mod planar;
 mod plane;
+mod quartic;
 mod ray_block;
 mod rectangle;
 mod registry;
 mod shape;
 mod space;
 mod sphere;
+mod torus;
 mod triangle;
 mod triangle_edges;
 mod triangle_exact;
@@ -90,6 +93,7 @@ pub use registry::{
 pub use shape::{Placed, RayHit, SceneShape, Shape, ShapeNames, SurfacePoint};
 pub use space::{Pose, direction_object_from_world, normal_world_from_object, point_object_from_world};
 pub use sphere::{PlacedSphere, sphere_intersection, sphere_t};
+pub use torus::PlacedTorus;
 pub use triangle::{TriangleFace, placed_normals};
 pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersection, triangle_t};
 pub use triangle_exact::exact_triangle_t;

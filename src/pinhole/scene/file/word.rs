@@ -2,7 +2,7 @@ use crate::scene::{
     Adaptive, Background, BlinnPhong, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Glass, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing,
     LookAt, Matte, Metal, Mirror, Motion, OrthographicCamera, PerspectiveCamera, Phong, Placement, Plane, PointLight,
-    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Triangle, View,
+    Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -28,6 +28,7 @@ const WORDS: &[Word] = &[
     Word::of::<Cuboid>("cuboid"),
     Word::of::<Cylinder>("cylinder"),
     Word::of::<Cone>("cone"),
+    Word::of::<Torus>("torus"),
     Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<DirectionalLight>("directional_light"),
