@@ -67,6 +67,7 @@ pub mod scene;
 
 pub mod plan;
 
+#[doc(hidden)]
 pub mod material;
 
 #[doc(hidden)]

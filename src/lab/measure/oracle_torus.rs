@@ -64,6 +64,6 @@ fn first(c: &Quartic, begin: &Dyadic, halved: i32) -> Option<Dyadic> {
 pub fn torus_t(origin: Vec3, direction: Vec3, torus: &PlacedTorus) -> Option<f64> {
     let (centre, radius) = torus.space.culling_sphere();
     let most = 2.0 * (origin.as_dvec3().distance(centre) + radius) / direction.as_dvec3().length();
-    let (power, along) = (most.log2().ceil() as i32, quartic(origin, direction, torus));
+    let (power, along) = (libm::log2(most).ceil() as i32, quartic(origin, direction, torus));
     Some(first(&stretched(&along, power), &Dyadic::of(0), 0)?.scaled(power).to_f64())
 }

@@ -48,7 +48,7 @@ pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], least: f64, most: f64,
         if sign * end > 0 || sign == 0 {
             return Some(None);
         }
-        return polished(quartic, [least, most], end > 0, before).map(Some);
+        return refined(quartic, [least, most], end > 0, before).map(Some);
     }
     if half < if N::IS_LAST { NARROWEST } else { NARROW } {
         return N::IS_LAST.then_some(Some(middle));
@@ -61,7 +61,7 @@ pub(super) fn first_root<N: Arithmetic>(quartic: &[N; 5], least: f64, most: f64,
 
 /// The only root in an interval where the quartic is monotonic, by Newton's method kept within its bracket; none where
 /// it is uncertain.
-fn polished<N: Arithmetic>(c: &[N; 5], [first, last]: [f64; 2], rises: bool, before: f64) -> Option<f64> {
+fn refined<N: Arithmetic>(c: &[N; 5], [first, last]: [f64; 2], rises: bool, before: f64) -> Option<f64> {
     const ROUNDS: u32 = 200;
     let (mut least, mut most, mut at) = (first, last, 0.5 * (first + last));
     let [_, c1, c2, c3, c4] = c.map(N::value);

@@ -173,8 +173,8 @@ impl PlacedTorus {
         let high = self.minor * (1.0 + SLACK) + 2.0 * error;
         let (mut least, mut most) = (middle - half, middle + half);
         if q.y.abs() > SLACK {
-            let (at, reach) = (-p.y / q.y, high / q.y.abs() + SLACK * self.minor);
-            (least, most) = (least.max(at - reach), most.min(at + reach));
+            let (at, around) = (-p.y / q.y, high / q.y.abs() + SLACK * self.minor);
+            (least, most) = (least.max(at - around), most.min(at + around));
         } else if p.y.abs() > high + q.y.abs() * UnitRay::<N>::LONGEST {
             return None;
         }
