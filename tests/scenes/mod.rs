@@ -260,8 +260,8 @@ pub fn stretched(setup: Setup) -> World {
     let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
     let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
     world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
-    let hat = placed([-0.6, 0.4, -0.6], [1.0; 3], upright);
-    let cone = Cone { radius: 0.3 * setup.scale, height: 0.6 * setup.scale, capped: true };
+    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
+    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
     world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
     let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
     let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
@@ -309,8 +309,8 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
     let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
     let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
     world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
-    let hat = placed([-0.6, 0.4, -0.6], [1.0; 3], upright);
-    let cone = Cone { radius: 0.3 * setup.scale, height: 0.6 * setup.scale, capped: true };
+    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
+    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
     world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
     let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
     let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
