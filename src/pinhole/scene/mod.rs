@@ -116,7 +116,9 @@ pub use motion::{Motion, Shutter};
 pub use name::{called, some_of};
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
-pub use orientation::{axis_angle, euler_xyz};
+#[doc(hidden)]
+pub use orientation::axis_angle;
+pub use orientation::euler_xyz;
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
