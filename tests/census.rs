@@ -28,7 +28,9 @@ fn tables_of(name: &str, world: &World, stages: &[Stage]) -> usize {
     let asked = Preflight { threads: Some(1), patience: Some(Duration::from_millis(1)), ..Preflight::default() };
     preflight(census, (&render.plan, render.tables()), asked).unwrap_or_else(|error| panic!("{name}: {error}"));
     trace(census, stages, TracePixel { x: 0, y: 0 }).unwrap_or_else(|error| panic!("{name}: {error}"));
-    assert_eq!(census.extractions(), extracted, "{name}: preflight or trace read the scene again");
+    // A trace shows rays that the picture may not need, and so may be the first to read a table.
+    let twice: Vec<_> = census.extractions().into_iter().filter(|(_, times)| *times != 1).collect();
+    assert!(twice.is_empty(), "{name}: preflight or trace read again: {twice:?}");
     extracted.len()
 }
 

@@ -235,13 +235,16 @@ fn add_view(entity: &mut EntityWorldMut<'_>) {
 
 #[test]
 fn what_is_disabled_or_unused_is_dropped_by_name() {
-    let kinds: [(&str, &[&str]); 9] = [
+    let kinds: [(&str, &[&str]); 12] = [
         ("ball", &["Intersect spheres", "Compute surfaces: spheres", "Trace shadow rays: spheres"]),
         ("egg", &["Intersect ellipsoids", "Compute surfaces: ellipsoids", "Trace shadow rays: ellipsoids"]),
         ("ground", &["Intersect planes", "Compute surfaces: planes", "Trace shadow rays: planes"]),
         ("coin", &["Intersect disks", "Compute surfaces: disks", "Trace shadow rays: disks"]),
         ("mat", &["Intersect rectangles", "Compute surfaces: rectangles", "Trace shadow rays: rectangles"]),
         ("brick", &["Intersect cuboids", "Compute surfaces: cuboids", "Trace shadow rays: cuboids"]),
+        ("pipe", &["Intersect cylinders", "Compute surfaces: cylinders", "Trace shadow rays: cylinders"]),
+        ("hat", &["Intersect cones", "Compute surfaces: cones", "Trace shadow rays: cones"]),
+        ("ring", &["Intersect tori", "Compute surfaces: tori", "Trace shadow rays: tori"]),
         ("sail", &["Intersect triangles", "Compute surfaces: triangles", "Trace shadow rays: triangles"]),
         ("lamp", &["Sample point lights", "Clear shadow hits", "Evaluate direct light"]),
         ("sky", &["Add the background"]),

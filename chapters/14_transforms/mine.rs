@@ -4,12 +4,12 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{ShapeTable, TriangleTable, VertexNormalTable};
-use pinhole::shapes::{ShapeKind, TriangleHit};
 use pinhole::intersect::{Hits, ShadingNormals, Surfaces, falling_cosine};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade;
 use pinhole::shade::LightRays;
+use pinhole::shapes::{ShapeKind, TriangleHit};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Irradiance from point lights on triangles whose corners have normals, by the cosine that the reader's function finds.

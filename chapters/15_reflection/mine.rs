@@ -2,10 +2,10 @@
 
 use super::question::Input;
 use bevy_ecs::prelude::*;
-use pinhole::material::PhongTable;
 use pinhole::extract::{MaterialKind, MaterialTable};
 use pinhole::follow::direct_light_stage;
 use pinhole::intersect::{NO_SHAPE, Surfaces};
+use pinhole::material::PhongTable;
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::WorldRays;
 use pinhole::shade::{LightRays, Radiance, ShadowHits, matte_radiance};

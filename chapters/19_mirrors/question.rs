@@ -1,8 +1,8 @@
 //! Chapter 19: a direction off a mirror whose normal may be of any length.
 
-use pinhole::material::mirror_direction;
 use super::mine::mine;
 use glam::DVec3;
+use pinhole::material::mirror_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;

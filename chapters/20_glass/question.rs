@@ -1,8 +1,8 @@
 //! Chapter 20: a direction through a surface of glass, where there is one.
 
-use pinhole::material::refract;
 use super::mine::mine;
 use glam::DVec3;
+use pinhole::material::refract;
 use pinhole_lab::exercise::apart::{absolute, option};
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;

@@ -4,14 +4,14 @@ use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use pinhole::extract::{AreaLightTable, SamplingTable};
-use pinhole::shapes::Emitter;
-use pinhole::shapes::emitter::{Parallelogram, parallelogram_area_point};
 use pinhole::intersect::Surfaces;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;
 use pinhole::shade;
 use pinhole::shade::{LightRays, irradiance_from_area, shadow_t_max};
+use pinhole::shapes::Emitter;
+use pinhole::shapes::emitter::{Parallelogram, parallelogram_area_point};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// Shadow rays to rectangles by points chosen evenly over their area, with the pdf that the reader's function gives.

@@ -3,10 +3,10 @@
 use super::question::Input;
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::frame_of;
 use pinhole::extract::SamplingTable;
 use pinhole::follow;
 use pinhole::intersect::Surfaces;
+use pinhole::material::frame_of;
 use pinhole::plan::Shared;
 use pinhole::rays::{Depth, Draws, SampleNumber, draws_of_two};
 use pinhole::sample::Purpose;

@@ -1,7 +1,7 @@
 //! Chapter 22: a direction as frequent as its cosine is large.
 
-use pinhole::material::cosine_direction;
 use super::mine::mine;
+use pinhole::material::cosine_direction;
 use pinhole_lab::exercise::apart::absolute;
 use pinhole_lab::exercise::{Exercise, Mistake, Probe, Question, Shown, probes};
 use pinhole_lab::measure::ray_aim::Draws;

@@ -3,11 +3,11 @@
 use super::question::{Answer, Input};
 use bevy_ecs::prelude::*;
 use pinhole::extract::MovingTable;
-use pinhole::shapes::{Body, PlacedSphere};
 use pinhole::intersect;
 use pinhole::intersect::{Hits, at_rest};
 use pinhole::plan::{Column, Shared};
 use pinhole::rays::{RayTimes, WorldRays};
+use pinhole::shapes::{Body, PlacedSphere};
 use pinhole_lab::exercise::{Ask, RowPlaces, Setting, StandIn};
 
 /// The nearest moving shape of each ray; spheres by the reader's function.

@@ -68,6 +68,7 @@ pub mod scene;
 
 pub mod plan;
 
+#[doc(hidden)]
 pub mod material;
 
 #[doc(hidden)]

@@ -34,7 +34,7 @@ pub const TEXTURES: &[Case] = &[
     ("a checker on glass", &["checker \"pane\"", "material is glass", "diffuse reflection", "a Matte"], |w| {
         w.spawn((Name::new("pane"), Glass::default(), Checker::default()));
     }),
-    ("stripes on a mirror", &["stripes \"silver\"", "material is a mirror", "a Matte"], |w| {
+    ("stripes on a mirror", &["stripes \"silver\"", "material is mirror", "a Matte"], |w| {
         w.spawn((Name::new("silver"), Mirror::default(), Stripes::default()));
     }),
     ("a checker on metal", &["checker \"gold\"", "material is metal", "a Matte"], |w| {

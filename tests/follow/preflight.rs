@@ -252,7 +252,7 @@ fn emitters_that_light_sampling_cannot_sample_are_named() {
             world.spawn((Name::new(name), Sphere::default(), Placement::at(0.0, 3.0, 0.0), glow));
         }
     };
-    for lights in [LightStrategy::Light, LightStrategy::Mis, LightStrategy::Bsdf] {
+    for lights in [LightStrategy::Light, LightStrategy::Mis] {
         let told = under(path(lights), twins);
         let both = ["\"one\"", "\"other\"", "the very same surface"];
         assert!(told.iter().any(|line| both.iter().all(|word| line.contains(word))), "{told:?}");

@@ -257,6 +257,15 @@ pub fn stretched(setup: Setup) -> World {
     world.spawn((Name::new("pancake"), sphere, pancake, matte(0.2, 0.5, 0.9)));
     world.spawn((Name::new("double"), sphere, pancake, matte(0.9, 0.1, 0.1)));
     world.spawn((Name::new("needle"), sphere, needle, matte(0.5, 0.9, 0.5)));
+    let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
+    let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
+    world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
+    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
+    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
+    world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
+    let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
+    let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
+    world.spawn((Name::new("ring"), torus, ring, matte(0.7, 0.6, 0.5)));
     let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 1.0], upright))).id();
     let turned = Placement { orientation: tilt, ..Placement::default() };
     world.spawn((Name::new("sheared"), sphere, turned, matte(0.7, 0.2, 0.9), ChildOf(group)));
@@ -297,6 +306,15 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
         let tile = placed([x, 0.5, -0.75], [1.0, 1.0, -1.0], upright);
         world.spawn((Name::new("tile"), rectangle(0.5, 0.5), tile, matte(x - 0.5, 0.7, 0.3)));
     }
+    let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
+    let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
+    world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
+    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
+    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
+    world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
+    let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
+    let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
+    world.spawn((Name::new("ring"), torus, ring, matte(0.7, 0.6, 0.5)));
     let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 0.5], upright))).id();
     let turned = |x| Placement { orientation: tilt, position: DVec3::X * x * setup.scale, ..Placement::default() };
     world.spawn((Name::new("sheared brick"), cuboid(0.5, 0.5, 0.5), turned(0.0), matte(0.7, 0.2, 0.9), ChildOf(group)));
@@ -492,6 +510,12 @@ pub fn toggled(on: &[Toggle]) -> World {
         world.spawn((Name::new("mat"), mat, matte(0.3, 0.2, 0.7)));
         let brick = (Cuboid { size: DVec3::new(0.6, 0.4, 0.5) }, Placement::at(-0.4, 1.6, 0.0));
         world.spawn((Name::new("brick"), brick, matte(0.6, 0.2, 0.1)));
+        let pipe = (Cylinder { radius: 0.2, height: 0.8, capped: true }, Placement::at(0.9, 1.5, 0.2));
+        world.spawn((Name::new("pipe"), pipe, matte(0.2, 0.6, 0.3)));
+        let hat = (Cone { radius: 0.3, height: 0.6, capped: true }, Placement::at(1.3, 0.4, 0.9));
+        world.spawn((Name::new("hat"), hat, matte(0.5, 0.3, 0.6)));
+        let ring = (Torus { radius: 0.3, tube: 0.1 }, Placement::at(-0.5, 0.4, 1.2));
+        world.spawn((Name::new("ring"), ring, matte(0.7, 0.6, 0.5)));
         let sail = (leaning_triangle(1.0), Placement::at(-1.2, 0.3, 0.4));
         world.spawn((Name::new("sail"), sail, matte(0.4, 0.7, 0.9)));
     }

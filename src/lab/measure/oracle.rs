@@ -2,9 +2,13 @@
 
 use super::ray_aim::AimedRay;
 use super::{
-    oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_plane, oracle_rectangle, oracle_sphere, oracle_triangle,
+    oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
+    oracle_torus, oracle_triangle,
 };
-use pinhole::shapes::{Ellipsoid, Listed, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, Slabs, TriangleRow};
+use pinhole::shapes::{
+    Ellipsoid, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, PlacedTorus,
+    Slabs, TriangleRow,
+};
 
 /// A shape whose intersections are known exactly.
 pub trait Oracle: Listed {
@@ -53,5 +57,23 @@ impl Oracle for Slabs {
 impl Oracle for TriangleRow {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_triangle::triangle_t(origin, direction, self.corners)
+    }
+}
+
+impl Oracle for PlacedCylinder {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_frustum::frustum_t(origin, direction, &self.0)
+    }
+}
+
+impl Oracle for PlacedCone {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_frustum::frustum_t(origin, direction, &self.0)
+    }
+}
+
+impl Oracle for PlacedTorus {
+    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
+        oracle_torus::torus_t(origin, direction, self)
     }
 }

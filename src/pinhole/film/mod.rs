@@ -34,6 +34,7 @@ pub use crate::extract::linear_from_srgb;
 pub use accumulate::{add_to_film, film_stage};
 #[doc(hidden)]
 pub use checkpoint::{read_checkpoint, write_checkpoint};
+#[doc(hidden)]
 pub use develop::Curve;
 #[doc(hidden)]
 pub use develop::{byte_from_linear, srgb_from_linear};

@@ -27,6 +27,7 @@ mod start;
 mod surface;
 mod view;
 
+#[doc(hidden)]
 pub use crate::extract::shape_evidence;
 #[doc(hidden)]
 pub use classify::{classify_hits, classify_stage};

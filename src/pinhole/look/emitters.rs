@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::extract::{AreaLightTable, EmissiveTable, NO_ROW, ShapeTable, integrator_of, shape_name};
-use crate::plan::{Census, counted};
+use crate::plan::{Census, Table, counted};
 use crate::scene::LightStrategy;
 use std::collections::HashMap;
 
@@ -13,15 +13,17 @@ const MOST_COMPARED: usize = 4096;
 /// that coincide.
 pub fn emitters(scene: &Census<'_>) -> Result<Vec<String>> {
     let Some(strategy) = integrator_of(scene).integrator.transport().lights else { return Ok(Vec::new()) };
-    // BSDF sampling has no use for a table of lights.
-    if strategy == LightStrategy::Bsdf || scene.table::<EmissiveTable>()?.radiance.is_empty() {
+    if scene.table::<EmissiveTable>()?.radiance.is_empty() {
         return Ok(Vec::new());
     }
     let mut warnings = Vec::new();
     if strategy == LightStrategy::Light {
         warnings.extend(unsampled(scene)?);
     }
-    warnings.extend(coincident(scene)?);
+    // Where no light is sampled, there is no table of lights, and none is made for a warning.
+    if scene.extractions().contains_key(AreaLightTable::NAME) {
+        warnings.extend(coincident(scene)?);
+    }
     Ok(warnings)
 }
 

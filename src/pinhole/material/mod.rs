@@ -37,6 +37,7 @@ mod rough_glass;
 mod table;
 
 /// Every BSDF: its kind, its table, and its name in the names of stages and columns; a new one is a line here.
+// ANCHOR: bsdf_list
 macro_rules! for_each_bsdf {
     ($then:ident) => {
         $then! {
@@ -51,6 +52,7 @@ macro_rules! for_each_bsdf {
         }
     };
 }
+// ANCHOR_END: bsdf_list
 pub(crate) use for_each_bsdf;
 
 pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak, half_vector_cosine};

@@ -151,6 +151,7 @@ pub trait Column: Component<Mutability = bevy_ecs::component::Mutable> + Default
 /// Makes a type a component whose columns the plan knows as soon as bevy registers it in any world.
 ///
 /// [`column!`](crate::column) uses it; columns that are written out by hand use it beside their type.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! column_component {
     ($column:ty) => {

@@ -139,11 +139,13 @@ impl ComponentKind {
 
 /// A number with its noun: `1 sphere`, `3 spheres`, `2 triangles with normals`.
 pub fn counted(count: usize, noun: &str) -> String {
-    let ending = if count == 1 { "" } else { "s" };
-    match noun.split_once(" with ") {
-        Some((noun, what)) => format!("{count} {noun}{ending} with {what}"),
-        None => format!("{count} {noun}{ending}"),
-    }
+    let (noun, what) = noun.split_at(noun.find(" with ").unwrap_or(noun.len()));
+    let ending = match count {
+        1 => "",
+        _ if noun.ends_with('s') => "es",
+        _ => "s",
+    };
+    format!("{count} {noun}{ending}{what}")
 }
 
 fn first_three(scene: &World, found: &[Entity]) -> String {

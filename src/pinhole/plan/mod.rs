@@ -34,21 +34,23 @@ pub use census::Census;
 pub(crate) use census::united;
 #[doc(hidden)]
 pub use census::{declared, entities};
-pub use column::{Column, Lifetime, column};
+pub use column::{Column, Lifetime};
 #[doc(hidden)]
-pub use column::{ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column_component};
+pub use column::{
+    ColumnComponent, ColumnKind, ComponentNumber, ComponentValue, ComponentValues, column, column_component,
+};
 #[doc(hidden)]
-pub use decide::view_names;
-pub use decide::{Pass, Plan, PlanError, PlanRow, plan};
+pub use decide::{Pass, PlanRow, view_names};
+pub use decide::{Plan, PlanError, plan};
 pub use evidence::Evidence;
 #[doc(hidden)]
 pub use evidence::{ComponentKind, counted};
 #[doc(hidden)]
 pub use stage::Slot;
 pub use stage::{Stage, StageKind};
+pub use systems::TileSystems;
 #[doc(hidden)]
-pub use systems::{Bounce, Sample};
-pub use systems::{RowKind, TileSystems};
+pub use systems::{Bounce, RowKind, Sample};
 #[doc(hidden)]
 pub use table::{ExtractedTable, TableKind};
 pub use table::{Shared, Table};

@@ -15,6 +15,7 @@
 /// The order is that of the stages; it does not affect any picture.
 #[doc(hidden)]
 #[macro_export]
+// ANCHOR: shape_list
 macro_rules! with_shapes {
     ($then:ident) => {
         $then! {
@@ -24,14 +25,21 @@ macro_rules! with_shapes {
             Disk($crate::shapes::PlacedDisk) disk "disks",
             Rectangle($crate::shapes::PlacedRectangle) rectangle "rectangles",
             Cuboid($crate::shapes::Slabs) cuboid "cuboids",
+            Cylinder($crate::shapes::PlacedCylinder) cylinder "cylinders",
+            Cone($crate::shapes::PlacedCone) cone "cones",
+            Torus($crate::shapes::PlacedTorus) torus "tori",
             Triangle($crate::shapes::TriangleRow) triangle "triangles",
         }
     };
 }
+// ANCHOR_END: shape_list
 pub use with_shapes;
 
+mod arithmetic;
 mod bounds;
+mod cone;
 mod cuboid;
+mod cylinder;
 mod disk;
 mod double_double;
 mod double_double_ellipsoid;
@@ -39,33 +47,41 @@ mod double_double_planar;
 mod ellipsoid;
 pub mod emitter;
 mod exact_sum;
+mod frustum;
 mod interval;
 mod kind;
 mod offset;
 mod planar;
 mod plane;
+mod quartic;
 mod ray_block;
 mod rectangle;
 mod registry;
 mod shape;
 mod space;
 mod sphere;
+mod torus;
 mod triangle;
 mod triangle_edges;
 mod triangle_exact;
 mod triangle_hit;
 mod triangle_row;
+mod unit_space;
 mod uv;
 mod uv_slope;
 
+pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
 pub use bounds::Bounds;
+pub use cone::PlacedCone;
 pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
+pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
 pub use double_double::double_double_sphere_t;
 pub use double_double_ellipsoid::{double_double_ellipsoid_point, double_double_ellipsoid_t};
 pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, double_double_rectangle_t};
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
+pub use frustum::Frustum;
 pub use kind::ShapeKind;
 pub use offset::{l1_norm, offset_bound, offset_origin};
 pub use planar::{Crossing, Planar, crossing};
@@ -79,10 +95,12 @@ pub use registry::{
 pub use shape::{Placed, RayHit, SceneShape, Shape, ShapeNames, SurfacePoint};
 pub use space::{Pose, direction_object_from_world, normal_world_from_object, point_object_from_world};
 pub use sphere::{PlacedSphere, sphere_intersection, sphere_t};
+pub use torus::PlacedTorus;
 pub use triangle::{TriangleFace, placed_normals};
 pub use triangle_edges::{Edges, Shear, edges, longest_axis, triangle_intersection, triangle_t};
 pub use triangle_exact::exact_triangle_t;
 pub use triangle_hit::{TriangleHit, triangle_surface};
 pub use triangle_row::TriangleRow;
+pub use unit_space::{UnitRay, UnitSpace};
 pub use uv::{face_axes, planar_uv, plane_axes, sphere_uv};
 pub use uv_slope::{UvSlope, most_of};

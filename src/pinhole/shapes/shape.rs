@@ -103,7 +103,7 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     type Component: SceneShape;
     /// What its surface needs besides, kept apart from what intersection reads; often nothing.
     type Beside: Clone + Debug + Default + PartialEq + Send + Sync + 'static;
-    /// The shape as a light that is sampled; [`NeverSampled`](super::NeverSampled) for shapes whose emission is found by
+    /// The shape as a light that is sampled; [`NeverSampled`](super::emitter::NeverSampled) for shapes whose emission is found by
     /// BSDF sampling only.
     type Emitter: Emitting;
 

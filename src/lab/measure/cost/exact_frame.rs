@@ -48,6 +48,7 @@ impl Exact {
                 Body::Rectangle(rectangle, ()) => ExactShape::Rectangle(rectangle.planar),
                 Body::Cuboid(slabs, ()) => ExactShape::Cuboid(slabs),
                 Body::Triangle(triangle, face) => ExactShape::Triangle(triangle, face.normal),
+                _ => return None,
             })
         };
         let moves = ShapeTable::extract(census)?.kind.contains(&ShapeKind::Moving);

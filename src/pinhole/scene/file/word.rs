@@ -1,9 +1,9 @@
 use crate::scene::material::MATERIALS;
 use crate::scene::{
-    Adaptive, Background, Checker, Cuboid, DirectionalLight, Disk, Emissive, Environment, EquirectangularCamera,
-    FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt, Motion, OrthographicCamera,
-    PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution, Sampling, Shutter, Sphere, SpotLight,
-    Statistics, Stripes, Triangle, View,
+    Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
+    EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt,
+    Motion, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution, Sampling,
+    Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -27,6 +27,9 @@ const WORDS: &[Word] = &[
     Word::of::<Disk>("disk"),
     Word::of::<Rectangle>("rectangle"),
     Word::of::<Cuboid>("cuboid"),
+    Word::of::<Cylinder>("cylinder"),
+    Word::of::<Cone>("cone"),
+    Word::of::<Torus>("torus"),
     Word::of::<Triangle>("triangle"),
     Word::of::<PointLight>("point_light"),
     Word::of::<DirectionalLight>("directional_light"),
