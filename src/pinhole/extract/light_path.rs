@@ -96,7 +96,9 @@ impl Table for LightPathTable {
     }
 
     fn bytes(&self) -> usize {
-        self.light.len() * (size_of::<LightSource>() + 16) + size_of_val(&self.targets.sphere[..])
+        self.light.len() * (size_of::<LightSource>() + 16)
+            + size_of_val(&self.targets.sphere[..])
+            + size_of_val(&self.targets.infinite[..])
     }
 }
 

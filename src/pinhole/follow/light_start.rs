@@ -37,7 +37,7 @@ impl LightPower {
 /// Samples a ray that leaves a light, towards mirrors and glass where these subtend a small solid angle.
 ///
 /// An area light emits L cos θ per unit area and steradian, a point light I per steradian, an environment L per
-/// steradian through each unit of area at right angles; divided by the pdfs of point and direction, that is the ray's power.
+/// steradian and unit of area at right angles; divided by the pdfs of point and direction, that is the ray's power.
 /// No caustic is missed, since the first surface of a caustic path is a mirror or glass.
 #[inline(always)]
 pub fn light_start(table: &LightPathTable, draws: &StartDraws) -> LightStart {

@@ -36,11 +36,6 @@ impl Light for PlacedDirectionalLight {
         LightSample { direction: self.to_light.as_vec3(), distance: f64::INFINITY, strength: self.irradiance }
     }
 
-    #[inline(always)]
-    fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3] {
-        irradiance_from_direction(sample.strength, cosine)
-    }
-
     fn power(&self, across: f64) -> [f64; 3] {
         self.irradiance.map(|part| part * across)
     }

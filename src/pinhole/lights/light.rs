@@ -1,3 +1,5 @@
+use super::directional::irradiance_from_direction;
+use super::point::irradiance_from_point;
 use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 use crate::scene::SceneError;
@@ -64,7 +66,14 @@ pub trait Light: Clone + Debug + PartialEq + Send + Sync + 'static {
     fn sample(&self, from: DVec3) -> LightSample;
 
     /// The irradiance of a surface that the light arrives at, given the cosine of the angle of incidence.
-    fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3];
+    #[inline(always)]
+    fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3] {
+        if Self::IS_DISTANT {
+            irradiance_from_direction(sample.strength, cosine)
+        } else {
+            irradiance_from_point(sample.strength, cosine, sample.distance * sample.distance)
+        }
+    }
 
     /// The power that it emits (PBRT's `Phi`), linear Rec. 709; for a light without a position, what passes through
     /// `across` square scene units at right angles to its rays.

@@ -14,6 +14,7 @@
 /// A line holds its name among lights of any kind, the type that implements [`Light`](crate::lights::Light), and its
 /// plural.
 /// The order is that of the stages, and thus that in which a surface sums their light.
+// ANCHOR: light_list
 macro_rules! with_lights {
     ($then:ident) => {
         $then! {
@@ -23,6 +24,7 @@ macro_rules! with_lights {
         }
     };
 }
+// ANCHOR_END: light_list
 
 mod directional;
 mod light;

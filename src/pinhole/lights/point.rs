@@ -42,11 +42,6 @@ impl Light for PlacedPointLight {
     }
     // ANCHOR_END: sample_point_light
 
-    #[inline(always)]
-    fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3] {
-        irradiance_from_point(sample.strength, cosine, sample.distance * sample.distance)
-    }
-
     fn power(&self, _across: f64) -> [f64; 3] {
         self.intensity.map(|part| part * 4.0 * PI)
     }

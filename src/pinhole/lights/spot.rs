@@ -1,5 +1,4 @@
 use super::light::{Light, LightSample, PlacedLight, SceneLight};
-use super::point::irradiance_from_point;
 use super::start::{LightStart, StartDraws};
 use super::targets::{Targets, direction_to_targets};
 use crate::scene::{Degrees, SceneError, SpotLight, finite_point, light_colour, number};
@@ -52,11 +51,6 @@ impl Light for PlacedSpotLight {
         let falloff = spot_falloff(versine(along, self.axis), self.inner, self.outer);
         let strength = self.intensity.map(|part| part * falloff);
         LightSample { direction: (to_light * (1.0 / distance)).as_vec3(), distance, strength }
-    }
-
-    #[inline(always)]
-    fn irradiance(sample: &LightSample, cosine: f64) -> [f64; 3] {
-        irradiance_from_point(sample.strength, cosine, sample.distance * sample.distance)
     }
 
     fn power(&self, _across: f64) -> [f64; 3] {
@@ -125,6 +119,7 @@ pub fn spot_falloff(versine: f64, inner: f64, outer: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::irradiance_from_point;
     use crate::measure::hemisphere::Quadrature;
     use crate::scene::Degrees;
     use std::f64::consts::{PI, TAU};

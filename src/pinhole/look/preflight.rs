@@ -82,7 +82,7 @@ fn by_pilot(scene: &Census<'_>, pilot: &Pilot, shapes: &ShapeTable) -> Vec<Strin
     let fraction = |count: usize| count as f64 / pilot.rays.max(1) as f64;
     let mut warnings = Vec::new();
     // The pilot's radiance does not include light traced from lights.
-    let traced = traced_evidence(scene).needed && point_evidence(scene).or(emissive_evidence(scene)).needed;
+    let traced = traced_evidence(scene).needed;
     if fraction(pilot.black) >= NEARLY_ALL && !traced {
         warnings.push(format!("the picture will probably be black: {}", why_black(scene, pilot)));
     } else if pilot.hits == 0 && !shapes.kind.is_empty() {
