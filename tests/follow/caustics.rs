@@ -26,7 +26,9 @@ pub(super) fn mean_of(make: &dyn Fn() -> World, offer: &[Stage], samples: u32, s
         .map(|seed| {
             let mut world = make();
             let camera = named(&mut world, "camera");
-            let sampling = Sampling { samples, seed, sampler: Sampler::Independent, ..Sampling::default() };
+            // A wider filter would take in what lies beyond the image.
+            let filter = Filter::Box { radius: 0.5 };
+            let sampling = Sampling { samples, seed, sampler: Sampler::Independent, filter };
             world.entity_mut(camera).insert(sampling);
             let film = render(&world, offer, &Execution::default(), &()).expect("renders").film;
             assert_eq!(film.rejected().0, 0);
@@ -56,7 +58,7 @@ pub(super) fn camera(world: &mut World, eye: DVec3, target: DVec3, width: f64, p
 
 /// The mean of a function of the distance from the middle over a square this wide.
 fn over_square(width: f64, function: impl Fn(f64) -> f64) -> f64 {
-    const STEPS: u32 = 40;
+    const STEPS: u32 = 120;
     let place = |step: u32| width * ((f64::from(step) + 0.5) / f64::from(STEPS) - 0.5);
     let places = (0..STEPS).flat_map(|y| (0..STEPS).map(move |x| (place(x), place(y))));
     places.map(|(x, y)| function(libm::sqrt(x * x + y * y))).sum::<f64>() / f64::from(STEPS * STEPS)
