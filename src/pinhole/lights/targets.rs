@@ -59,10 +59,15 @@ impl Targets {
         target.radius + (l1_norm(self.scene.centre) + 4.0 * self.scene.radius) * OF_PLACE
     }
 
+    #[inline(always)]
+    fn disk_area(&self, target: &Target) -> f64 {
+        PI * self.disk(target) * self.disk(target)
+    }
+
     /// The area of the disks of all targets, in square scene units: overlapping ones count once each.
     #[inline(always)]
     pub fn across(&self) -> f64 {
-        PI * self.sphere.iter().map(|target| self.disk(target) * self.disk(target)).sum::<f64>()
+        self.sphere.iter().map(|target| self.disk_area(target)).sum()
     }
 
     // ANCHOR: parallel_start
@@ -77,8 +82,8 @@ impl Targets {
     pub fn parallel_start(&self, direction: DVec3, irradiance: [f64; 3], draws: &StartDraws) -> LightStart {
         let all = self.across();
         let (mut left, mut chosen) = (draws.target * all, 0);
-        while chosen + 1 < self.sphere.len() && left >= PI * self.disk(&self.sphere[chosen]).powi(2) {
-            left -= PI * self.disk(&self.sphere[chosen]).powi(2);
+        while chosen + 1 < self.sphere.len() && left >= self.disk_area(&self.sphere[chosen]) {
+            left -= self.disk_area(&self.sphere[chosen]);
             chosen += 1;
         }
         let Some(target) = self.sphere.get(chosen) else { return LightStart::default() };
