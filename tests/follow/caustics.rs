@@ -146,7 +146,7 @@ fn through_a_pane(name: &'static str, lamp: fn(&mut World)) -> Form {
         world
     };
     let truth = over_square(WIDTH, |x| through_layers(x, &[(0.7, 1.0), (0.5, 1.5), (1.0, 1.0)]));
-    Form { name, truth, make: Box::new(make), samples: 40 }
+    Form { name, truth, make: Box::new(make), samples: 120 }
 }
 
 /// A lamp over water, seen on its ground by a camera in the water.
@@ -161,7 +161,7 @@ fn into_water(name: &'static str, lamp: fn(&mut World)) -> Form {
         world
     };
     let truth = over_square(WIDTH, |x| through_layers(x, &[(0.7, 1.0), (1.5, 1.33)]));
-    Form { name, truth, make: Box::new(make), samples: 40 }
+    Form { name, truth, make: Box::new(make), samples: 120 }
 }
 
 fn forms() -> Vec<Form> {
