@@ -6,8 +6,8 @@ use super::{
     oracle_torus, oracle_triangle,
 };
 use pinhole::shapes::{
-    Ellipsoid, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere, PlacedTorus,
-    Slabs, TriangleRow,
+    Ellipsoid, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedPlane, PlacedRectangle, PlacedSphere,
+    PlacedTorus, Slabs, TriangleRow,
 };
 
 /// A shape whose intersections are known exactly.
@@ -60,15 +60,12 @@ impl Oracle for TriangleRow {
     }
 }
 
-impl Oracle for PlacedCylinder {
+impl<C: FrustumShape> Oracle for PlacedFrustum<C>
+where
+    Self: Listed,
+{
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
-        oracle_frustum::frustum_t(origin, direction, &self.0)
-    }
-}
-
-impl Oracle for PlacedCone {
-    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
-        oracle_frustum::frustum_t(origin, direction, &self.0)
+        oracle_frustum::frustum_t(origin, direction, &self.frustum)
     }
 }
 
