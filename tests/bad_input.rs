@@ -35,7 +35,7 @@ fn sentence(error: &dyn Display, what: &str) -> String {
     assert!(!message.contains('\n'), "{what}: more than one line: {message}");
     assert!(!message.contains(". ") && !message.ends_with('.'), "{what}: more than one sentence: {message}");
     // A view that nothing writes names the shapes that there are none of, ten kinds of them.
-    assert!(message.chars().count() <= 450, "{what}: {} letters: {message}", message.chars().count());
+    assert!(message.chars().count() <= 400, "{what}: {} letters: {message}", message.chars().count());
     assert!(!message.contains("000000000000"), "{what}: a number without an exponent: {message}");
     message
 }

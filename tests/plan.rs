@@ -45,6 +45,8 @@ fn pictureless(on: &[Toggle]) -> bool {
         Toggle::Mirror,
         Toggle::Glass,
         Toggle::Metal,
+        Toggle::RoughGlass,
+        Toggle::Principled,
     ];
     on.contains(&Toggle::View) && !shapes.iter().any(|shape| on.contains(shape))
 }
@@ -97,7 +99,7 @@ fn rows_systems_columns_and_tables_are_one_list() {
             match prepare(&Census::of(&scene), &offer).err().expect("refused") {
                 Error::Plan(PlanError::NoSuchView { wanted, why }) => {
                     assert_eq!(wanted, VIEWED, "{on:?}");
-                    assert!(why.contains("\"Classify hits\" is left out here (0 spheres, 0 planes, "), "{on:?}: {why}");
+                    assert!(why.contains("\"Classify hits\" is left out here (0 shapes"), "{on:?}: {why}");
                 }
                 other => panic!("{on:?}: {other}"),
             }

@@ -7,6 +7,7 @@ pub mod material;
 pub mod public;
 mod soft;
 mod textured;
+mod toggled;
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
@@ -20,6 +21,8 @@ pub use pinhole_lab::measure::film_bits::FilmBits;
 pub use soft::soft;
 #[allow(unused_imports, reason = "each test takes what it needs")]
 pub use textured::{TextureToggle, textured, textured_by};
+#[allow(unused_imports, reason = "each test takes what it needs")]
+pub use toggled::{MORE, TOGGLES, Toggle, VIEWED, combinations, singles_and_pairs, toggled};
 
 /// Which camera a scene gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +54,10 @@ impl Default for Setup {
 impl Setup {
     fn point(&self, x: f64, y: f64, z: f64) -> DVec3 {
         on_grid(DVec3::new(x, y, z)) * self.scale + self.shift
+    }
+
+    fn placed(&self, [x, y, z]: [f64; 3], scale: [f64; 3], orientation: DQuat) -> Placement {
+        Placement { position: self.point(x, y, z), orientation, scale: DVec3::from(scale) }
     }
 
     fn camera(&self, world: &mut World, look: LookAt) {
@@ -242,11 +249,7 @@ pub fn stretched(setup: Setup) -> World {
     let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
     let sphere = Sphere { radius: 0.5 * setup.scale };
     let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
-    let placed = |[x, y, z]: [f64; 3], scale: [f64; 3], orientation| Placement {
-        position: setup.point(x, y, z),
-        orientation,
-        scale: DVec3::from(scale),
-    };
+    let placed = |at, scale, orientation| setup.placed(at, scale, orientation);
     let upright = DQuat::IDENTITY;
     let egg = placed([-1.27, 1.02, 0.53], [1.0, 1.5, 1.0], upright);
     let pancake = placed([0.29, 0.5, 1.09], [-2.0, 0.25, 1.5], tilt);
@@ -257,15 +260,7 @@ pub fn stretched(setup: Setup) -> World {
     world.spawn((Name::new("pancake"), sphere, pancake, matte(0.2, 0.5, 0.9)));
     world.spawn((Name::new("double"), sphere, pancake, matte(0.9, 0.1, 0.1)));
     world.spawn((Name::new("needle"), sphere, needle, matte(0.5, 0.9, 0.5)));
-    let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
-    let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
-    world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
-    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
-    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
-    world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
-    let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
-    let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
-    world.spawn((Name::new("ring"), torus, ring, matte(0.7, 0.6, 0.5)));
+    pipe_hat_and_ring(&mut world, setup);
     let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 1.0], upright))).id();
     let turned = Placement { orientation: tilt, ..Placement::default() };
     world.spawn((Name::new("sheared"), sphere, turned, matte(0.7, 0.2, 0.9), ChildOf(group)));
@@ -273,6 +268,21 @@ pub fn stretched(setup: Setup) -> World {
     world.spawn((Name::new("fill"), setup.light(15.0, false), placed([-2.91, 2.01, 2.02], [1.0; 3], upright)));
     world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.3, 0.5, 0.8) }));
     lit_by_lights_alone(world)
+}
+
+/// A tube without caps, a cone and a torus.
+fn pipe_hat_and_ring(world: &mut World, setup: Setup) {
+    let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
+    let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
+    let pipe = setup.placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
+    let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
+    world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
+    let hat = setup.placed([1.9, 0.83, 0.6], [1.0; 3], DQuat::IDENTITY);
+    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
+    world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
+    let ring = setup.placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
+    let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
+    world.spawn((Name::new("ring"), torus, ring, matte(0.7, 0.6, 0.5)));
 }
 
 /// Disks, rectangles and cuboids: stretched, mirrored and turned ones, one of each that a parent shears, pairs that are the
@@ -289,11 +299,7 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
     let cuboid = |x: f64, y: f64, z: f64| Cuboid { size: DVec3::new(x, y, z) * setup.scale };
     let tilt = DQuat::from_xyzw(0.5, -0.1, 0.7, 0.5).normalize();
     let upright = DQuat::IDENTITY;
-    let placed = |[x, y, z]: [f64; 3], scale: [f64; 3], orientation| Placement {
-        position: setup.point(x, y, z),
-        orientation,
-        scale: DVec3::from(scale),
-    };
+    let placed = |at, scale, orientation| setup.placed(at, scale, orientation);
     let floor = placed([0.0, 0.017, 0.0], [1.0, -3.0, 1.0], upright);
     world.spawn((Name::new("floor"), rectangle(7.0, 5.0), floor, matte(0.6, 0.6, 0.6)));
     let brick = placed([-1.27, 0.55, 0.53], [-1.0, 1.5, 1.0], tilt);
@@ -306,15 +312,7 @@ pub fn shapes_of_all_kinds(setup: Setup) -> World {
         let tile = placed([x, 0.5, -0.75], [1.0, 1.0, -1.0], upright);
         world.spawn((Name::new("tile"), rectangle(0.5, 0.5), tile, matte(x - 0.5, 0.7, 0.3)));
     }
-    let pipe = placed([-2.1, 0.9, -0.3], [1.0, 1.5, -1.0], tilt);
-    let cylinder = Cylinder { radius: 0.25 * setup.scale, height: 0.8 * setup.scale, capped: false };
-    world.spawn((Name::new("pipe"), cylinder, pipe, matte(0.2, 0.6, 0.3)));
-    let hat = placed([1.9, 0.83, 0.6], [1.0; 3], upright);
-    let cone = Cone { radius: 0.35 * setup.scale, height: 1.6 * setup.scale, capped: true };
-    world.spawn((Name::new("hat"), cone, hat, matte(0.5, 0.3, 0.6)));
-    let ring = placed([-0.3, 1.5, 0.2], [1.0, 0.5, 1.0], tilt);
-    let torus = Torus { radius: 0.4 * setup.scale, tube: 0.125 * setup.scale };
-    world.spawn((Name::new("ring"), torus, ring, matte(0.7, 0.6, 0.5)));
+    pipe_hat_and_ring(&mut world, setup);
     let group = world.spawn((Name::new("group"), placed([1.7, 0.6, -0.9], [1.0, -2.0, 0.5], upright))).id();
     let turned = |x| Placement { orientation: tilt, position: DVec3::X * x * setup.scale, ..Placement::default() };
     world.spawn((Name::new("sheared brick"), cuboid(0.5, 0.5, 0.5), turned(0.0), matte(0.7, 0.2, 0.9), ChildOf(group)));
@@ -404,196 +402,6 @@ pub fn ties() -> World {
     world.spawn((Name::new("pane"), pane, Placement::default(), Matte { colour: Rgb::new(0.0, 1.0, 0.0) }));
     (4..8).for_each(|number| ball(&mut world, number));
     world
-}
-
-/// What a scene may have beside its camera; each decides about some stage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Toggle {
-    Light,
-    SecondLight,
-    Plane,
-    Sphere,
-    Ellipsoid,
-    /// A disk, a rectangle, a cuboid and a triangle.
-    Shapes,
-    Shadow,
-    Orthographic,
-    Background,
-    View,
-    Statistics,
-    Layers,
-    Sun,
-    Spot,
-    Phong,
-    BlinnPhong,
-    Emissive,
-    Samples,
-    /// A lens, where the camera is a perspective one.
-    Lens,
-    /// A shutter that stays open while the camera moves, and the ball and the planar shapes where there are any.
-    Motion,
-    Mirror,
-    /// Glass that absorbs.
-    Glass,
-    Metal,
-}
-
-/// All of them.
-pub const TOGGLES: &[Toggle] = &[
-    Toggle::Light,
-    Toggle::SecondLight,
-    Toggle::Plane,
-    Toggle::Sphere,
-    Toggle::Shadow,
-    Toggle::Orthographic,
-    Toggle::Background,
-    Toggle::View,
-    Toggle::Statistics,
-];
-
-/// Those that are tried alone and in pairs, beside some of [`TOGGLES`], and not in all combinations.
-pub const MORE: [Toggle; 14] = [
-    Toggle::Ellipsoid,
-    Toggle::Shapes,
-    Toggle::Layers,
-    Toggle::Samples,
-    Toggle::Sun,
-    Toggle::Spot,
-    Toggle::Phong,
-    Toggle::BlinnPhong,
-    Toggle::Emissive,
-    Toggle::Lens,
-    Toggle::Motion,
-    Toggle::Mirror,
-    Toggle::Glass,
-    Toggle::Metal,
-];
-
-/// The column that [`Toggle::View`] asks for; only a scene with a shape has it.
-pub const VIEWED: &str = "surface";
-
-/// A camera and what is on.
-pub fn toggled(on: &[Toggle]) -> World {
-    let has = |toggle| on.contains(&toggle);
-    let mut world = World::new();
-    let eye = if has(Toggle::Orthographic) { Eye::Orthographic } else { Eye::Perspective };
-    let setup = Setup { eye, size: [24, 16], ..Setup::default() };
-    let look = LookAt { eye: DVec3::new(0.5, 1.5, 4.0), target: DVec3::new(0.0, 0.5, 0.0), up: DVec3::Y };
-    setup.camera(&mut world, look);
-    let light = |intensity| setup.light(intensity, has(Toggle::Shadow));
-    if has(Toggle::Light) {
-        world.spawn((Name::new("lamp"), light(40.0), Placement::at(2.0, 3.0, 2.0)));
-    }
-    if has(Toggle::SecondLight) {
-        world.spawn((Name::new("second lamp"), light(25.0), Placement::at(-2.0, 2.0, 3.0)));
-    }
-    if has(Toggle::Plane) {
-        world.spawn((Name::new("ground"), Plane::default(), Matte { colour: Rgb::new(0.5, 0.6, 0.4) }));
-    }
-    if has(Toggle::Sphere) {
-        let ball = (Sphere { radius: 0.75 }, Placement::at(0.0, 0.75, 0.0));
-        world.spawn((Name::new("ball"), ball, Matte { colour: Rgb::new(0.8, 0.3, 0.2) }));
-    }
-    if has(Toggle::Ellipsoid) {
-        let scale = DVec3::new(0.5, 1.5, 1.0);
-        let egg = (Sphere { radius: 0.5 }, Placement { scale, ..Placement::at(1.2, 0.75, 0.3) });
-        world.spawn((Name::new("egg"), egg, Matte { colour: Rgb::new(0.9, 0.8, 0.6) }));
-    }
-    if has(Toggle::Shapes) {
-        let matte = |r, g, b| Matte { colour: Rgb::new(r, g, b) };
-        let coin = Placement {
-            orientation: DQuat::from_xyzw(0.5, 0.1, 0.1, 0.5).normalize(),
-            ..Placement::at(-1.2, 0.9, 0.5)
-        };
-        world.spawn((Name::new("coin"), Disk { radius: 0.5 }, coin, matte(0.9, 0.7, 0.1)));
-        let mat = (Rectangle { width: 1.5, depth: 1.0 }, Placement::at(0.3, 0.05, 1.2));
-        world.spawn((Name::new("mat"), mat, matte(0.3, 0.2, 0.7)));
-        let brick = (Cuboid { size: DVec3::new(0.6, 0.4, 0.5) }, Placement::at(-0.4, 1.6, 0.0));
-        world.spawn((Name::new("brick"), brick, matte(0.6, 0.2, 0.1)));
-        let pipe = (Cylinder { radius: 0.2, height: 0.8, capped: true }, Placement::at(0.9, 1.5, 0.2));
-        world.spawn((Name::new("pipe"), pipe, matte(0.2, 0.6, 0.3)));
-        let hat = (Cone { radius: 0.3, height: 0.6, capped: true }, Placement::at(1.3, 0.4, 0.9));
-        world.spawn((Name::new("hat"), hat, matte(0.5, 0.3, 0.6)));
-        let ring = (Torus { radius: 0.3, tube: 0.1 }, Placement::at(-0.5, 0.4, 1.2));
-        world.spawn((Name::new("ring"), ring, matte(0.7, 0.6, 0.5)));
-        let sail = (leaning_triangle(1.0), Placement::at(-1.2, 0.3, 0.4));
-        world.spawn((Name::new("sail"), sail, matte(0.4, 0.7, 0.9)));
-    }
-    if has(Toggle::Sun) {
-        let sun = DirectionalLight { irradiance: Rgb::grey(0.8), casts_shadows: has(Toggle::Shadow) };
-        world.spawn((Name::new("sun"), sun, LookAt { eye: DVec3::new(-2.0, 3.0, 2.0), ..LookAt::default() }));
-    }
-    if has(Toggle::Spot) {
-        let spot = SpotLight { intensity: Rgb::grey(20.0), casts_shadows: has(Toggle::Shadow), ..SpotLight::default() };
-        world.spawn((Name::new("spot"), spot, LookAt { eye: DVec3::new(1.0, 3.0, 1.5), ..LookAt::default() }));
-    }
-    if has(Toggle::Phong) {
-        let ball = (Sphere { radius: 0.5 }, Placement::at(-1.2, 0.5, 0.4));
-        world.spawn((Name::new("glossy ball"), ball, Phong { exponent: 8.0, ..Phong::default() }));
-    }
-    if has(Toggle::BlinnPhong) {
-        let ball = (Sphere { radius: 0.5 }, Placement::at(1.0, 0.5, 0.6));
-        world.spawn((Name::new("satin ball"), ball, BlinnPhong { exponent: 20.0, ..BlinnPhong::default() }));
-    }
-    if has(Toggle::Emissive) {
-        let ball = (Sphere { radius: 0.3 }, Placement::at(0.3, 1.8, 0.5));
-        world.spawn((Name::new("glow"), ball, Emissive { radiance: Rgb::new(0.6, 0.5, 0.2), ..Emissive::default() }));
-    }
-    if has(Toggle::Mirror) {
-        material::ball_of(&mut world, "mirror ball", -0.9, Mirror::default());
-    }
-    if has(Toggle::Glass) {
-        let absorption = Rgb::new(0.2, 0.4, 0.8);
-        material::ball_of(&mut world, "glass ball", 0.4, Glass { absorption, ..Glass::default() });
-    }
-    if has(Toggle::Metal) {
-        material::ball_of(&mut world, "metal ball", 1.5, Metal::default());
-    }
-    if has(Toggle::Background) {
-        world.spawn((Name::new("sky"), Background { colour: Rgb::new(0.2, 0.4, 0.7) }));
-    }
-    let camera = named(&mut world, "camera");
-    if has(Toggle::View) {
-        world.entity_mut(camera).insert(View { column: VIEWED.into() });
-    }
-    if has(Toggle::Statistics) {
-        world.entity_mut(camera).insert(Statistics);
-    }
-    if has(Toggle::Layers) {
-        world.entity_mut(camera).insert(Layers::all());
-    }
-    if has(Toggle::Lens) && eye == Eye::Perspective {
-        world.entity_mut(camera).insert(lens(1.0));
-    }
-    if has(Toggle::Motion) {
-        set_in_motion(&mut world, &setup);
-    }
-    if has(Toggle::Samples) {
-        world.entity_mut(camera).insert(Sampling { samples: 2, filter: Filter::MITCHELL, ..Sampling::default() });
-    }
-    lit_by_lights_alone(world)
-}
-
-/// All combinations of [`TOGGLES`], the empty one first; then each of [`MORE`] beside none, one or several of them, and
-/// all pairs of it.
-pub fn combinations() -> Vec<Vec<Toggle>> {
-    let chosen = |bits: usize| (0..TOGGLES.len()).filter(|bit| bits >> bit & 1 == 1).map(|bit| TOGGLES[bit]).collect();
-    let mut all: Vec<Vec<Toggle>> = (0..1 << TOGGLES.len()).map(chosen).collect();
-    let lit = vec![Toggle::Light, Toggle::Plane, Toggle::Sphere, Toggle::Shadow];
-    let several = [vec![], lit, TOGGLES.to_vec()];
-    let beside: Vec<Vec<Toggle>> = TOGGLES.iter().map(|&toggle| vec![toggle]).chain(several.clone()).collect();
-    for (place, &more) in MORE.iter().enumerate() {
-        all.extend(beside.iter().map(|on| [on.as_slice(), &[more]].concat()));
-        for &other in &MORE[place + 1..] {
-            all.extend(several.iter().map(|on| [on.as_slice(), &[more, other]].concat()));
-        }
-    }
-    all
-}
-
-/// None, each alone, all pairs.
-pub fn singles_and_pairs() -> Vec<Vec<Toggle>> {
-    combinations().into_iter().filter(|on| on.len() <= 2).collect()
 }
 
 /// The first entity of a name.

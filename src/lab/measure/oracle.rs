@@ -8,7 +8,7 @@ use super::{
 };
 use glam::DVec3;
 use pinhole::shapes::{
-    Ellipsoid, Frustum, Listed, PlacedCone, PlacedCylinder, PlacedDisk, PlacedPlane, PlacedRectangle, PlacedSphere,
+    Ellipsoid, Frustum, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedPlane, PlacedRectangle, PlacedSphere,
     PlacedTorus, Slabs, TriangleRow,
 };
 use std::f64::consts::TAU;
@@ -120,35 +120,20 @@ impl Oracle for TriangleRow {
     }
 }
 
-impl Oracle for PlacedCylinder {
+impl<C: FrustumShape> Oracle for PlacedFrustum<C>
+where
+    Self: Listed,
+{
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
-        oracle_frustum::frustum_t(origin, direction, &self.0)
+        oracle_frustum::frustum_t(origin, direction, &self.frustum)
     }
 
     fn exact_side(&self, point: DVec3) -> i32 {
-        oracle_frustum::side_of_frustum(point, &self.0)
+        oracle_frustum::side_of_frustum(point, &self.frustum)
     }
 
     fn parts_space(&self) -> bool {
-        self.0.capped
-    }
-
-    fn aim(&self, draws: &mut Draws) -> Option<DVec3> {
-        Some(within_frustum(&self.0, draws))
-    }
-}
-
-impl Oracle for PlacedCone {
-    fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
-        oracle_frustum::frustum_t(origin, direction, &self.0)
-    }
-
-    fn exact_side(&self, point: DVec3) -> i32 {
-        oracle_frustum::side_of_frustum(point, &self.0)
-    }
-
-    fn parts_space(&self) -> bool {
-        self.0.capped
+        self.frustum.capped
     }
 
     fn aim(&self, draws: &mut Draws) -> Option<DVec3> {

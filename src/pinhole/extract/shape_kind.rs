@@ -33,6 +33,7 @@ pub struct ListedKind {
     /// Evidence that the scene contains one that keeps still.
     pub evidence: fn(&Census<'_>) -> Evidence,
     entities: fn(&Census<'_>) -> Arc<[Entity]>,
+    declared: fn(&Census<'_>) -> Arc<[Entity]>,
     component_evidence: fn(&Census<'_>) -> Evidence,
     carries: fn(&Census<'_>, Entity) -> bool,
     /// Extracts its table, which checks its components.
@@ -67,6 +68,7 @@ impl ListedKind {
             table: TableKind::of::<ShapesOf<S>>(),
             evidence: kind_evidence::<S>,
             entities: |scene| scene.entities::<With<S::Component>>(),
+            declared: |scene| scene.declared::<With<S::Component>>(),
             component_evidence: |scene| Evidence::of::<S::Component>(scene, S::Component::WORD),
             carries: |scene, entity| scene.get::<S::Component>(entity).is_some(),
             check: |scene| scene.table::<ShapesOf<S>>().map(drop),
@@ -135,8 +137,13 @@ pub fn kind_evidence<S: Listed>(scene: &Census<'_>) -> Evidence {
 
 /// Evidence that the scene contains a shape of any kind.
 pub fn shape_evidence(scene: &Census<'_>) -> Evidence {
-    let each = listed_kinds().iter().filter(|listed| listed.is_first());
-    each.map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default()
+    let each = || listed_kinds().iter().filter(|listed| listed.is_first());
+    let found = each().map(|listed| (listed.component_evidence)(scene)).reduce(Evidence::or).unwrap_or_default();
+    if found.needed {
+        return found;
+    }
+    let declared = united(&mut each().map(|listed| (listed.declared)(scene)));
+    Evidence::among_entities(scene, "shape", |_| true, &[], &declared)
 }
 
 /// The enabled entities that are a shape, in spawn order; the place of one is its number.

@@ -42,6 +42,7 @@ pub use named_stages::{
     plane_stage, plane_surface_stage, rectangle_stage, rectangle_surface_stage, sphere_stage, sphere_surface_stage,
     triangle_stage, triangle_surface_stage,
 };
+pub(crate) use rows::rows_of_kind;
 #[doc(hidden)]
 pub use rows::{EmissiveRows, MaterialRows, ShapeRows};
 #[doc(hidden)]

@@ -1,23 +1,15 @@
-use super::lobe::{HIGHLIGHTS, lobe_direction};
-use super::phong::{diffuse_and_specular, exponent_within};
-use super::registered::entities_of_kind;
-use super::{Bsdf, BsdfClass, BsdfSample, Example, Highlight, Lobe, Named, Site, highlight, mirror_direction};
-use crate::check::kind_and_name;
-use crate::plan::{Census, Table};
-use crate::scene::{BlinnPhong, Rgb, SceneError};
+use super::lobe::lobe_direction;
+use super::{HighlightTable, Lobe, highlight, mirror_direction};
+use crate::scene::{BlinnPhong, Rgb};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Blinn–Phong highlights, lobes about the half vector, in spawn order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct BlinnPhongTable {
-    /// The specular albedo of each: red, green, blue, from 0 to 1.
-    pub specular: Vec<[f64; 3]>,
-    /// The exponent n; larger ones give a narrower lobe.
-    pub exponent: Vec<f64>,
-    /// The value at the centre of the lobe, by [`blinn_phong_peak`], in 1/sr.
-    pub peak: Vec<f64>,
-}
+/// Blinn–Phong highlights.
+pub type BlinnPhongTable = HighlightTable<BlinnPhongLobe>;
+
+/// A lobe of half vectors about the normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlinnPhongLobe;
 
 // ANCHOR: blinn_phong_peak
 /// The factor N = (n + 2)(n + 4) / (8π(n + 2^(−n/2))) of N cosⁿβ, in 1/sr.
@@ -43,103 +35,45 @@ pub fn half_vector_cosine(normal: DVec3, to_light: DVec3, to_eye: DVec3) -> f64 
 }
 // ANCHOR_END: half_vector_cosine
 
-impl Table for BlinnPhongTable {
-    const NAME: &'static str = "blinn–phong highlights";
-
-    fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let mut table = Self::default();
-        for entity in entities_of_kind(scene, Self::KIND) {
-            let own = scene.get::<BlinnPhong>(entity).copied().unwrap_or_default();
-            let who = kind_and_name(scene, Self::WORD, entity);
-            table.specular.push(diffuse_and_specular(&who, own.colour, own.specular)?[1]);
-            table.exponent.push(exponent_within(&who, own.exponent)?);
-            table.peak.push(blinn_phong_peak(own.exponent));
-        }
-        Ok(table)
-    }
-
-    fn bytes(&self) -> usize {
-        self.exponent.len() * size_of::<[f64; 5]>()
-    }
-}
-
-impl Bsdf for BlinnPhongTable {
+impl Lobe for BlinnPhongLobe {
     type Component = BlinnPhong;
+    const TABLE: &'static str = "blinn–phong highlights";
     const COMPONENT: &'static str = "BlinnPhong";
     const WORD: &'static str = "blinn_phong";
     const NOUN: &'static str = "Blinn–Phong surface";
-    const CLASS: BsdfClass = BsdfClass::Diffuse;
-    const LAMBERTIAN: bool = true;
-    const TEXTURED: bool = true;
-    const NARROW: bool = true;
 
-    fn colour(own: &BlinnPhong, who: &str) -> Result<[f64; 3], SceneError> {
-        exponent_within(who, own.exponent)?;
-        Ok(diffuse_and_specular(who, own.colour, own.specular)?[0])
+    fn albedos(own: &BlinnPhong) -> [Rgb; 2] {
+        [own.colour, own.specular]
     }
 
-    fn albedo_beside_colour(own: &BlinnPhong) -> Option<Rgb> {
-        Some(own.specular)
+    fn exponent(own: &BlinnPhong) -> f64 {
+        own.exponent
     }
 
-    #[inline(always)]
-    fn eval(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        Highlight::new(self, site.row, site.colour).brdf(to_light, to_eye)
+    fn component([colour, specular]: [Rgb; 2], exponent: f64) -> BlinnPhong {
+        BlinnPhong { colour, specular, exponent }
     }
 
-    #[inline(always)]
-    fn lobes(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let height = self.value(site.row, to_light, to_eye);
-        self.specular[site.row].map(|part| part * height)
+    fn peak(exponent: f64) -> f64 {
+        blinn_phong_peak(exponent)
     }
 
     #[inline(always)]
-    fn pdf(&self, site: &Site, to_light: DVec3, to_eye: DVec3) -> f64 {
-        Highlight::new(self, site.row, site.colour).pdf(to_light, to_eye)
-    }
-
-    #[inline(always)]
-    fn sample(&self, site: &Site, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
-        Highlight::new(self, site.row, site.colour).sample(to_eye, numbers, choice)
-    }
-
-    fn chooses(&self) -> bool {
-        true
-    }
-
-    fn examples() -> Vec<Example<BlinnPhong>> {
-        let of = |[colour, specular, exponent]: [f64; 3]| BlinnPhong {
-            colour: Rgb::grey(colour),
-            specular: Rgb::grey(specular),
-            exponent,
-        };
-        HIGHLIGHTS.iter().map(|&own| Example { component: of(own), lossless_to: None }).collect()
-    }
-}
-
-impl Lobe for BlinnPhongTable {
-    #[inline(always)]
-    fn specular(&self, row: usize) -> [f64; 3] {
-        self.specular[row]
-    }
-
-    #[inline(always)]
-    fn value(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        highlight(self.peak[row], self.exponent[row], half_vector_cosine(DVec3::Z, to_light, to_eye))
+    fn value(peak: f64, exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
+        highlight(peak, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye))
     }
 
     /// Reflection at the half vector h spreads the pdf of h over 4 (ωₒ · h) times the solid angle.
     #[inline(always)]
-    fn pdf(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let exponent = self.exponent[row];
+    fn pdf(exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64 {
         let facing = to_eye.dot((to_light + to_eye).normalize_or_zero());
         let of_half = highlight((exponent + 1.0) / TAU, exponent, half_vector_cosine(DVec3::Z, to_light, to_eye));
         if facing > 0.0 { of_half / (4.0 * facing) } else { 0.0 }
     }
 
     #[inline(always)]
-    fn sample(&self, row: usize, to_eye: DVec3, numbers: [f64; 2]) -> DVec3 {
-        let half = lobe_direction(DVec3::Z, self.exponent[row], numbers);
+    fn sample(exponent: f64, to_eye: DVec3, numbers: [f64; 2]) -> DVec3 {
+        let half = lobe_direction(DVec3::Z, exponent, numbers);
         // A half vector that faces away from the eye is none of any pair of directions.
         if to_eye.dot(half) > 0.0 { mirror_direction(-to_eye, half) } else { -DVec3::Z }
     }

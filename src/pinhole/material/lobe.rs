@@ -1,22 +1,38 @@
-use super::{BsdfSample, cosine_direction, cosine_pdf, frame_of};
-use crate::plan::Table;
+use super::{BsdfSample, HighlightTable, cosine_direction, cosine_pdf, frame_of};
+use crate::scene::Rgb;
+use bevy_ecs::prelude::Component;
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// The diffuse albedo, specular albedo and exponent of the materials with highlights that tests render.
-pub(super) const HIGHLIGHTS: &[[f64; 3]] = &[[0.4, 0.3, 12.0], [0.05, 0.9, 100.0], [0.0, 1.0, 0.0]];
-
 /// The specular lobe of a material that has one beside its diffuse reflection; directions are unit vectors in the
 /// frame of the surface, whose normal is +z.
-pub trait Lobe: Table {
-    /// The specular albedo of a row: red, green, blue.
-    fn specular(&self, row: usize) -> [f64; 3];
-    /// The lobe of a row without its albedo, in 1/sr.
-    fn value(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64;
+pub trait Lobe: Send + Sync + Sized + 'static {
+    /// The material's component.
+    type Component: Component + Copy + Default;
+    /// The name of the table of its parameters.
+    const TABLE: &'static str;
+    /// The component's name.
+    const COMPONENT: &'static str;
+    /// The component's word in messages and in scene files.
+    const WORD: &'static str;
+    /// One such surface, in the reasons of the plan.
+    const NOUN: &'static str;
+
+    /// A component's diffuse and specular albedo.
+    fn albedos(component: &Self::Component) -> [Rgb; 2];
+    /// A component's exponent.
+    fn exponent(component: &Self::Component) -> f64;
+    /// The component of these.
+    fn component(albedos: [Rgb; 2], exponent: f64) -> Self::Component;
+
+    /// The value at the centre of a lobe, in 1/sr.
+    fn peak(exponent: f64) -> f64;
+    /// The lobe without its albedo, in 1/sr.
+    fn value(peak: f64, exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64;
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
-    fn pdf(&self, row: usize, to_light: DVec3, to_eye: DVec3) -> f64;
+    fn pdf(exponent: f64, to_light: DVec3, to_eye: DVec3) -> f64;
     /// Samples a direction to the light with two numbers in [0, 1); it may lead below the surface.
-    fn sample(&self, row: usize, to_eye: DVec3, numbers: [f64; 2]) -> DVec3;
+    fn sample(exponent: f64, to_eye: DVec3, numbers: [f64; 2]) -> DVec3;
 }
 
 // ANCHOR: lobe_direction
@@ -35,7 +51,7 @@ pub(super) fn lobe_direction(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DV
 /// A material of diffuse reflection and a specular lobe, in the frame of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Highlight<'a, L> {
-    lobes: &'a L,
+    lobes: &'a HighlightTable<L>,
     row: usize,
     colour: [f64; 3],
     /// The probability with which the lobe is sampled: its part of the albedo.
@@ -45,8 +61,8 @@ pub struct Highlight<'a, L> {
 impl<'a, L: Lobe> Highlight<'a, L> {
     /// The material of a row of the lobes, with its diffuse colour.
     #[inline(always)]
-    pub fn new(lobes: &'a L, row: usize, colour: [f64; 3]) -> Self {
-        let [specular, diffuse] = [lobes.specular(row), colour].map(|[r, g, b]| r + g + b);
+    pub fn new(lobes: &'a HighlightTable<L>, row: usize, colour: [f64; 3]) -> Self {
+        let [specular, diffuse] = [lobes.specular[row], colour].map(|[r, g, b]| r + g + b);
         let whole = specular + diffuse;
         Self { lobes, row, colour, of_lobe: if whole > 0.0 { specular / whole } else { 0.0 } }
     }
@@ -54,14 +70,15 @@ impl<'a, L: Lobe> Highlight<'a, L> {
     /// The BRDF in 1/sr: red, green, blue.
     #[inline(always)]
     pub fn brdf(&self, to_light: DVec3, to_eye: DVec3) -> [f64; 3] {
-        let (value, specular) = (self.lobes.value(self.row, to_light, to_eye), self.lobes.specular(self.row));
+        let (peak, specular) = (self.lobes.peak[self.row], self.lobes.specular[self.row]);
+        let value = L::value(peak, self.lobes.exponent[self.row], to_light, to_eye);
         [0, 1, 2].map(|part| self.colour[part] * FRAC_1_PI + specular[part] * value)
     }
 
     /// The pdf with which [`Self::sample`] chooses `to_light`, in 1/sr.
     #[inline(always)]
     pub fn pdf(&self, to_light: DVec3, to_eye: DVec3) -> f64 {
-        let of_lobe = if self.of_lobe > 0.0 { self.lobes.pdf(self.row, to_light, to_eye) } else { 0.0 };
+        let of_lobe = if self.of_lobe > 0.0 { L::pdf(self.lobes.exponent[self.row], to_light, to_eye) } else { 0.0 };
         self.of_lobe * of_lobe + (1.0 - self.of_lobe) * cosine_pdf(to_light.z)
     }
 
@@ -71,7 +88,8 @@ impl<'a, L: Lobe> Highlight<'a, L> {
     #[inline(always)]
     pub fn sample(&self, to_eye: DVec3, numbers: [f64; 2], choice: f64) -> Option<BsdfSample> {
         let specular = choice < self.of_lobe;
-        let to_light = if specular { self.lobes.sample(self.row, to_eye, numbers) } else { cosine_direction(numbers) };
+        let exponent = self.lobes.exponent[self.row];
+        let to_light = if specular { L::sample(exponent, to_eye, numbers) } else { cosine_direction(numbers) };
         let pdf = self.pdf(to_light, to_eye);
         let weight = self.brdf(to_light, to_eye).map(|brdf| brdf * to_light.z / pdf);
         (to_light.z > 0.0 && pdf > 0.0).then_some(BsdfSample { to_light, pdf, weight })
@@ -81,7 +99,7 @@ impl<'a, L: Lobe> Highlight<'a, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{BlinnPhongTable, PhongTable, blinn_phong_peak, phong_peak};
+    use crate::material::{BlinnPhongTable, PhongTable};
     use crate::measure::chi_squared::{Bins, p_value};
     use crate::measure::ray_aim::Draws;
     use std::f64::consts::PI;
@@ -95,11 +113,11 @@ mod tests {
     const STEPS: usize = 32;
 
     fn phong(exponent: f64) -> PhongTable {
-        PhongTable { specular: vec![[0.3; 3]], exponent: vec![exponent], peak: vec![phong_peak(exponent)] }
+        PhongTable::new(vec![[0.3; 3]], vec![exponent])
     }
 
     fn blinn_phong(exponent: f64) -> BlinnPhongTable {
-        BlinnPhongTable { specular: vec![[0.3; 3]], exponent: vec![exponent], peak: vec![blinn_phong_peak(exponent)] }
+        BlinnPhongTable::new(vec![[0.3; 3]], vec![exponent])
     }
 
     fn eye_at(degrees: f64) -> DVec3 {
@@ -124,7 +142,7 @@ mod tests {
 
     /// Directions have their pdf, the mean of the weights is the albedo, and no white surface gives back more than it
     /// gets.
-    fn check<L: Lobe>(name: &str, lobes: &L, exponent: f64, angle: f64, colour: f64, seed: u64) -> f64 {
+    fn check<L: Lobe>(name: &str, lobes: &HighlightTable<L>, exponent: f64, angle: f64, colour: f64, seed: u64) -> f64 {
         const SAMPLES: u64 = 60_000;
         let (material, eye) = (Highlight::new(lobes, 0, [colour; 3]), eye_at(angle));
         // The last bin is for directions below the surface.

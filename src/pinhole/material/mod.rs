@@ -24,6 +24,7 @@ mod fresnel;
 mod ggx;
 mod glass;
 mod highlight;
+mod highlight_table;
 mod kind;
 mod lobe;
 mod matte;
@@ -55,7 +56,7 @@ macro_rules! for_each_bsdf {
 // ANCHOR_END: bsdf_list
 pub(crate) use for_each_bsdf;
 
-pub use blinn_phong::{BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
+pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
 pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Site, SpecularSample, StageNames, Transport};
 pub use erased::ErasedBsdf;
 pub use frame::{cosine_direction, cosine_pdf, frame_of, same_side};
@@ -63,13 +64,14 @@ pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};
 pub use glass::{SmoothGlass, glass_event, glass_samples};
 pub use highlight::highlight;
+pub use highlight_table::HighlightTable;
 pub use kind::MaterialKind;
 pub use lobe::{Highlight, Lobe};
 pub use matte::MatteTable;
 pub use metal::{MetalTable, SMOOTHEST_METAL};
 pub use mirror::MirrorTable;
 pub use multiple_scattering::{ByCosine, MultipleScattering, multiple_scattering_albedo, single_scattering};
-pub use phong::{PhongTable, mirror_cosine, phong_peak};
+pub use phong::{PhongLobe, PhongTable, mirror_cosine, phong_peak};
 pub use principled::PrincipledTable;
 pub use registered::{
     REGISTERED, Registration, Spawn, declared_materials, is_material, material_entities, material_kind,

@@ -51,6 +51,7 @@ mod frustum;
 mod interval;
 mod kind;
 mod offset;
+mod placed_frustum;
 mod planar;
 mod plane;
 mod quartic;
@@ -84,6 +85,7 @@ pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_
 pub use frustum::Frustum;
 pub use kind::ShapeKind;
 pub use offset::{l1_norm, offset_bound, offset_origin};
+pub use placed_frustum::{FrustumShape, PlacedFrustum};
 pub use planar::{Crossing, Planar, crossing};
 pub use plane::{PlacedPlane, plane_t};
 pub use ray_block::{Intersection, RaySlices, nearness};

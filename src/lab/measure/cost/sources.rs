@@ -8,8 +8,21 @@ use std::path::{Path, PathBuf};
 const SOURCE: FileKind = FileKind { name: "a source", most: 16 << 20 };
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 10] =
-    ["plan", "shapes", "extract", "sample", "rays", "intersect", "shade", "follow", "film", "render"];
+const FOLDERS: [&str; 13] = [
+    "plan",
+    "cameras",
+    "shapes",
+    "material",
+    "filters",
+    "extract",
+    "sample",
+    "rays",
+    "intersect",
+    "shade",
+    "follow",
+    "film",
+    "render",
+];
 
 /// A fingerprint (FNV-1a, 64 bits) of the sources that decide what a chapter's stages cost: those of the stages and of
 /// the loop that runs them, and the chapter's own. The ends of lines do not count.

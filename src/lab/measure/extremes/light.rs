@@ -13,7 +13,7 @@ use pinhole::extract::{
 };
 use pinhole::follow;
 use pinhole::intersect::{MaterialRows, Surface, Surfaces};
-use pinhole::material::{BlinnPhongTable, PhongTable, blinn_phong_peak, highlight, mirror_cosine, phong_peak};
+use pinhole::material::{BlinnPhongTable, PhongTable, highlight, mirror_cosine, phong_peak};
 use pinhole::scene::Degrees;
 use pinhole::shade::{self, LightRays, Radiance, spot_falloff, versine};
 use pinhole::shapes::offset_bound;
@@ -209,9 +209,8 @@ fn materials(bench: &mut Bench, exponent: f64, colour: [f64; 3], specular: [f64;
     let kind = vec![MaterialKind::Matte, MaterialKind::Phong, MaterialKind::BlinnPhong];
     bench.insert(MaterialTable::opaque(kind, vec![colour; 3]));
     let (specular, exponents) = (vec![specular], vec![exponent]);
-    let peak = vec![phong_peak(exponent)];
-    bench.insert(PhongTable { specular: specular.clone(), exponent: exponents.clone(), peak });
-    bench.insert(BlinnPhongTable { specular, exponent: exponents, peak: vec![blinn_phong_peak(exponent)] });
+    bench.insert(PhongTable::new(specular.clone(), exponents.clone()));
+    bench.insert(BlinnPhongTable::new(specular, exponents));
 }
 
 /// One light of each kind, the spot's edge at the surface.
