@@ -48,6 +48,7 @@ mod light_tracing;
 mod material;
 mod motion;
 mod moving;
+mod normal_map;
 mod on_camera;
 mod pixel_steps;
 mod point_light;
@@ -105,6 +106,7 @@ pub use material::{
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
+pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
 pub use point_light::PointLightTable;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
@@ -165,6 +167,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<CheckerTable>,
     answer::<StripesTable>,
     answer::<ImageTable>,
+    answer::<NormalMapTable>,
     answer::<BackgroundTable>,
     answer::<GradientTable>,
     answer::<EnvironmentTable>,

@@ -1,14 +1,15 @@
 use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
 use super::integrator::light_sampling_evidence;
+use super::normal_map::normal_map_evidence;
 use super::pose::unevenly_scaled;
 use super::shape_kind::moving_shapes;
 use super::texture::texture_evidence;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
 use crate::scene::{
-    Checker, DirectionalLight, Disk, Emissive, ImageTexture, Motion, PointLight, Rectangle, SceneError, Shutter,
-    Sphere, SpotLight, Stripes, UsesMaterial, called,
+    Checker, DirectionalLight, Disk, Emissive, ImageTexture, Motion, NormalMap, PointLight, Rectangle, SceneError,
+    Shutter, Sphere, SpotLight, Stripes, UsesMaterial, called,
 };
 use bevy_ecs::prelude::*;
 use glam::DVec3;
@@ -119,7 +120,8 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
             "while the shutter is open only shapes and the camera may move, no light",
         );
     }
-    let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
+    let textured = texture_evidence(scene).needed || normal_map_evidence(scene).needed;
+    let sampled = light_sampling_evidence(scene).needed;
     for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
         let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);
@@ -131,7 +133,8 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
         let has = |such: &dyn Fn(EntityRef<'_>) -> bool| such(own) || used.is_some_and(such);
         let texture = |own: EntityRef<'_>| {
-            own.contains::<Checker>() || own.contains::<Stripes>() || own.contains::<ImageTexture>()
+            let coloured = own.contains::<Checker>() || own.contains::<Stripes>() || own.contains::<ImageTexture>();
+            coloured || own.contains::<NormalMap>()
         };
         if textured && has(&texture) {
             let accepted = "while the shutter is open nothing with a texture may move";

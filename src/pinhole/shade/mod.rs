@@ -30,6 +30,7 @@ mod image_texture;
 mod light;
 mod light_targets;
 mod lookup;
+mod normal_map;
 mod point_light;
 mod radiance;
 mod receivers;
@@ -84,6 +85,8 @@ pub use light::{
 pub use light_targets::{MAX_TARGETS_SOLID_ANGLE, direction_to_targets};
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
+#[doc(hidden)]
+pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
 #[doc(hidden)]
 pub use point_light::{irradiance_from_point, point_light_stage, sample_point_lights};
 pub use radiance::Radiance;
