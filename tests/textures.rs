@@ -291,7 +291,7 @@ fn a_mapped_normal_leans_along_the_neighbours_u_and_v() {
         assert!(seen > 900 && (from_behind > 100 || has_inside), "{number}: {seen} seen, {from_behind} from behind");
         tried += seen;
     }
-    eprintln!("normal maps: {tried} normals on ten shapes, the worst of each {worst:.0e?} apart");
+    eprintln!("normal maps: {tried} normals on ten shapes, the worst of each {worst:.3?} apart");
     assert!(worst.iter().all(|worst| *worst < 0.03), "{worst:?}");
 }
 
