@@ -121,7 +121,7 @@ impl Frustum {
     fn inward(&self, surface: SurfacePoint, other: DVec3, off: f64) -> SurfacePoint {
         let steps = (self.space.unit_from_world.transpose() * other).length();
         let lacking = 2.0 * f64::from(surface.bound) * steps - off;
-        if surface.outside || !self.capped || !(lacking > 0.0 && lacking < 0.1) {
+        if surface.outside || !self.capped || !(lacking > 0.0 && lacking < 0.25) {
             return surface;
         }
         // A point at least a quarter away from every part in unit space.
