@@ -1,6 +1,8 @@
 //! Shutter and motion, against closed forms: how much of a pixel something covers, on average over the time that the
 //! shutter is open.
 
+mod all_shapes;
+
 use crate::scenes;
 
 use bevy_ecs::prelude::*;

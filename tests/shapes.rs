@@ -1,14 +1,18 @@
 //! What every registered shape must hold, with no line for any of them: a new shape is tested as soon as it is listed.
 
+mod closed_forms;
+
 use bevy_ecs::prelude::*;
-use glam::{DQuat, DVec3, Vec3};
-use pinhole::extract::{ShapesOf, pose};
-use pinhole::plan::{Census, Table};
+use glam::DVec3;
+use pinhole::extract::pose;
+use pinhole::plan::Census;
 use pinhole::scene::*;
 use pinhole::shapes::emitter::Emitting;
-use pinhole::shapes::{Listed, RayHit, SceneShape, Shape, offset_origin, with_shapes};
+use pinhole::shapes::{RayHit, SceneShape, with_shapes};
+use pinhole_lab::measure::extremes::{Group, try_group};
 use pinhole_lab::measure::oracle::Oracle;
-use pinhole_lab::measure::ray_aim::{AimedRay, Draws, rounded_ray};
+use pinhole_lab::measure::ray_aim::Draws;
+use pinhole_lab::measure::specimen::Specimen;
 
 /// Calls a generic function for every registered shape.
 macro_rules! for_each_shape {
@@ -22,46 +26,6 @@ macro_rules! for_each_shape {
 }
 with_shapes!(for_each_shape);
 
-/// A shape in render space, with the placement that it is made from.
-struct Specimen<S: Shape> {
-    shape: S,
-    beside: S::Beside,
-    component: S::Component,
-    placement: Placement,
-}
-
-impl<S: Listed> Specimen<S> {
-    /// A component at a placement, the eye being the world's origin; none where it is refused.
-    fn of(component: S::Component, placement: Placement) -> Option<Self> {
-        let table = Table::extract(&Census::of(&scene(component, placement))).ok()?;
-        let ShapesOf::<S> { mut row, mut beside, .. } = table;
-        Some(Self { shape: row.pop()?, beside: beside.pop()?, component, placement })
-    }
-
-    /// One of the component's examples of a random size from 10 to these powers, turned at random, its origin this many
-    /// sizes away.
-    fn drawn(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
-        let examples = S::Component::examples();
-        let mut component = examples[(draws.unit() * examples.len() as f64) as usize];
-        let size = draws.power_of_ten(sizes[0], sizes[1]);
-        component.scale(size);
-        let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
-        let orientation = DQuat::from_xyzw(x, y, z, w).normalize();
-        let scale = match S::UNEVEN {
-            Some(false) => DVec3::splat(draws.between(0.5, 2.0)),
-            _ => DVec3::new(draws.between(0.5, 2.0), draws.between(0.2, 1.0), draws.between(0.5, 3.0)),
-        };
-        let position = draws.unit_vector() * (size * away);
-        Self::of(component, Placement { position, orientation, scale })
-    }
-
-    /// The surface where a ray hits it, if it does.
-    fn hit(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
-        let t = self.shape.t(origin, direction);
-        t.is_finite().then_some(RayHit { origin, direction, t, displacement: DVec3::ZERO })
-    }
-}
-
 fn scene<C: SceneShape>(component: C, placement: Placement) -> World {
     let mut world = World::new();
     world.spawn((PerspectiveCamera::default(), Resolution { width: 16, height: 16 }));
@@ -69,92 +33,23 @@ fn scene<C: SceneShape>(component: C, placement: Placement) -> World {
     world
 }
 
-/// Two directions from a point, as near to one another as f32 allows: one hits a shape and the other misses it.
-fn at_silhouette<S: Shape>(shape: &S, origin: Vec3, towards: DVec3, beside: DVec3) -> Option<[AimedRay; 2]> {
-    let hits = |ray: AimedRay| shape.t(ray.origin.as_dvec3(), ray.direction.as_dvec3()).is_finite();
-    let ray = |part: f64| rounded_ray(origin, towards + beside * part);
-    let (mut inside, mut outside) = (0.0, 1.0);
-    if !hits(ray(inside)) || hits(ray(outside)) {
-        return None;
-    }
-    while ray(inside) != ray(outside) && (outside - inside) > 1e-15 {
-        let middle = 0.5 * (inside + outside);
-        if hits(ray(middle)) { inside = middle } else { outside = middle }
-    }
-    Some([ray(inside), ray(outside)])
-}
-
-/// Rays on both sides of the silhouette, from afar, against exact arithmetic.
-fn check_silhouettes<S: Oracle>(name: &str) {
-    const TRIED: u64 = 600;
-    let (mut rays, mut wrong) = (0, 0);
-    for away in [1e3, 1e5, 1e7] {
-        for index in 0..TRIED {
-            let mut draws = Draws::new(3001, index);
-            let Some(specimen) = Specimen::<S>::drawn(&mut draws, [-1.0, 1.0], away) else { continue };
-            let Some((centre, radius)) = specimen.shape.bounding_sphere() else { continue };
-            let (aim, past) = (draws.unit_vector() * (0.3 * radius), draws.unit_vector_across(centre.normalize()));
-            let Some(pair) = at_silhouette(&specimen.shape, Vec3::ZERO, centre + aim, past * (3.0 * radius)) else {
-                continue;
-            };
-            for ray in pair {
-                let found = specimen.shape.t(ray.origin.as_dvec3(), ray.direction.as_dvec3());
-                let exact = specimen.shape.exact_t(ray);
-                let off = exact.map_or(0.0, |exact| (found / exact - 1.0).abs());
-                wrong += usize::from(found.is_finite() != exact.is_some() || off > 1.2e-7);
-                rays += 1;
-            }
-        }
-    }
-    eprintln!("silhouettes of {name}: {rays} rays, {wrong} misjudged");
-    assert_eq!(wrong, 0, "{name}");
-    assert!(rays > 500 || S::Component::WORD == "plane", "{name}: only {rays} rays");
-}
-
+/// The cases that `cargo run --profile bench -- extremes shapes --rays 1000000` tries in full.
 #[test]
-fn no_ray_at_a_silhouette_is_misjudged() {
-    each!(check_silhouettes);
-}
-
-/// Rays that leave a surface on the side that they arrived on: the surface itself is never hit again at once.
-fn check_self_hits<S: Oracle>(name: &str) {
-    const TRIED: u64 = 3000;
-    let (mut rays, mut wrong) = (0, 0);
-    for index in 0..TRIED {
-        let mut draws = Draws::new(3002, index);
-        let away = draws.power_of_ten(-2.0, 4.0);
-        let Some(specimen) = Specimen::<S>::drawn(&mut draws, [-8.0, 8.0], away) else { continue };
-        let size = specimen.shape.bounding_sphere().map_or(1.0, |(_, radius)| radius);
-        let middle = specimen.shape.bounding_sphere().map_or(specimen.placement.position, |(centre, _)| centre);
-        let origin = (middle + draws.unit_vector() * (size * draws.power_of_ten(0.1, 2.0))).as_vec3();
-        let ray = rounded_ray(origin, middle + draws.unit_vector() * (0.5 * size) - origin.as_dvec3());
-        let Some(hit) = specimen.hit(ray.origin.as_dvec3(), ray.direction.as_dvec3()) else { continue };
-        let surface = specimen.shape.surface(&specimen.beside, &hit);
-        let (normal, bound) = (surface.normal.as_vec3(), f64::from(surface.bound));
-        // Where the bound is not small beside the shape, there is no room between its two sides.
-        if !surface.outside || bound > 1e-3 * size {
-            continue;
-        }
-        let leaving = offset_origin(surface.point.as_vec3(), normal, surface.bound);
-        let along = draws.unit_vector_across(normal.as_dvec3().normalize());
-        let direction = along + normal.as_dvec3() * draws.power_of_ten(-4.0, 1.0);
-        let next = rounded_ray(leaving, direction);
-        let t = specimen.shape.t(next.origin.as_dvec3(), next.direction.as_dvec3());
-        // A surface that is concave may be hit again at once, but on its outer side.
-        let again = specimen.hit(next.origin.as_dvec3(), next.direction.as_dvec3());
-        let again = again.map(|hit| (hit.direction, specimen.shape.surface(&specimen.beside, &hit)));
-        let genuine = again.is_some_and(|(direction, at)| at.outside && at.normal.dot(direction) < 0.0);
-        wrong += usize::from(t < 64.0 * bound && !genuine);
-        rays += 1;
+fn no_ray_at_a_silhouette_is_misjudged_and_none_hits_the_surface_that_it_leaves() {
+    const RAYS: u64 = 1024;
+    let cases = try_group(Group::Shapes, "", RAYS, &());
+    for case in &cases {
+        eprint!("{case}");
+        assert!(case.held(), "{case}");
+        assert_eq!((case.rays, case.hits), (RAYS, RAYS), "{}: rays without anything to check", case.name);
     }
-    eprintln!("self-hits of {name}: {rays} rays, {wrong} hit their own surface at once");
-    assert_eq!(wrong, 0, "{name}");
-    assert!(rays > 200, "{name}: only {rays} rays");
-}
-
-#[test]
-fn no_ray_hits_the_surface_that_it_leaves() {
-    each!(check_self_hits);
+    let names = |plural: &str| cases.iter().filter(|case| case.name.starts_with(plural)).count();
+    macro_rules! count {
+        ($($kind:ident($shape:ty) $field:ident $plural:literal,)+) => {
+            $(assert!(names($plural) >= if $plural == "planes" { 1 } else { 4 }, "{}", $plural);)+
+        };
+    }
+    with_shapes!(count);
 }
 
 /// Rays towards a shape of ordinary size from around it, and what they hit.

@@ -1,6 +1,6 @@
 //! What is refused of lenses, shutters and motion.
 
-use super::cases::{Case, Field, child_of, edit, good, put};
+use super::cases::{Case, Field, child_of, good, put};
 use super::{kept, scene_error};
 use crate::scenes::Eye;
 use bevy_ecs::prelude::*;
@@ -41,13 +41,6 @@ const PERSPECTIVE: &[Case] = &[
     ("a shutter that closes before it opens", &["\"main\"", "close is 0.5", "opens at 1"], |w| shutter(w, 1.0, 0.5)),
     ("a shutter that opens too late", &["\"main\"", "open is 1e10", "1e9"], |w| shutter(w, 1e10, 2e10)),
     ("a shutter on a ball", &["\"ball\"", "shutter is given to no camera"], |w| put(w, "ball", Shutter::default())),
-    ("a moving floor", &["shape \"floor\"", "motion is given to another kind", "spheres, disks"], |w| {
-        moves(w, "floor")
-    }),
-    ("a moving egg", &["shape \"ball\"", "motion is given to another kind"], |w| {
-        edit::<Placement>(w, "ball", |place| place.scale = DVec3::new(1.0, 2.0, 1.0));
-        moves(w, "ball");
-    }),
     ("a moving lamp", &["light \"lamp\"", "motion is given", "no light"], |w| moves(w, "lamp")),
     ("a moving sun in a moving group", &["light \"sun\"", "motion is given"], |w| {
         let group = w.spawn((Name::new("group"), Placement::default())).id();
@@ -58,6 +51,10 @@ const PERSPECTIVE: &[Case] = &[
         put(w, "ball", Checker::default());
         moves(w, "ball");
     }),
+    ("triangles of one glass that move apart", &["\"side 1\"", "motion is", "move alike"], |w| {
+        tetrahedron(w, 4, |side| side == 1);
+    }),
+    ("moving glass that is open", &["\"side 0\"", "material is the glass", "an edge"], |w| tetrahedron(w, 3, |_| true)),
     ("a lens on a ball", &["\"ball\"", "lens is given to no camera", "PerspectiveCamera"], |w| {
         put(w, "ball", Lens::default());
     }),
@@ -69,6 +66,20 @@ fn shutter(world: &mut World, open: f64, close: f64) {
 
 fn moves(world: &mut World, name: &str) {
     velocity(world, name, DVec3::X);
+    shutter(world, 0.0, 1.0);
+}
+
+/// The first sides of a tetrahedron of glass, of which some move.
+fn tetrahedron(world: &mut World, sides: usize, moves: impl Fn(usize) -> bool) {
+    let [a, b, c, d] =
+        [DVec3::ONE, DVec3::new(1.0, -1.0, -1.0), DVec3::new(-1.0, 1.0, -1.0), DVec3::new(-1.0, -1.0, 1.0)];
+    let glass = world.spawn(Glass::default()).id();
+    for (side, vertices) in [[a, b, c], [a, d, b], [a, c, d], [b, d, c]].into_iter().take(sides).enumerate() {
+        let triangle = Triangle { vertices, ..Triangle::default() };
+        let side_name = Name::new(format!("side {side}"));
+        let velocity = if moves(side) { DVec3::X } else { DVec3::ZERO };
+        world.spawn((side_name, triangle, UsesMaterial(glass), Motion { velocity }));
+    }
     shutter(world, 0.0, 1.0);
 }
 

@@ -32,4 +32,5 @@ pub mod oracle_torus;
 pub mod oracle_triangle;
 pub mod planar_aim;
 pub mod ray_aim;
+pub mod specimen;
 pub mod sweep;

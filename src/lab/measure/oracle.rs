@@ -1,19 +1,41 @@
-//! The exact oracle of every registered shape: the distance with more precision than any method has.
+//! The exact oracle of every registered shape: the distance with more precision than any method has, and the side on
+//! which a point lies.
 
-use super::ray_aim::AimedRay;
+use super::ray_aim::{AimedRay, Draws};
 use super::{
     oracle_cuboid, oracle_disk, oracle_ellipsoid, oracle_frustum, oracle_plane, oracle_rectangle, oracle_sphere,
     oracle_torus, oracle_triangle,
 };
+use glam::DVec3;
 use pinhole::shapes::{
-    Ellipsoid, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedPlane, PlacedRectangle, PlacedSphere,
+    Ellipsoid, Frustum, FrustumShape, Listed, PlacedDisk, PlacedFrustum, PlacedPlane, PlacedRectangle, PlacedSphere,
     PlacedTorus, Slabs, TriangleRow,
 };
+use std::f64::consts::TAU;
 
 /// A shape whose intersections are known exactly.
 pub trait Oracle: Listed {
+    /// Whether a ray that leaves it on the outside never hits it again.
+    const IS_CONVEX: bool = true;
+    /// Whether a ray that leaves it on either side never hits it again.
+    const IS_PLANAR: bool = false;
+
     /// The smallest t > 0 at which a ray intersects it, if any, rounded to f64 once.
     fn exact_t(&self, ray: AimedRay) -> Option<f64>;
+
+    /// 1 for a point outside it or on the side of its normal, −1 for one on the other side, 0 for one on its surface,
+    /// exactly.
+    fn exact_side(&self, point: DVec3) -> i32;
+
+    /// Whether a ray first hits it on the side that its origin lies on; not so where it has open ends.
+    fn parts_space(&self) -> bool {
+        true
+    }
+
+    /// A random point inside it or close to its middle, to which rays are aimed; none for one that is infinite.
+    fn aim(&self, draws: &mut Draws) -> Option<DVec3> {
+        self.bounding_sphere().map(|(centre, radius)| centre + draws.unit_vector() * (0.3 * radius))
+    }
 }
 
 impl Oracle for PlacedSphere {
@@ -21,30 +43,58 @@ impl Oracle for PlacedSphere {
         let &Self { centre, radius } = self;
         oracle_sphere::sphere_t(origin, direction, oracle_sphere::Sphere { centre, radius })
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        let &Self { centre, radius } = self;
+        oracle_sphere::side_of_sphere(point, oracle_sphere::Sphere { centre, radius }) as i32
+    }
 }
 
 impl Oracle for Ellipsoid {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_ellipsoid::ellipsoid_t(origin, direction, self)
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_ellipsoid::side_of_ellipsoid(point, self)
+    }
 }
 
 impl Oracle for PlacedPlane {
+    const IS_PLANAR: bool = true;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         let &Self { normal, offset } = self;
         oracle_plane::plane_t(origin, direction, oracle_plane::Plane { normal, offset })
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        let &Self { normal, offset } = self;
+        oracle_plane::side_of_plane(point, oracle_plane::Plane { normal, offset }) as i32
+    }
 }
 
 impl Oracle for PlacedDisk {
+    const IS_PLANAR: bool = true;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_disk::disk_t(origin, direction, &self.planar)
+    }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_disk::side_of_planar(point, &self.planar) as i32
     }
 }
 
 impl Oracle for PlacedRectangle {
+    const IS_PLANAR: bool = true;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_rectangle::rectangle_t(origin, direction, &self.planar)
+    }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_disk::side_of_planar(point, &self.planar) as i32
     }
 }
 
@@ -52,11 +102,21 @@ impl Oracle for Slabs {
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_cuboid::cuboid_t(origin, direction, self).map(|(t, _)| t)
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_cuboid::side_of_cuboid(point, self)
+    }
 }
 
 impl Oracle for TriangleRow {
+    const IS_PLANAR: bool = true;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_triangle::triangle_t(origin, direction, self.corners)
+    }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_triangle::side_of_triangle(point, self.corners) as i32
     }
 }
 
@@ -67,10 +127,46 @@ where
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_frustum::frustum_t(origin, direction, &self.frustum)
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_frustum::side_of_frustum(point, &self.frustum)
+    }
+
+    fn parts_space(&self) -> bool {
+        self.frustum.capped
+    }
+
+    fn aim(&self, draws: &mut Draws) -> Option<DVec3> {
+        Some(within_frustum(&self.0, draws))
+    }
 }
 
 impl Oracle for PlacedTorus {
+    const IS_CONVEX: bool = false;
+
     fn exact_t(&self, AimedRay { origin, direction }: AimedRay) -> Option<f64> {
         oracle_torus::torus_t(origin, direction, self)
     }
+
+    fn exact_side(&self, point: DVec3) -> i32 {
+        oracle_torus::side_of_torus(point, self)
+    }
+
+    fn aim(&self, draws: &mut Draws) -> Option<DVec3> {
+        let [(cos, sin), (out, up)] = [(); 2].map(|()| {
+            let angle = draws.between(0.0, TAU);
+            (libm::cos(angle), libm::sin(angle))
+        });
+        let tube = self.minor * draws.unit().sqrt();
+        let across = self.major + tube * out;
+        Some(self.space.centre + self.space.world_from_unit * DVec3::new(across * cos, tube * up, across * sin))
+    }
+}
+
+/// A random point within the side of a cylinder or a cone and between its ends.
+fn within_frustum(frustum: &Frustum, draws: &mut Draws) -> DVec3 {
+    let (angle, height) = (draws.between(0.0, TAU), draws.between(-1.0, 1.0));
+    let radius = (frustum.profile[0] + frustum.profile[1] * height) * draws.unit().sqrt();
+    let at = DVec3::new(radius * libm::cos(angle), height, radius * libm::sin(angle));
+    frustum.space.centre + frustum.space.world_from_unit * at
 }

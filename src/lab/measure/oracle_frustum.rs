@@ -7,7 +7,7 @@ use super::enclosure::Enclosure;
 use super::exact::Dyadic;
 use super::exact_vector::Vector;
 use super::number::Number;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use pinhole::shapes::{Frustum, UnitSpace};
 
 /// A v, in unit space.
@@ -62,4 +62,21 @@ pub fn frustum_t(origin: Vec3, direction: Vec3, frustum: &Frustum) -> Option<f64
     let enclosed =
         hit::<Enclosure>(origin, direction, frustum).and_then(|t| t.map_or(Some(None), |t| t.rounded().map(Some)));
     enclosed.unwrap_or_else(|| hit::<Dyadic>(origin, direction, frustum).flatten().map(|t| t.to_f64()))
+}
+
+/// 1 where the point lies outside, −1 inside, 0 on it, exactly; if it is open, inside is what its side goes around,
+/// however far beyond its ends.
+///
+/// # Panics
+/// When an input is not finite.
+#[must_use]
+pub fn side_of_frustum(point: DVec3, frustum: &Frustum) -> i32 {
+    fn side<N: Number>(point: DVec3, frustum: &Frustum) -> Option<i32> {
+        let [x, y, z]: [N; 3] = to_unit(&frustum.space, &Vector::of(point).minus(&Vector::of(frustum.space.centre)));
+        let radius = N::of(frustum.profile[0]).plus(&N::of(frustum.profile[1]).by(&y));
+        let around = if radius.sign()? < 0 { 1 } else { x.by(&x).plus(&z.by(&z)).less(&radius.by(&radius)).sign()? };
+        let beyond = if frustum.capped { y.by(&y).less(&N::of(1.0)).sign()? } else { -1 };
+        Some(around.max(beyond))
+    }
+    side::<Enclosure>(point, frustum).or_else(|| side::<Dyadic>(point, frustum)).unwrap_or(0)
 }

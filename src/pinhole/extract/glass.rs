@@ -2,11 +2,13 @@ use super::TriangleTable;
 use super::check::kind_and_name;
 use super::closed_mesh::{OpenMesh, open_mesh};
 use super::material::used_material;
-use super::shape_kind::{one_shape, shape_entities, shape_name};
+use super::shape_kind::{moving_shapes, one_shape, shape_entities, shape_name};
+use super::velocity::{moves_while_open, velocity_of};
 use crate::material::{interior_of, material_entities};
 use crate::plan::{Census, Table};
 use crate::scene::{SceneError, called};
 use bevy_ecs::prelude::*;
+use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// What fills the shapes whose surfaces transmit light, one row for each such material, in spawn order.
@@ -58,9 +60,12 @@ fn check_closed(scene: &Census<'_>) -> Result<(), SceneError> {
     check_meshes(scene)
 }
 
-/// Checks that the triangles of each kind of glass close around an interior.
+/// Checks that the triangles of each kind of glass close around an interior, and move together if they move.
 fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
-    let (triangles, shapes) = (scene.table::<TriangleTable>()?, shape_entities(scene));
+    let shapes = shape_entities(scene);
+    let all = if moving_shapes(scene).is_empty() { None } else { Some(TriangleTable::that(scene, |_| true)?) };
+    let still = scene.table::<TriangleTable>()?;
+    let triangles = all.as_ref().unwrap_or(&still);
     let mut meshes: BTreeMap<Entity, Vec<usize>> = BTreeMap::new();
     for (row, &shape) in triangles.shape.iter().enumerate() {
         let material = shapes.get(shape as usize).and_then(|&shape| used_material(scene, shape));
@@ -68,7 +73,20 @@ fn check_meshes(scene: &Census<'_>) -> Result<(), SceneError> {
             meshes.entry(material).or_default().push(row);
         }
     }
-    let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(&triangles, rows)?, *material)));
+    let moves = moves_while_open(scene);
+    let velocity = |row: usize| {
+        let entity = shapes[triangles.shape[row] as usize];
+        if moves(entity) { velocity_of(scene, entity) } else { DVec3::ZERO }
+    };
+    for rows in meshes.values() {
+        if let Some(&row) = rows.iter().find(|&&row| velocity(row) != velocity(rows[0])) {
+            let accepted =
+                "while the shutter is open all triangles of one glass must move alike, so that it stays closed";
+            let who = shape_name(scene, triangles.shape[row] as usize);
+            return Err(SceneError::new(who, "motion", "another than its neighbours'", accepted));
+        }
+    }
+    let open = meshes.iter().filter_map(|(material, rows)| Some((open_mesh(triangles, rows)?, *material)));
     let Some((OpenMesh { row, turned }, material)) = open.min_by_key(|(open, _)| open.row) else { return Ok(()) };
     let why = if turned {
         "this triangle shows another side than its neighbour: swap two of its vertices"

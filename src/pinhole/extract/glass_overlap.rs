@@ -1,5 +1,5 @@
 use super::material::in_use;
-use super::shape_kind::listed_kind;
+use super::shape_kind::{listed_kind, one_shape};
 use super::{MaterialTable, NO_ROW, ShapeTable, shape_entities};
 use crate::material::{Interior, interior_of, material_entities};
 use crate::plan::{Census, Evidence};
@@ -142,12 +142,13 @@ fn bounded_glass(scene: &Census<'_>) -> Result<Vec<BoundedGlass>, SceneError> {
         material != NO_ROW && materials.interior[material as usize] != NO_ROW
     };
     let glass: Vec<usize> = (0..shapes.kind.len()).filter(is_glass).collect();
+    let entities = shape_entities(scene);
     let bounded = glass.into_iter().map(|shape| {
         let (listed, row) = (listed_kind(shapes.kind[shape]), shapes.row[shape] as usize);
         // A plane is infinite, and a moving shape may go anywhere.
         let anywhere = Bounds { least: DVec3::NEG_INFINITY, most: DVec3::INFINITY };
         let bounds = listed.map_or(Ok(None), |listed| (listed.bounds)(scene, row))?.unwrap_or(anywhere);
-        let part = listed.is_some_and(|listed| listed.is_part);
+        let part = one_shape(scene, entities[shape])?.is_part;
         Ok(BoundedGlass { shape, of: materials.interior[shapes.material[shape] as usize], part, bounds })
     });
     bounded.collect()

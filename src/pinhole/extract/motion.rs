@@ -1,16 +1,11 @@
 use super::camera_entity::camera_of;
 use super::check::{finite_point, kind_and_name, number};
-use super::integrator::light_sampling_evidence;
 use super::lights_of::light_kinds;
-use super::pose::unevenly_scaled;
 use super::shape_kind::moving_shapes;
 use super::texture::texture_evidence;
 use super::velocity::{moves_while_open, shutter_has_duration, shutter_of, velocity_of};
 use crate::plan::{Census, Evidence, Table};
-use crate::scene::{
-    Checker, Disk, Emissive, ImageTexture, Motion, Rectangle, SceneError, Shutter, Sphere, Stripes, UsesMaterial,
-    called,
-};
+use crate::scene::{Checker, ImageTexture, Motion, SceneError, Shutter, Stripes, UsesMaterial, called};
 use bevy_ecs::prelude::*;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -114,27 +109,18 @@ fn check_movers(scene: &Census<'_>) -> Result<(), SceneError> {
             return refused(light, "light", "given", accepted);
         }
     }
-    let (textured, sampled) = (texture_evidence(scene).needed, light_sampling_evidence(scene).needed);
+    if !texture_evidence(scene).needed {
+        return Ok(());
+    }
     for &(_, shape) in moving_shapes(scene).iter() {
         let own = scene.entity(shape);
-        let round = own.contains::<Sphere>() && !unevenly_scaled(scene, shape);
-        if !(round || own.contains::<Disk>() || own.contains::<Rectangle>()) {
-            let accepted =
-                "while the shutter is open only uniformly scaled spheres, disks, rectangles and the camera may move";
-            return refused(shape, "shape", "given to another kind", accepted);
-        }
         let used = scene.get::<UsesMaterial>(shape).and_then(|used| scene.get_entity(used.0).ok());
-        let has = |such: &dyn Fn(EntityRef<'_>) -> bool| such(own) || used.is_some_and(such);
         let texture = |own: EntityRef<'_>| {
             own.contains::<Checker>() || own.contains::<Stripes>() || own.contains::<ImageTexture>()
         };
-        if textured && has(&texture) {
+        if texture(own) || used.is_some_and(texture) {
             let accepted = "while the shutter is open nothing with a texture may move";
             return refused(shape, "shape", "given to one with a texture", accepted);
-        }
-        if sampled && has(&|own| own.contains::<Emissive>()) {
-            let accepted = "where area lights are sampled, nothing that emits may move while the shutter is open";
-            return refused(shape, "shape", "given to one that emits", accepted);
         }
     }
     Ok(())

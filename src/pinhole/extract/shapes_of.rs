@@ -1,7 +1,7 @@
 use super::camera::eye;
 use super::check::{finite_point, kind_and_name};
 use super::pose::pose;
-use super::shape_kind::{numbered, shape_entities};
+use super::shape_kind::{moving_shapes, numbered, shape_entities};
 use super::velocity::moves_while_open;
 use crate::plan::{Census, Table};
 use crate::scene::{ChildOf, Placement, SceneError, Triangle};
@@ -51,6 +51,18 @@ impl<S: Listed> ShapesOf<S> {
         self.beside.push(beside);
         self.shape.push(shape);
     }
+
+    /// Those that pass a test, at the moment when the shutter opens.
+    ///
+    /// Errors: what is wrong with one of them.
+    pub(super) fn that(scene: &Census<'_>, such: impl Fn(Entity) -> bool) -> Result<Self, SceneError> {
+        let eye = eye(scene)?;
+        let mut table = Self::default();
+        for (shape, entity) in numbered::<S>(scene).into_iter().filter(|&(_, entity)| such(entity)) {
+            table.push(placed_shape::<S>(scene, entity, eye)?, shape as u32);
+        }
+        Ok(table)
+    }
 }
 
 /// The shapes, numbered from 0.
@@ -66,12 +78,8 @@ impl<S: Listed> Table for ShapesOf<S> {
     const NAME: &'static str = S::NAMES.table;
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
-        let (eye, moves) = (eye(scene)?, moves_while_open(scene));
-        let mut table = Self::default();
-        for (shape, entity) in numbered::<S>(scene).into_iter().filter(|&(_, entity)| !moves(entity)) {
-            table.push(placed_shape::<S>(scene, entity, eye)?, shape as u32);
-        }
-        Ok(table)
+        let moves = moves_while_open(scene);
+        Self::that(scene, |entity| !moves(entity))
     }
 
     fn bytes(&self) -> usize {
@@ -103,6 +111,8 @@ fn placed<'a>(scene: &Census<'_>, who: &'a str, entity: Entity, eye: DVec3) -> R
 pub struct VertexNormalTable {
     /// Unit vectors on the side of the table's normal; all 0 where the author gave none.
     pub normals: Vec<[DVec3; 3]>,
+    /// The same for each row of [`MovingTable`](super::MovingTable); all 0 where it holds another shape.
+    pub moving: Vec<[DVec3; 3]>,
 }
 
 impl Table for VertexNormalTable {
@@ -110,19 +120,19 @@ impl Table for VertexNormalTable {
 
     fn extract(scene: &Census<'_>) -> Result<Self, SceneError> {
         let (eye, entities) = (eye(scene)?, shape_entities(scene));
-        let mut table = Self::default();
-        for &shape in &scene.table::<TriangleTable>()?.shape {
-            let entity = entities[shape as usize];
-            let triangle = scene.get::<Triangle>(entity).copied().unwrap_or_default();
+        let of = |entity: Entity| -> Result<[DVec3; 3], SceneError> {
+            let Some(triangle) = scene.get::<Triangle>(entity) else { return Ok([DVec3::ZERO; 3]) };
             let who = kind_and_name(scene, Triangle::WORD, entity);
-            let normals = placed_normals(&triangle, &placed(scene, &who, entity, eye)?)?;
-            table.normals.push(normals.unwrap_or_default());
-        }
-        Ok(table)
+            Ok(placed_normals(triangle, &placed(scene, &who, entity, eye)?)?.unwrap_or_default())
+        };
+        let still = &scene.table::<TriangleTable>()?.shape;
+        let normals = still.iter().map(|&shape| of(entities[shape as usize])).collect::<Result<_, _>>()?;
+        let moving = moving_shapes(scene).iter().map(|&(_, entity)| of(entity)).collect::<Result<_, _>>()?;
+        Ok(Self { normals, moving })
     }
 
     fn bytes(&self) -> usize {
-        self.normals.len() * size_of::<[DVec3; 3]>()
+        (self.normals.len() + self.moving.len()) * size_of::<[DVec3; 3]>()
     }
 }
 

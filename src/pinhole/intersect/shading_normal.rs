@@ -1,12 +1,14 @@
+use super::moving::at_rest;
 use super::rows::ShapeRows;
-use super::{Hits, Surfaces};
-use crate::extract::{ShapeTable, TriangleTable, VertexNormalTable};
+use super::{Hits, NO_SHAPE, Surfaces};
+use crate::extract::{MovingTable, ShapeTable, TriangleTable, VertexNormalTable, moving_evidence};
 use crate::plan::{Census, Column, Evidence, Shared, Stage, TileSystems, column};
-use crate::rays::WorldRays;
+use crate::rays::{RayTimes, WorldRays};
 use crate::scene::Triangle;
-use crate::shapes::{TriangleHit, TriangleRow};
+use crate::shapes::{Body, ShapeKind, TriangleHit, TriangleRow};
 use bevy_ecs::prelude::*;
-use glam::DVec3;
+use bevy_ecs::query::QueryData;
+use glam::{DVec3, Vec3};
 
 column! {
     /// The shading normal at each hit, in world space; zero for a miss.
@@ -56,41 +58,87 @@ pub fn falling_cosine(geometric: DVec3, shading: DVec3, to_light: DVec3) -> f64 
 }
 // ANCHOR_END: falling_cosine
 
+/// The hits of a tile, and their shading normals.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct ShadingNormalView {
+    rays: &'static WorldRays,
+    hits: &'static Hits,
+    surfaces: &'static Surfaces,
+    list: &'static ShapeRows<TriangleRow>,
+    times: Option<&'static RayTimes>,
+    shading: &'static mut ShadingNormals,
+}
+
 /// Fills a tile's shading normals.
 pub fn interpolate_normals(
     triangles: Res<Shared<TriangleTable>>,
+    moving: Option<Res<Shared<MovingTable>>>,
     normals: Res<Shared<VertexNormalTable>>,
     shapes: Res<Shared<ShapeTable>>,
-    mut tiles: Query<(&WorldRays, &Hits, &Surfaces, &ShapeRows<TriangleRow>, &mut ShadingNormals)>,
+    mut tiles: Query<ShadingNormalView>,
 ) {
-    for (rays, hits, surfaces, list, mut shading) in &mut tiles {
+    for ShadingNormalViewItem { rays, hits, surfaces, list, times, mut shading } in &mut tiles {
         let (nx, ny, nz) = shading.slices_mut(hits.rows());
         nx.copy_from_slice(&surfaces.nx);
         ny.copy_from_slice(&surfaces.ny);
         nz.copy_from_slice(&surfaces.nz);
+        let mut set = |row: usize, normal: Vec3| (nx[row], ny[row], nz[row]) = normal.into();
         for &row in &list.row {
             let row = row as usize;
             let triangle = shapes.row[hits.shape[row] as usize] as usize;
             let vertex_normals = &normals.normals[triangle];
-            if vertex_normals[0] == DVec3::ZERO {
+            if vertex_normals[0] != DVec3::ZERO {
+                let (origin, turned) = (rays.origin_of(row), triangles.beside[triangle].turned);
+                let triangle = (&triangles.row[triangle], turned, vertex_normals);
+                set(row, facing_normal(origin, rays.direction_of(row), triangle));
+            }
+        }
+        let (Some(moving), Some(times)) = (&moving, times) else { continue };
+        for (row, &shape) in hits.shape.iter().enumerate() {
+            if shape == NO_SHAPE || shapes.kind[shape as usize] != ShapeKind::Moving {
                 continue;
             }
-            let triangle_hit = TriangleHit::of(rays.origin_of(row), rays.direction_of(row), &triangles.row[triangle]);
-            let leaves_by_normal = triangle_hit.along != triangles.beside[triangle].turned;
-            let normal = shading_normal(vertex_normals, &triangle_hit);
-            let normal = if leaves_by_normal { -normal } else { normal };
-            (nx[row], ny[row], nz[row]) = normal.as_vec3().into();
+            let mover = shapes.row[shape as usize] as usize;
+            if let Body::Triangle(triangle, face) = &moving.body[mover]
+                && normals.moving[mover][0] != DVec3::ZERO
+            {
+                let origin = at_rest(rays.origin_of(row), moving.velocity[mover], times.time[row]);
+                let triangle = (triangle, face.turned, &normals.moving[mover]);
+                set(row, facing_normal(origin, rays.direction_of(row), triangle));
+            }
         }
     }
 }
 
+/// The shading normal where a ray hits a triangle, whose normal may be turned, on the side of the ray.
+#[inline(always)]
+fn facing_normal(
+    origin: DVec3,
+    direction: DVec3,
+    (triangle, turned, normals): (&TriangleRow, bool, &[DVec3; 3]),
+) -> Vec3 {
+    let triangle_hit = TriangleHit::of(origin, direction, triangle);
+    let leaves_by_normal = triangle_hit.along != turned;
+    let normal = shading_normal(normals, &triangle_hit);
+    if leaves_by_normal { -normal } else { normal }.as_vec3()
+}
+
 /// The stage that runs this system.
 pub fn shading_normal_stage() -> Stage {
-    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals).when(vertex_normal_evidence)
+    Stage::new("Interpolate shading normals", TileSystems::Normal, interpolate_normals)
+        .table_where::<MovingTable>(moving_normal_evidence)
+        .reads_where::<RayTimes>(moving_normal_evidence)
+        .when(vertex_normal_evidence)
 }
 
 /// Evidence that the scene contains a triangle with vertex normals.
 pub fn vertex_normal_evidence(scene: &Census<'_>) -> Evidence {
     let has = |triangle| scene.get::<Triangle>(triangle).is_some_and(|triangle| triangle.normals.is_some());
     Evidence::of_kind::<With<Triangle>>(scene, "triangle with normals", has)
+}
+
+/// Evidence that one of these moves while the shutter is open.
+fn moving_normal_evidence(scene: &Census<'_>) -> Evidence {
+    vertex_normal_evidence(scene).and(|| moving_evidence(scene))
 }

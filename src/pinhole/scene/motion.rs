@@ -20,7 +20,7 @@ impl Default for Shutter {
     }
 }
 
-/// On a sphere, a disk, a rectangle, the camera, or a group of them: motion at constant velocity.
+/// On a shape of any kind, the camera, or a group of them: motion at constant velocity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {

@@ -153,6 +153,7 @@ pub fn ellipsoid_intersection(origin: DVec3, direction: DVec3, ellipsoid: &Ellip
     let error_of_discriminant = 2.0 * error * (1.0 + ll + error);
     let error_of_c = 2.0 * error * (1.0 + pp.sqrt() + error);
     let unsure_of_hit = (error_of_c >= 0.5 * UNIT_ROUNDOFF * c.abs())
+        | (error_of_discriminant >= discriminant)
         | (error_of_discriminant >= UNIT_ROUNDOFF * qq * root * half_chord);
     let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error_of_discriminant } else { c <= error_of_c };
     Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }

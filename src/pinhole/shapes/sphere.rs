@@ -157,7 +157,8 @@ pub fn sphere_intersection(f: DVec3, direction: DVec3, radius: f64) -> Intersect
     let t = if misses { f64::INFINITY } else { root };
 
     let error = discriminant_error(ff, rr, ll);
-    let unsure_of_hit = (error >= c.abs()) | (error >= UNIT_ROUNDOFF * dd * root * half_chord);
+    let unsure_of_hit =
+        (error >= c.abs()) | (error >= discriminant) | (error >= UNIT_ROUNDOFF * dd * root * half_chord);
     let unsure_of_miss = if discriminant < 0.0 { -discriminant <= error } else { c <= error };
     Intersection { t, uncertain: if misses { unsure_of_miss } else { unsure_of_hit } }
 }

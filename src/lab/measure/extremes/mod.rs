@@ -27,6 +27,7 @@ mod sampling;
 mod shadow;
 mod shadow_stages;
 mod shadow_t_max;
+mod shapes;
 mod sphere;
 mod sphere_limits;
 mod texture;
@@ -84,6 +85,8 @@ pub enum Group {
     Emitter,
     /// Lenses: where rays converge, where they start, how wide what is out of focus is.
     Lens,
+    /// Rays at the silhouette of every registered shape, and rays that leave it.
+    Shapes,
     /// Light paths: what they carry, how they end, what they count for.
     Transport,
 }
@@ -102,6 +105,7 @@ impl Group {
         Self::Disk,
         Self::Rectangle,
         Self::Cuboid,
+        Self::Shapes,
         Self::Texture,
         Self::Light,
         Self::Material,
@@ -128,6 +132,7 @@ impl Group {
             Self::Disk => planar::trials(planar::Kind::Disk),
             Self::Rectangle => planar::trials(planar::Kind::Rectangle),
             Self::Cuboid => cuboid::trials(),
+            Self::Shapes => shapes::trials(),
             Self::Light => light::trials(),
             Self::Material => material::trials(),
             Self::Emitter => emitter::trials(),
@@ -152,6 +157,7 @@ impl fmt::Display for Group {
             Self::Disk => "disk",
             Self::Rectangle => "rectangle",
             Self::Cuboid => "cuboid",
+            Self::Shapes => "shapes",
             Self::Light => "light",
             Self::Material => "material",
             Self::Emitter => "emitter",

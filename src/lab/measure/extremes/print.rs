@@ -24,6 +24,7 @@ impl Group {
             Self::Disk => ["disks", "to check", "wrong"],
             Self::Rectangle => ["rectangles", "to check", "wrong"],
             Self::Cuboid => ["cuboids", "to check", "wrong"],
+            Self::Shapes => ["rays against every registered shape", "to check", "wrong"],
         }
     }
 

@@ -1,0 +1,88 @@
+//! Shapes of every registered kind that are tried: the examples of their components, of any size, anywhere, turned and
+//! scaled at random.
+
+use super::oracle::Oracle;
+use super::ray_aim::{AimedRay, Draws};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use pinhole::intersect::NO_SHAPE;
+use pinhole::scene::Placement;
+use pinhole::shapes::{Listed, Placed, Pose, RayHit, RaySlices, SceneShape, Shape};
+use std::slice::from_ref;
+
+/// A shape in render space, with the component and the placement that it is made from; the eye is the world's origin.
+pub struct Specimen<S: Shape> {
+    /// The shape, as the intersection kernels read it.
+    pub shape: S,
+    /// What its surface needs besides.
+    pub beside: S::Beside,
+    /// The component.
+    pub component: S::Component,
+    /// Where it is placed.
+    pub placement: Placement,
+}
+
+impl<S: Listed> Specimen<S> {
+    /// A component at a placement; none where it is not accepted.
+    pub fn of(component: S::Component, placement: Placement) -> Option<Self> {
+        let Placement { position, orientation, scale } = placement;
+        let axes = DMat3::from_quat(orientation);
+        let pose = Pose {
+            world_from_entity: DAffine3 { matrix3: axes * DMat3::from_diagonal(scale), translation: position },
+            entity_from_world: DMat3::from_diagonal(1.0 / scale) * axes.transpose(),
+        };
+        let placed = Placed { who: S::Component::WORD, pose, position, scale, has_parent: false };
+        let (shape, beside) = S::place(&component, &placed).ok()?;
+        Some(Self { shape, beside, component, placement })
+    }
+
+    /// One of the component's examples of a random size from 10 to these powers, turned at random, its origin this many
+    /// sizes away.
+    ///
+    /// Half of them are close to an axis, where the directions of f32 are finest.
+    pub fn drawn(draws: &mut Draws, sizes: [f64; 2], away: f64) -> Option<Self> {
+        let examples = S::Component::examples();
+        let mut component = examples[(draws.unit() * examples.len() as f64) as usize];
+        let size = draws.power_of_ten(sizes[0], sizes[1]);
+        component.scale(size);
+        let [x, y, z, w] = [(); 4].map(|()| draws.between(-1.0, 1.0));
+        let orientation = DQuat::from_xyzw(x, y, z, w).normalize();
+        let scale = match S::UNEVEN {
+            Some(false) => DVec3::splat(draws.between(0.5, 2.0)),
+            _ => DVec3::new(draws.between(0.5, 2.0), draws.between(0.2, 1.0), draws.between(0.5, 3.0)),
+        };
+        let position = draws.unit_vector() * (size * away);
+        let along = position.abs().max_element();
+        let beside_axis = position.map(|part| if part.abs() == along { part } else { 2.0 * part / away.max(2.0) });
+        let position = if draws.unit() < 0.5 { position } else { beside_axis };
+        Self::of(component, Placement { position, orientation, scale })
+    }
+
+    /// The centre and radius of a sphere around it; of one that is infinite, its origin and as far as it is away.
+    pub fn sphere_around(&self) -> (DVec3, f64) {
+        let position = self.placement.position;
+        self.shape.bounding_sphere().unwrap_or((position, position.length()))
+    }
+
+    /// The surface where a ray hits it, if it does.
+    pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
+        let t = self.shape.t(origin, direction);
+        t.is_finite().then_some(RayHit { origin, direction, t, displacement: DVec3::ZERO })
+    }
+
+    /// The distance that its intersection kernel finds, if it finds one.
+    pub fn kernel_t(&self, ray: AimedRay) -> Option<f64> {
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        let rays = RaySlices { origin: origin.each_ref().map(from_ref), direction: direction.each_ref().map(from_ref) };
+        let (mut t, mut shape) = ([f64::INFINITY], [NO_SHAPE]);
+        S::keep_closest(from_ref(&self.shape), &[0], rays, &mut t, &mut shape);
+        (shape[0] != NO_SHAPE).then_some(t[0])
+    }
+}
+
+impl<S: Oracle> Specimen<S> {
+    /// A random point in it or close to it.
+    pub fn aim(&self, draws: &mut Draws) -> DVec3 {
+        let (centre, radius) = self.sphere_around();
+        self.shape.aim(draws).unwrap_or_else(|| centre + draws.unit_vector() * (0.5 * radius))
+    }
+}
