@@ -22,6 +22,8 @@ mod long_paths;
 mod materials;
 #[path = "follow/nested.rs"]
 mod nested;
+#[path = "follow/normal_maps.rs"]
+mod normal_maps;
 #[path = "follow/numerics.rs"]
 mod numerics;
 #[path = "follow/preflight.rs"]

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec2, DVec3};
 use pinhole::extract::SamplingTable;
 use pinhole::film::{Curve, Film, write_exr, write_png};
-use pinhole::intersect::Hits;
+use pinhole::intersect::{Hits, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces};
 use pinhole::plan::{Census, Table};
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -29,12 +29,13 @@ fn close_up(eye: Eye, from: DVec3, at: DVec3) -> World {
 }
 
 /// One of every shape with uv, turned and unevenly scaled.
-fn shape(world: &mut World, number: usize, checker: Checker) {
+fn shape(world: &mut World, number: usize, texture: impl Bundle) {
     let orientation = DQuat::from_xyzw(0.2, -0.1, 0.3, 0.9).normalize();
     let placement = Placement { orientation, scale: DVec3::new(1.5, 0.8, -1.2), ..Placement::at(0.1, -0.2, 0.05) };
-    let placed = (placement, Matte::default(), checker);
+    let placement = if number == 0 { Placement::at(0.1, -0.2, 0.05) } else { placement };
+    let placed = (placement, Matte::default(), texture);
     match number {
-        0 => world.spawn((Sphere::default(), Placement::at(0.1, -0.2, 0.05), Matte::default(), checker)),
+        0 => world.spawn((Sphere::default(), placed)),
         1 => world.spawn((Sphere::default(), placed)),
         2 => world.spawn((Plane { normal: DVec3::new(0.3, 1.0, 0.4) }, placed)),
         3 => world.spawn((Disk::default(), placed)),
@@ -44,7 +45,10 @@ fn shape(world: &mut World, number: usize, checker: Checker) {
             let uvs = Some([DVec2::new(0.1, 0.2), DVec2::new(9.0, 0.3), DVec2::new(0.4, 13.0)]);
             world.spawn((Triangle { vertices, uvs, ..Triangle::default() }, placed))
         }
-        _ => world.spawn((Cuboid::default(), placed)),
+        6 => world.spawn((Cuboid::default(), placed)),
+        7 => world.spawn((Cylinder::default(), placed)),
+        8 => world.spawn((Cone::default(), placed)),
+        _ => world.spawn((Torus { radius: 0.7, tube: 0.4 }, placed)),
     };
 }
 
@@ -236,6 +240,61 @@ fn by_space_the_texture_goes_with_its_shape() {
 }
 
 /// A film of a function of the pixel.
+/// The normal that a map of one direction makes, by the neighbours' points and their u and v alone.
+#[test]
+fn a_mapped_normal_leans_along_the_neighbours_u_and_v() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("leaning.exr");
+    let local = DVec3::new(0.3, -0.5, 0.7);
+    write_exr(&drawn([1, 1], |_, _| local.to_array().map(|part| (0.5 + 0.5 * part) as f32)), &file).expect("written");
+    let map = NormalMap { file: file.to_string_lossy().into_owned(), ..NormalMap::default() };
+    let (mut tried, mut worst) = (0, [0.0_f64; 10]);
+    for (number, worst) in worst.iter_mut().enumerate() {
+        let (mut seen, mut from_behind) = (0, 0);
+        for from in [DVec3::new(1.5, 2.5, 3.0), DVec3::new(-1.2, -2.5, 2.4), DVec3::new(-0.5, -3.5, -1.0)] {
+            let mut world = close_up(Eye::Perspective, from, DVec3::new(0.4, -0.1, 0.3));
+            shape(&mut world, number, map.clone());
+            world.spawn((PointLight::default(), Placement { position: from, ..Placement::default() }));
+            let inspection = inspect(&world, &offer(), 32).expect("inspects");
+            let tile = inspection.world.entity(inspection.tiles[0]);
+            let (surfaces, shading) =
+                (tile.get::<Surfaces>().expect("laid"), tile.get::<ShadingNormals>().expect("laid"));
+            let (uvs, sides) = (tile.get::<SurfaceUvs>().expect("laid"), tile.get::<SurfaceSides>().expect("laid"));
+            for row in (0..31).flat_map(|y| (0..31).map(move |x| y * 32 + x)) {
+                let offset = |beside: usize| {
+                    let moved = surfaces.get(beside).position.as_dvec3() - surfaces.get(row).position.as_dvec3();
+                    (moved, uvs.u[beside] - uvs.u[row], uvs.v[beside] - uvs.v[row])
+                };
+                let ((right, u, v), (down, other_u, other_v)) = (offset(row + 1), offset(row + 32));
+                let normal = surfaces.get(row).normal.as_dvec3();
+                // Both neighbours are on the same face, and not beyond a seam where u or v begins again.
+                let beside = [row + 1, row + 32].map(|beside| surfaces.get(beside).normal.as_dvec3());
+                let on_face = beside.iter().all(|beside| beside.dot(normal) > 0.99)
+                    && right.dot(normal).abs() + down.dot(normal).abs() < 0.1 * right.length();
+                if !on_face || [u, v, other_u, other_v].iter().any(|step| step.abs() > 0.3) {
+                    continue;
+                }
+                let area = u * other_v - other_u * v;
+                let (along_u, along_v) = ((right * other_v - down * v) / area, (down * u - right * other_u) / area);
+                let outward = if sides.outside[row] == 1 { normal } else { -normal };
+                let tangent = (along_u - outward * outward.dot(along_u)).normalize();
+                let up = outward.cross(tangent);
+                let up = if up.dot(along_v) > 0.0 { -up } else { up };
+                let leaning = (local.x * tangent + local.y * up + local.z * outward).normalize();
+                let expected = if sides.outside[row] == 1 { leaning } else { -leaning };
+                *worst = worst.max((shading.get(row) - expected).length());
+                seen += 1;
+                from_behind += u32::from(sides.outside[row] == 0);
+            }
+        }
+        let has_inside = !matches!(number, 2..6);
+        assert!(seen > 900 && (from_behind > 100 || has_inside), "{number}: {seen} seen, {from_behind} from behind");
+        tried += seen;
+    }
+    eprintln!("normal maps: {tried} normals on ten shapes, the worst of each {worst:.3?} apart");
+    assert!(worst.iter().all(|worst| *worst < 0.03), "{worst:?}");
+}
+
 fn drawn(size: [u32; 2], of: impl Fn(u32, u32) -> [f32; 3]) -> Film {
     let mut film = Film::new(size[0], size[1], size[0].max(size[1]));
     for y in 0..size[1] {

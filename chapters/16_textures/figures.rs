@@ -1,13 +1,21 @@
 //! The figures of chapter 16, drawn from its scene.
 
-use pinhole_lab::figure::{Figure, aliasing};
+use pinhole_lab::figure::{Figure, aliasing, relief};
 
 /// What the page shows, in its order.
 pub fn figures(chapter: &'static str) -> Vec<Figure> {
-    vec![Figure {
-        name: "16_aliasing",
-        chapter,
-        about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
-        draw: aliasing::draw,
-    }]
+    vec![
+        Figure {
+            name: "16_aliasing",
+            chapter,
+            about: "textures at one point a pixel, over what a pixel covers, and at many points a pixel",
+            draw: aliasing::draw,
+        },
+        Figure {
+            name: "16_relief",
+            chapter,
+            about: "a ball, a panel and a block with a normal map of round studs, level, shallow and steep",
+            draw: relief::draw,
+        },
+    ]
 }

@@ -61,8 +61,11 @@ fn scene(world: &mut World) {
     world.spawn((Name::new("sky light"), sky, Placement::at(-3.0, 5.0, 5.0)));
 
     // Compiled in, so that the program may be run from any folder and copied anywhere.
-    let files: &[(&str, &[u8])] =
-        &[("card.png", include_bytes!("card.png")), ("evening.hdr", include_bytes!("evening.hdr"))];
+    let files: &[(&str, &[u8])] = &[
+        ("card.png", include_bytes!("card.png")),
+        ("evening.hdr", include_bytes!("evening.hdr")),
+        ("studs.hdr", include_bytes!("studs.hdr")),
+    ];
     world.insert_resource(EmbeddedFiles(files));
     world.insert_resource(SceneFolder(concat!(env!("CARGO_MANIFEST_DIR"), "/16_textures").into()));
 }

@@ -3,7 +3,7 @@
 use super::error::{Error, Result};
 use bevy_ecs::prelude::World;
 use pinhole::film::write_whole;
-use pinhole::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, SceneFolder, read_file};
+use pinhole::scene::{EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, NormalMap, SceneFolder, read_file};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::io::Write;
@@ -61,6 +61,7 @@ pub fn name_images_whole(world: &mut World) -> Vec<String> {
 fn named_images(world: &mut World) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     names.extend(world.query::<&ImageTexture>().iter(world).map(|image| image.file.clone()));
+    names.extend(world.query::<&NormalMap>().iter(world).map(|map| map.file.clone()));
     names.extend(world.query::<&Environment>().iter(world).map(|environment| environment.file.clone()));
     names
 }
@@ -69,6 +70,7 @@ fn named_images(world: &mut World) -> BTreeSet<String> {
 fn rename(world: &mut World, new_names: &BTreeMap<String, String>) {
     let renamed = |file: &mut String| new_names.get(file).into_iter().for_each(|new| file.clone_from(new));
     world.query::<&mut ImageTexture>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
+    world.query::<&mut NormalMap>().iter_mut(world).for_each(|mut map| renamed(&mut map.file));
     world.query::<&mut Environment>().iter_mut(world).for_each(|mut image| renamed(&mut image.file));
 }
 

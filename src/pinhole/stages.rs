@@ -103,12 +103,14 @@ const LIST: &[Part] = &[Part(&[
 ], surface_points), Part(&[
     (Motion, intersect::moving_surface_stage),
     (Transforms, intersect::shading_normal_stage),
+    (Textures, shade::copy_normals_stage),
     (Textures, shade::footprint_stage),
     (Textures, shade::colour_stage),
     (Textures, shade::texture_point_stage),
     (Textures, shade::checker_stage),
     (Textures, shade::stripes_stage),
     (Textures, shade::image_stage),
+    (Textures, shade::normal_map_stage),
 
     // The radiance of rays that hit nothing.
     (Radiance, shade::background_stage),

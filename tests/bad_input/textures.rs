@@ -91,6 +91,27 @@ pub const TEXTURES: &[Case] = &[
     ("an image too bright for a surface", &["\"ball\"", EVENING, "other texels", "from 0 to 1"], |w| {
         edit::<ImageTexture>(w, "ball", |i| i.file = EVENING.into());
     }),
+    ("a normal map without a material", &["normal map \"cloth\"", "material", "Matte"], |w| {
+        w.spawn((Name::new("cloth"), NormalMap::default()));
+    }),
+    ("a normal map without a file", &["normal map \"ball\"", "file is \"\"", ".png, .hdr or .exr"], |w| {
+        put(w, "ball", NormalMap::default());
+    }),
+    ("a normal map that is not there", &["normal map \"pane\"", "there is no file nowhere.png"], |w| {
+        w.spawn((
+            Name::new("pane"),
+            Glass::default(),
+            NormalMap { file: "nowhere.png".into(), ..NormalMap::default() },
+        ));
+    }),
+    (
+        "a normal map of colours",
+        &["normal map \"ball\"", "card.png", "other texels", "blue more than a half", "out of the surface"],
+        |w| put(w, "ball", NormalMap { file: "chapters/16_textures/card.png".into(), ..NormalMap::default() }),
+    ),
+    ("a normal map of size 0", &["normal map \"ball\"", "size"], |w| {
+        put(w, "ball", NormalMap { size: 0.0, ..NormalMap::default() });
+    }),
     ("a gradient and a background", &["the scene", "a Background by \"sky\" and a Gradient by \"dusk\""], |w| {
         w.spawn((Name::new("dusk"), Gradient::default()));
     }),
@@ -130,6 +151,8 @@ pub const TEXTURE_FIELDS: &[Field] = &[
     ("size", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.size = v)),
     ("across", "wall", |w, v| edit::<Stripes>(w, "wall", |s| s.across.y = v)),
     ("size", "ball", |w, v| edit::<ImageTexture>(w, "ball", |i| i.size = v)),
+    ("size", "ball", |w, v| put(w, "ball", NormalMap { size: v, ..NormalMap::default() })),
+    ("scale", "ball", |w, v| put(w, "ball", NormalMap { scale: v, ..NormalMap::default() })),
     ("bottom", "sky", |w, v| behind(w, Gradient { bottom: Rgb::grey(v), ..Gradient::default() })),
     ("top", "sky", |w, v| behind(w, Gradient { top: Rgb::grey(v), ..Gradient::default() })),
     ("scale", "sky", |w, v| behind(w, Environment { scale: v, ..environment(EVENING) })),

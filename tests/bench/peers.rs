@@ -4,14 +4,23 @@
 //! and references in `ref/`, PROGRAM is a Python that has numpy and mitsuba.
 //! `--variant scalar_rgb`, `--scenes cornell,veach-mis`, `--samples 4,16,64`, `--rounds 5` and `--sampler sobol` ask for
 //! less or other, `--light-tracing 0.0625` for so many rays from the lights a sample; without `--python` only pinhole runs and its images are held against the references.
+//!
+//! `cargo bench --bench peers -- --agree cylinder,cone,torus,rough_glass,principled --python PROGRAM` compares block by
+//! block the pictures of scenes in tests/bench/peers, which stand there as scene files and again as a Python script;
+//! `--runs 16` and `--samples 256` say how many renders of how many samples, `--variant llvm_ad_rgb` by what Mitsuba.
+//! It fails where they are apart.
+//!
 //! relMSE is the mean of (x − r)² / (r² + 0.01); the reference's own is subtracted from both sides.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is what it prints")]
 
+#[path = "peers/agree.rs"]
+mod agree;
 #[allow(dead_code, reason = "a benchmark takes what it needs")]
 mod interval;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
+use agree::Agreement;
 use interval::interval;
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
@@ -24,6 +33,7 @@ use scenes::public::{PUBLIC, public};
 use scenes::{named, offer};
 use std::path::PathBuf;
 use std::process::Command;
+use std::str::FromStr;
 use std::time::Instant;
 
 /// The relMSE of each reference, as shared/peers/README.md states it.
@@ -47,13 +57,24 @@ struct Options {
     light_tracing: Option<f64>,
 }
 
+/// What follows a flag on the command line.
+fn after(flag: &str) -> Option<String> {
+    let mut words = std::env::args().skip_while(|word| word != flag);
+    words.nth(1)
+}
+
+/// The same as a list, parted by commas.
+fn list(flag: &str, default: &str) -> Vec<String> {
+    after(flag).unwrap_or(default.into()).split(',').map(String::from).collect()
+}
+
+/// The same as a number.
+fn count<N: FromStr>(flag: &str, default: N) -> N {
+    after(flag).and_then(|word| word.parse().ok()).unwrap_or(default)
+}
+
 impl Options {
     fn read() -> Option<Self> {
-        let words: Vec<String> = std::env::args().collect();
-        let after = |flag: &str| words.iter().position(|word| word == flag).and_then(|at| words.get(at + 1)).cloned();
-        let list = |flag: &str, default: &str| -> Vec<String> {
-            after(flag).unwrap_or(default.into()).split(',').map(String::from).collect()
-        };
         let sampler = after("--sampler").unwrap_or("independent".into());
         Some(Self {
             peers: after("--peers")?.into(),
@@ -61,9 +82,9 @@ impl Options {
             variants: list("--variant", "scalar_rgb,llvm_ad_rgb"),
             scenes: list("--scenes", &PUBLIC.join(",")),
             samples: list("--samples", "4,16,64").iter().filter_map(|word| word.parse().ok()).collect(),
-            rounds: after("--rounds").and_then(|word| word.parse().ok()).unwrap_or(5),
+            rounds: count("--rounds", 5),
             sampler: Sampler::ALL.iter().find(|(word, _)| *word == sampler).map(|(_, own)| *own).expect("a sampler"),
-            converge: after("--converge").and_then(|word| word.parse().ok()).unwrap_or(64),
+            converge: count("--converge", 64),
             light_tracing: after("--light-tracing").map(|word| word.parse().expect("a number")),
         })
     }
@@ -106,6 +127,17 @@ fn theirs(options: &Options, python: &str, variant: &str, scene: &str) -> Vec<(f
 }
 
 fn main() {
+    if after("--agree").is_some() {
+        let agreement = Agreement {
+            scenes: list("--agree", ""),
+            python: after("--python").expect("--python names a Python that has mitsuba"),
+            variant: after("--variant").unwrap_or("llvm_ad_rgb".into()),
+            runs: count("--runs", 16),
+            samples: count("--samples", 256),
+        };
+        assert!(agreement.run(), "pinhole and Mitsuba are apart");
+        return;
+    }
     let Some(options) = Options::read() else {
         println!("peers: nothing is run without --peers FOLDER (see the head of tests/bench/peers.rs)");
         return;

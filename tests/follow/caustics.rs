@@ -211,7 +211,7 @@ fn a_factor_that_is_forgotten_is_found() {
 }
 
 /// Whether light from the lamps brings what the camera's paths alone bring, to every block of pixels.
-pub(super) fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
+pub fn agrees(name: &str, make: &dyn Fn() -> World, samples: u32) {
     const SETS: u64 = 12;
     let alone = renders(make, LightStrategy::Mis, 6 * samples, 0..SETS);
     for (number, lights) in [LightStrategy::Bsdf, LightStrategy::Light, LightStrategy::Mis].into_iter().enumerate() {

@@ -1,6 +1,7 @@
-//! Vertex normals, held against surfaces that truly lean: the light on a triangle whose vertex normals are all n′ is
-//! that on a surface of normal n′ above a black floor, which takes away what comes from below the triangle.
+//! Shading normals, held against surfaces that truly lean: the light on a triangle whose vertex normals are all n′, or on
+//! a rectangle whose normal map is n′ everywhere, is that on a surface of normal n′ above a black floor, which takes away what comes from below.
 
+use super::normal_maps::write_map;
 use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::film::{Film, write_exr};
@@ -22,6 +23,9 @@ pub const MATERIALS: &[(&str, fn(&mut EntityWorldMut<'_>))] = &[
     }),
     ("metal, multiple scattering", |thing| {
         _ = thing.insert(Metal { colour: Rgb::grey(0.9), roughness: 1.0, multiple_scattering: true });
+    }),
+    ("principled", |thing| {
+        _ = thing.insert(Principled { base_colour: Rgb::grey(0.8), metallic: 0.3, roughness: 0.7 });
     }),
 ];
 
@@ -63,6 +67,30 @@ fn shaded(material: fn(&mut EntityWorldMut<'_>)) -> impl Fn(&mut World) {
         let vertices = [DVec3::new(-0.3, 0.0, -0.2), DVec3::new(0.1, 0.0, 0.4), DVec3::new(0.3, 0.0, -0.2)];
         material(&mut world.spawn(Triangle { vertices, normals: Some([leaning(); 3]), uvs: None }));
     }
+}
+
+/// A wide rectangle in the plane y = 0 with a normal map of one direction; and how it lies, with that direction's parts
+/// along growing u, along falling v and out of its front.
+fn mapped(material: fn(&mut EntityWorldMut<'_>), lies: usize, folder: &Path) -> impl Fn(&mut World) {
+    let DVec3 { x, y, z } = leaning();
+    let (placement, local) = match lies {
+        // u is +x and v is +z.
+        0 => (Placement::default(), [x, -z, y]),
+        // Turned over about x, so that it is seen from behind, and v is −z.
+        1 => {
+            let orientation = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
+            (Placement { orientation, ..Placement::default() }, [-x, -z, y])
+        }
+        // Mirrored, so that u is −x.
+        2 => (Placement { scale: DVec3::new(-2.0, 1.0, 1.0), ..Placement::default() }, [-x, -z, y]),
+        // The same direction by half of its steepness.
+        _ => (Placement::default(), [0.5 * x, -0.5 * z, y]),
+    };
+    let file = folder.join(format!("map-{lies}.exr"));
+    write_map(&file, 2, |_| local);
+    let scale = if lies == 3 { 2.0 } else { 1.0 };
+    let map = NormalMap { file: file.to_string_lossy().into_owned(), scale, ..NormalMap::default() };
+    move |world| material(world.spawn((Rectangle { width: 0.6, depth: 0.6 }, placement)).insert(map.clone()))
 }
 
 /// A small rectangle that leans as those normals do, above a black floor.
@@ -108,7 +136,8 @@ fn vertex_normals_answer_every_light_as_a_surface_that_leans_so() {
 
 /// Lights without an area are seen in one direction only, so nothing is random and the two agree to rounding.
 #[test]
-fn vertex_normals_answer_lights_without_area_exactly() {
+fn shading_normals_answer_lights_without_area_exactly() {
+    let folder = tempfile::tempdir().expect("a folder");
     type Spawn = fn(&mut World);
     let lights: [(&str, Spawn); 3] = [
         ("a point light", |world| {
@@ -132,11 +161,41 @@ fn vertex_normals_answer_lights_without_area_exactly() {
                     render(&scene(surface, &lights), &offer(), &Execution::default(), &()).expect("renders").film;
                 f64::from(film.mean(4, 4)[1])
             };
-            let [own, truth] = [radiance(&shaded(material)), radiance(&tilted(material))];
-            let off = (own / truth - 1.0).abs();
-            assert!(truth > 1e-3 && off < 2e-3, "{name} under {light}: {own} for {truth}");
-            (tried, worst) = (tried + 1, worst.max(off));
+            let truth = radiance(&tilted(material));
+            let maps = (0..4).map(|lies| radiance(&mapped(material, lies, folder.path())));
+            for (surface, own) in std::iter::once(radiance(&shaded(material))).chain(maps).enumerate() {
+                let off = (own / truth - 1.0).abs();
+                assert!(truth > 1e-3 && off < 2e-3, "{name} under {light}, surface {surface}: {own} for {truth}");
+                (tried, worst) = (tried + 1, worst.max(off));
+            }
         }
     }
-    eprintln!("vertex normals: {tried} materials and lights, worst {worst:.1e} apart");
+    eprintln!("shading normals: {tried} surfaces and lights, worst {worst:.1e} apart");
+}
+
+/// Both turn the camera's ray to the same place of the sky, wherever that is bright.
+#[test]
+fn a_mapped_mirror_shows_what_one_that_leans_so_shows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("sky.exr");
+    write_sky(&file);
+    let silver = |thing: &mut EntityWorldMut<'_>| _ = thing.insert(Mirror { colour: Rgb::grey(0.9) });
+    let mut brightest = 0.0_f64;
+    for turn in [10.0, 100.0, 190.0, 280.0] {
+        let sky = |world: &mut World| {
+            let file = file.to_string_lossy().into_owned();
+            world.spawn(Environment { file, turn: Degrees(turn), scale: 1.0 });
+        };
+        let radiance = |surface: &dyn Fn(&mut World)| {
+            renders_by(&|| scene(surface, &sky), Integrator::WHITTED, 1, 0..1)[0].pixels[36][1]
+        };
+        let truth = radiance(&tilted(silver));
+        for lies in 0..4 {
+            let own = radiance(&mapped(silver, lies, folder.path()));
+            assert!((own / truth - 1.0).abs() < 2e-3, "sky turned by {turn}°, {lies}: {own} for {truth}");
+        }
+        brightest = brightest.max(truth);
+    }
+    eprintln!("mapped mirrors: 16 show the sky, of up to {brightest:.3}");
+    assert!(brightest > 0.5, "a dark sky shows nothing: {brightest}");
 }

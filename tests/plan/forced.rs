@@ -150,6 +150,16 @@ fn on_frosted_glass() -> World {
     world
 }
 
+/// A lit ball with a normal map of one texel, which leans.
+fn bumps() -> World {
+    const MAP: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\xc0\x80\xc0\x80";
+    let mut world = toggled(&[Toggle::Sphere, Toggle::Light]);
+    let ball = named(&mut world, "ball");
+    world.entity_mut(ball).insert(NormalMap { file: "map.hdr".into(), ..NormalMap::default() });
+    world.insert_resource(EmbeddedFiles(&[("map.hdr", MAP)]));
+    world
+}
+
 #[test]
 fn forcing_a_needed_stage_off_shows() {
     let two_bounces = Integrator::Path { max_depth: 2, lights: LightStrategy::Mis, roulette: 0 };
@@ -185,6 +195,7 @@ fn forcing_a_needed_stage_off_shows() {
         ("light from lamps through a lens", through_a_lens()),
         ("light from an environment", under_an_evening()),
         ("light from lamps on frosted glass", on_frosted_glass()),
+        ("bumps", bumps()),
         ("the sky", followed(INTEGRATORS[2], Setup { size, ..Setup::default() })),
     ];
     let witnesses: Vec<_> = witnesses.into_iter().map(|(name, scene)| (name, plan_of(&scene), scene)).collect();

@@ -22,7 +22,7 @@ pub struct DrawnImage {
 }
 
 /// All of them.
-pub const DRAWN_IMAGES: [DrawnImage; 2] = [
+pub const DRAWN_IMAGES: [DrawnImage; 3] = [
     DrawnImage {
         file: "card.png",
         folder: "chapters/16_textures",
@@ -36,6 +36,13 @@ pub const DRAWN_IMAGES: [DrawnImage; 2] = [
         about: "all directions of an evening: a low sun, a sky, hills",
         size: [192, 96],
         colour: |at| evening(direction_of(at)),
+    },
+    DrawnImage {
+        file: "studs.hdr",
+        folder: "chapters/16_textures",
+        about: "a normal map: four by four round studs on a level ground",
+        size: [64, 64],
+        colour: studs,
     },
 ];
 
@@ -92,6 +99,19 @@ fn card(at: DVec2) -> [f64; 3] {
     } else {
         hue
     }
+}
+
+/// The normals of four by four caps of balls, each part from −1 to 1 as 0 to 1: right, up, out.
+fn studs(at: DVec2) -> [f64; 3] {
+    const RADIUS: f64 = 0.4;
+    let cell = at * 4.0;
+    let from_middle = cell - cell.floor() - 0.5;
+    if from_middle.length() >= RADIUS {
+        return [0.5, 0.5, 1.0];
+    }
+    // The image's y points down.
+    let (x, y) = (from_middle.x * 1.5, -from_middle.y * 1.5);
+    [x, y, (1.0 - x * x - y * y).sqrt()].map(|part| 0.5 + 0.5 * part)
 }
 
 /// Where the sun stands.

@@ -38,6 +38,7 @@ pub mod pinhole;
 mod pixel_ray;
 mod props;
 pub mod ray;
+pub mod relief;
 pub mod rings;
 pub mod samples;
 mod scenery;

@@ -137,7 +137,7 @@ where
     }
 
     fn aim(&self, draws: &mut Draws) -> Option<DVec3> {
-        Some(within_frustum(&self.0, draws))
+        Some(within_frustum(&self.frustum, draws))
     }
 }
 

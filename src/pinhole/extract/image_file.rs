@@ -50,34 +50,41 @@ enum Numbers {
     Reflectances,
     /// Radiance: finite, at least 0.
     Radiance,
+    /// Normals: from 0 to 1, blue more than a half.
+    Normals,
 }
 
 impl Numbers {
     fn endings(self) -> (&'static [&'static str], &'static str) {
         match self {
-            Self::Reflectances => (&["png", "hdr", "exr"], "it must be the name of a .png, .hdr or .exr file"),
+            Self::Reflectances | Self::Normals => {
+                (&["png", "hdr", "exr"], "it must be the name of a .png, .hdr or .exr file")
+            }
             Self::Radiance => (&["hdr", "exr"], "it must be the name of a .hdr or .exr file"),
         }
     }
 
-    fn accepts(self, part: f32) -> bool {
-        match self {
-            Self::Reflectances => (0.0..=1.0).contains(&part),
-            Self::Radiance => (0.0..f32::INFINITY).contains(&part),
-        }
+    fn accepts(self, texel: [f32; 3]) -> bool {
+        let within = |part: &f32| match self {
+            Self::Reflectances | Self::Normals => (0.0..=1.0).contains(part),
+            Self::Radiance => (0.0..f32::INFINITY).contains(part),
+        };
+        texel.iter().all(within) && (self != Self::Normals || texel[2] > 0.5)
     }
 
     fn range(self) -> &'static str {
         match self {
             Self::Reflectances => "from 0 to 1, for a surface gives back no more than it gets",
             Self::Radiance => "finite and at least 0",
+            Self::Normals => "from 0 to 1, and blue more than a half, for a normal points out of the surface",
         }
     }
 }
 
-/// The images of textures, which are reflectances, and those of environments, which are radiance.
+/// The images of textures, which are reflectances, those of environments, which are radiance, and normal maps.
 static TEXTURES: ImageStore<Pyramid> = ImageStore::new();
 static BACKGROUNDS: ImageStore<Texels> = ImageStore::new();
+static NORMAL_MAPS: ImageStore<Texels> = ImageStore::new();
 
 /// The image of a texture, with its pyramid.
 ///
@@ -95,11 +102,20 @@ pub(super) fn texture_image(scene: &World, who: &str, file: &str) -> Result<Arc<
 ///
 /// Errors: the same as those of a texture.
 pub(super) fn background_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
-    let decode = |texels: Texels| {
-        let bytes = texels.bytes();
-        (texels, bytes)
-    };
-    decoded(&BACKGROUNDS, scene, who, file, Numbers::Radiance, decode)
+    decoded(&BACKGROUNDS, scene, who, file, Numbers::Radiance, alone)
+}
+
+/// The image of a normal map, its parts as they are in the file.
+///
+/// Errors: the same, and a texel whose normal does not point out of the surface.
+pub(super) fn normal_map_image(scene: &World, who: &str, file: &str) -> Result<Arc<Texels>, SceneError> {
+    decoded(&NORMAL_MAPS, scene, who, file, Numbers::Normals, alone)
+}
+
+/// An image without a pyramid, and its memory in bytes.
+fn alone(texels: Texels) -> (Texels, usize) {
+    let bytes = texels.bytes();
+    (texels, bytes)
 }
 
 /// A file's name as error messages show it.
@@ -121,8 +137,8 @@ fn decoded<T>(
     let format = format_of(&path).filter(|(ending, _)| endings.contains(ending));
     let (_, format) = format.ok_or_else(|| refused(accepted.into()))?;
     let decode = |bytes: &[u8]| {
-        let texels =
-            texels(bytes, format).map_err(|problem| format!("{} cannot be read: {problem}", printable_path(&path)))?;
+        let texels = texels(bytes, format, numbers)
+            .map_err(|problem| format!("{} cannot be read: {problem}", printable_path(&path)))?;
         check_numbers(&texels, numbers)?;
         Ok(prepared(texels))
     };
@@ -163,7 +179,7 @@ fn format_of(path: &Path) -> Option<(&'static str, ImageFormat)> {
 }
 
 fn check_numbers(texels: &Texels, numbers: Numbers) -> Result<(), String> {
-    let wrong = |texel: &[f32; 3]| !texel.iter().all(|&part| numbers.accepts(part));
+    let wrong = |texel: &[f32; 3]| !numbers.accepts(*texel);
     let Some(first) = texels.rgb.iter().position(wrong) else { return Ok(()) };
     let count = texels.rgb.iter().filter(|texel| wrong(texel)).count();
     let [r, g, b] = texels.rgb[first];
@@ -173,7 +189,7 @@ fn check_numbers(texels: &Texels, numbers: Numbers) -> Result<(), String> {
 }
 
 /// Decodes the bytes of a file.
-fn texels(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
+fn texels(bytes: &[u8], format: ImageFormat, numbers: Numbers) -> Result<Texels, String> {
     let head = image_head(Cursor::new(bytes), format, bytes.len() as u64)?;
     let ImageHead { width, height, decoded } = head;
     if head.pixels() > MOST_TEXELS {
@@ -190,21 +206,23 @@ fn texels(bytes: &[u8], format: ImageFormat) -> Result<Texels, String> {
             limits.max_alloc = Some(MOST_TEXELS * 16);
             reader.limits(limits);
             let image = reader.decode().map_err(|error| one_line(&error))?;
-            Ok(Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image) })
+            Ok(Texels { width: image.width() as usize, height: image.height() as usize, rgb: linear(image, numbers) })
         }
     }
 }
 
-/// Converts pixels to linear light: integers are sRGB, floats are linear; alpha is ignored.
-fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
+/// Converts pixels to linear light, or to the parts of normals: integers of colours are sRGB, all else is linear; alpha
+/// is ignored.
+fn linear(image: DynamicImage, numbers: Numbers) -> Vec<[f32; 3]> {
+    let decoded = |part: f64| if numbers == Numbers::Normals { part } else { linear_from_srgb(part) };
     let bytes_a_part = image.color().bytes_per_pixel() / image.color().channel_count();
     match bytes_a_part {
         1 => {
-            let light: Vec<f32> = (0..=255).map(|byte| linear_from_srgb(f64::from(byte) / 255.0) as f32).collect();
+            let light: Vec<f32> = (0..=255).map(|byte| decoded(f64::from(byte) / 255.0) as f32).collect();
             image.into_rgb8().pixels().map(|texel| texel.0.map(|byte| light[usize::from(byte)])).collect()
         }
         2 => {
-            let light = |part: u16| linear_from_srgb(f64::from(part) / 65_535.0) as f32;
+            let light = |part: u16| decoded(f64::from(part) / 65_535.0) as f32;
             image.into_rgb16().pixels().map(|texel| texel.0.map(light)).collect()
         }
         _ => image.into_rgb32f().pixels().map(|texel| texel.0).collect(),

@@ -48,6 +48,7 @@ mod lights_of;
 mod material;
 mod motion;
 mod moving;
+mod normal_map;
 mod on_camera;
 mod pixel_steps;
 mod pose;
@@ -109,6 +110,7 @@ pub use material::{
 };
 pub use motion::{ShutterTable, camera_moves_evidence, motion_evidence, moving_evidence};
 pub use moving::{MovingTable, shape_bodies};
+pub use normal_map::{NormalMapTable, normal_map_evidence};
 pub use pixel_steps::PixelSteps;
 pub use pose::{ahead, look_at_axes, pose, unevenly_scaled, world_from_entity};
 pub use pyramid::{Pyramid, halved};
@@ -165,6 +167,7 @@ const ANSWERS: &[fn(&Census<'_>) -> Result<(), SceneError>] = &[
     answer::<CheckerTable>,
     answer::<StripesTable>,
     answer::<ImageTable>,
+    answer::<NormalMapTable>,
     answer::<BackgroundTable>,
     answer::<GradientTable>,
     answer::<EnvironmentTable>,

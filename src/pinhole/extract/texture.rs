@@ -246,8 +246,8 @@ pub(super) fn check_beside_colour(
     Err(SceneError::new(who, field, value, accepted))
 }
 
-/// The row of each material among those with a texture of one kind, and the entities of these rows.
-pub(super) fn rows_of_kind<T: Texture>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
+/// The row of each material among those with such a component, and the entities of these rows.
+pub(super) fn rows_of_kind<T: Component>(scene: &Census<'_>) -> (Vec<u32>, Vec<Entity>) {
     let (mut of_material, mut rows) = (Vec::new(), Vec::new());
     for &material in material_entities(scene).iter() {
         let carries = scene.get::<T>(material).is_some();

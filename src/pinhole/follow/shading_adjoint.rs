@@ -1,6 +1,6 @@
 use super::Scattered;
 use super::specular::mirroring_normal;
-use crate::extract::{MaterialTable, traced_evidence};
+use crate::extract::{MaterialTable, normal_map_evidence, traced_evidence};
 use crate::intersect::{ShadingNormals, Surfaces, vertex_normal_evidence};
 use crate::plan::{Column, Shared, Stage, StageKind, TileSystems};
 use crate::rays::WorldRays;
@@ -51,7 +51,7 @@ pub fn shading_adjoint_stage() -> Stage {
     Stage::new("Correct for shading normals", TileSystems::Roulette, correct_for_shading_normals)
         .on_light_paths()
         .kind(StageKind::Alternative)
-        .when(|scene| traced_evidence(scene).and(|| vertex_normal_evidence(scene)))
+        .when(|scene| traced_evidence(scene).and(|| vertex_normal_evidence(scene).or(normal_map_evidence(scene))))
 }
 
 #[cfg(test)]

@@ -13,8 +13,9 @@ use glam::{DVec3, Vec3};
 column! {
     /// The shading normal at each hit, in world space; zero for a miss.
     ///
-    /// It is the geometric normal except on triangles with vertex normals; exists if the scene has such triangles.
-    pub struct ShadingNormals("shading", "world", "unit vector", Ray) {
+    /// It is the geometric normal except on triangles with vertex normals and where a normal map tilts it; exists if the
+    /// scene has one or the other.
+    pub struct ShadingNormals("shading", "world", "unit vector", Ray, begun in Normal) {
         /// x; the normal is on the side of the ray, or nearly so.
         nx: f32,
         /// y.
@@ -29,6 +30,12 @@ impl ShadingNormals {
     fn paint_row(&self, row: usize, _size: [u32; 2]) -> [f32; 3] {
         let normal = [self.nx[row], self.ny[row], self.nz[row]];
         if normal == [0.0; 3] { normal } else { normal.map(|component| 0.5 + 0.5 * component) }
+    }
+
+    /// Writes a row.
+    #[inline(always)]
+    pub fn set(&mut self, row: usize, normal: DVec3) {
+        (self.nx[row], self.ny[row], self.nz[row]) = normal.as_vec3().into();
     }
 
     /// Reads a row, in f64.

@@ -46,6 +46,7 @@ mod material;
 mod memory;
 mod motion;
 mod name;
+mod normal_map;
 mod open_file;
 mod orientation;
 mod placement;
@@ -114,6 +115,7 @@ pub use memory::{TooLittleMemory, check_memory, in_words};
 pub use motion::{Motion, Shutter};
 #[doc(hidden)]
 pub use name::{called, some_of};
+pub use normal_map::NormalMap;
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 #[doc(hidden)]

@@ -29,6 +29,7 @@ mod image_mask;
 mod image_texture;
 mod light;
 mod lookup;
+mod normal_map;
 mod radiance;
 mod receivers;
 mod shadow;
@@ -82,6 +83,8 @@ pub use light::{
 };
 #[doc(hidden)]
 pub use lookup::{bilinear, image_mean, nearest_texel, trilinear};
+#[doc(hidden)]
+pub use normal_map::{copy_normals, copy_normals_stage, map_normals, mapped_normal, normal_map_stage, uv_directions};
 #[doc(hidden)]
 pub use radiance::Radiance;
 #[doc(hidden)]

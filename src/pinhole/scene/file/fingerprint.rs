@@ -1,8 +1,8 @@
 use super::word::Word;
 use super::write::spawned;
 use crate::scene::{
-    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, Name, Sampler, Sampling, SceneFolder,
-    Statistics, UsesMaterial, read_file,
+    ChildOf, Disabled, EmbeddedFiles, Environment, IMAGE_FILE, ImageTexture, Name, NormalMap, Sampler, Sampling,
+    SceneFolder, Statistics, UsesMaterial, read_file,
 };
 use bevy_ecs::prelude::*;
 use std::any::TypeId;
@@ -34,7 +34,8 @@ pub fn fingerprint(scene: &World) -> String {
         }
         let texture = entity.get::<ImageTexture>().map(|texture| &texture.file);
         let environment = entity.get::<Environment>().map(|environment| &environment.file);
-        for file in texture.into_iter().chain(environment).filter(|_| !entity.contains::<Disabled>()) {
+        let normals = entity.get::<NormalMap>().map(|map| &map.file);
+        for file in [texture, normals, environment].into_iter().flatten().filter(|_| !entity.contains::<Disabled>()) {
             let hash = |bytes: &[u8]| fnv(FNV_BASIS, bytes);
             let read = |path: &PathBuf| read_file(path, IMAGE_FILE).ok().map(|bytes| hash(&bytes));
             let held = EmbeddedFiles::find(scene, file)

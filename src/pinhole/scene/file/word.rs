@@ -2,8 +2,8 @@ use crate::scene::material::MATERIALS;
 use crate::scene::{
     Adaptive, Background, Checker, Cone, Cuboid, Cylinder, DirectionalLight, Disk, Emissive, Environment,
     EquirectangularCamera, FisheyeCamera, Gradient, ImageTexture, Integrator, Layers, Lens, LightTracing, LookAt,
-    Motion, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution, Sampling,
-    Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
+    Motion, NormalMap, OrthographicCamera, PerspectiveCamera, Placement, Plane, PointLight, Rectangle, Resolution,
+    Sampling, Shutter, Sphere, SpotLight, Statistics, Stripes, Torus, Triangle, View,
 };
 use bevy_ecs::prelude::*;
 use ron::error::SpannedError;
@@ -47,6 +47,7 @@ const WORDS: &[Word] = &[
     Word::of::<Checker>("checker"),
     Word::of::<Stripes>("stripes"),
     Word::of::<ImageTexture>("image_texture"),
+    Word::of::<NormalMap>("normal_map"),
     Word::of::<Background>("background"),
     Word::of::<Gradient>("gradient"),
     Word::of::<Environment>("environment"),
