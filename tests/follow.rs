@@ -10,6 +10,8 @@ mod caustics;
 mod distant;
 #[path = "follow/far.rs"]
 mod far;
+#[path = "follow/frusta.rs"]
+mod frusta;
 #[path = "follow/leaning.rs"]
 mod leaning;
 #[path = "follow/light_paths.rs"]

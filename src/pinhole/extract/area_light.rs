@@ -113,7 +113,9 @@ impl Table for AreaLightTable {
 pub fn area_light_evidence(scene: &Census<'_>) -> Evidence {
     scene.once(|scene| {
         let moves = moves_while_open(scene);
-        let endless = |shape: Entity| moves(shape) || !one_shape(scene, shape).is_ok_and(|listed| listed.is_sampled);
+        let endless = |shape: Entity| {
+            moves(shape) || !one_shape(scene, shape).is_ok_and(|listed| (listed.is_sampled)(scene, shape))
+        };
         let shines = |shape: Entity| {
             let emissive = emissive_of(scene, shape).and_then(|entity| scene.get::<Emissive>(entity));
             emissive.is_some_and(|emissive| emissive.radiance != Rgb::BLACK)

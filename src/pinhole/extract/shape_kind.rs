@@ -6,11 +6,9 @@ use super::shapes_of::{ShapesOf, placed_shape};
 use super::velocity::moves_while_open;
 use crate::plan::{Census, Evidence, TableKind, united};
 use crate::scene::SceneError;
-use crate::shapes::emitter::NeverSampled;
 use crate::shapes::{Body, Bounds, Emitter, Listed, SceneShape, ShapeKind, ShapeVisitor, UvSlope, visit_shapes};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
-use std::any::TypeId;
 use std::sync::{Arc, OnceLock};
 
 /// A registered shape as extraction handles it, without its type.
@@ -42,8 +40,8 @@ pub struct ListedKind {
     pub(super) body: fn(&Census<'_>, Entity, DVec3) -> Result<Body, SceneError>,
     /// A row of its table as a light; none where it cannot be sampled.
     pub(super) emitter: fn(&Census<'_>, usize) -> Result<Option<Emitter>, SceneError>,
-    /// Whether there are lights of this kind at all.
-    pub(super) is_sampled: bool,
+    /// Whether an entity of this kind is sampled where it emits.
+    pub(super) is_sampled: fn(&Census<'_>, Entity) -> bool,
     /// The box around a row; none where it is infinite.
     pub(super) bounds: fn(&Census<'_>, usize) -> Result<Option<Bounds>, SceneError>,
     /// The sphere around a row; none where it is infinite.
@@ -79,7 +77,7 @@ impl ListedKind {
                 let shapes = scene.table::<ShapesOf<S>>()?;
                 Ok(shapes.row[row].listed_emitter(&shapes.beside[row]))
             },
-            is_sampled: TypeId::of::<S::Emitter>() != TypeId::of::<NeverSampled>(),
+            is_sampled: |scene, entity| scene.get::<S::Component>(entity).is_some_and(S::is_sampled),
             bounds: |scene, row| Ok(scene.table::<ShapesOf<S>>()?.row[row].bounds()),
             bounding_sphere: |scene, row| Ok(scene.table::<ShapesOf<S>>()?.row[row].bounding_sphere()),
             around: |scene, point| {

@@ -24,7 +24,7 @@ const BELOW_ONE: f64 = 1.0 - f64::EPSILON;
 
 impl Frustum {
     #[inline(always)]
-    fn radius(&self, y: f64) -> f64 {
+    pub(super) fn radius(&self, y: f64) -> f64 {
         self.profile[0] + self.profile[1] * y
     }
 

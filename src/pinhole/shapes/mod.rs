@@ -48,6 +48,7 @@ mod ellipsoid;
 pub mod emitter;
 mod exact_sum;
 mod frustum;
+mod frustum_light;
 mod interval;
 mod kind;
 mod offset;
@@ -83,6 +84,7 @@ pub use double_double_planar::{double_double_cuboid_t, double_double_disk_t, dou
 pub use ellipsoid::{Ellipsoid, ellipsoid_intersection, ellipsoid_surface, ellipsoid_t};
 pub use exact_sum::{ExactSum, ExactVector, exact_cross, exact_difference, exact_dot, two_product, two_sum};
 pub use frustum::Frustum;
+pub use frustum_light::EmittingFrustum;
 pub use kind::ShapeKind;
 pub use offset::{l1_norm, offset_bound, offset_origin};
 pub use placed_frustum::{FrustumShape, PlacedFrustum};

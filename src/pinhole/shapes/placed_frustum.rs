@@ -1,6 +1,6 @@
 use super::bounds::Bounds;
-use super::emitter::NeverSampled;
 use super::frustum::Frustum;
+use super::frustum_light::EmittingFrustum;
 use super::kind::ShapeKind;
 use super::ray_block::Intersection;
 use super::shape::{Placed, RayHit, SceneShape, Shape, SurfacePoint};
@@ -36,7 +36,7 @@ pub struct PlacedFrustum<C> {
 impl<C: FrustumShape> Shape for PlacedFrustum<C> {
     type Component = C;
     type Beside = ();
-    type Emitter = NeverSampled;
+    type Emitter = EmittingFrustum;
 
     fn has_inside(component: &C) -> bool {
         component.is_capped()
@@ -90,6 +90,14 @@ impl<C: FrustumShape> Shape for PlacedFrustum<C> {
 
     fn contains(&self, point: DVec3) -> bool {
         self.frustum.contains(point)
+    }
+
+    fn is_sampled(component: &C) -> bool {
+        component.is_capped()
+    }
+
+    fn emitter(&self, (): &()) -> Option<EmittingFrustum> {
+        EmittingFrustum::new(&self.frustum)
     }
 }
 // ANCHOR_END: frustum_shape

@@ -1,5 +1,5 @@
 use super::bounds::Bounds;
-use super::emitter::Emitting;
+use super::emitter::{Emitting, NeverSampled};
 use super::offset::{l1_norm, offset_bound};
 use super::ray_block::{Intersection, RaySlices, keep_closest_rows};
 use super::space::Pose;
@@ -8,6 +8,7 @@ use crate::scene::SceneError;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DVec3};
+use std::any::TypeId;
 use std::fmt::Debug;
 
 /// A component that makes an entity a shape.
@@ -181,6 +182,11 @@ pub trait Shape: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// Whether a point is inside; false for a shape that has no inside of its own.
     fn contains(&self, _point: DVec3) -> bool {
         false
+    }
+
+    /// Whether it is sampled where it emits; the emission of others is found by BSDF sampling only.
+    fn is_sampled(_component: &Self::Component) -> bool {
+        TypeId::of::<Self::Emitter>() != TypeId::of::<NeverSampled>()
     }
 
     /// The shape as a light that is sampled; none where it cannot be.
