@@ -46,7 +46,7 @@ impl Sums {
     fn off(&self, cell: usize, expected: f64) -> f64 {
         let (n, (sum, squares)) = (RAYS as f64, self.0[cell]);
         let (mean, variance) = (sum / n, squares / n - sum * sum / (n * n));
-        // Where all rays weigh the same, rounding is all that is left.
+        // Where all rays have the same weight, rounding is all that is left.
         let error = (variance / n).sqrt().max(1e-9 * expected.abs());
         if mean == 0.0 && expected == 0.0 { 0.0 } else { (mean - expected) / error.max(f64::MIN_POSITIVE) }
     }

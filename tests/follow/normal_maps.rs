@@ -20,7 +20,7 @@ pub fn write_map(path: &Path, side: u32, of: impl Fn(u32) -> [f64; 3]) {
     write_exr(&image, path).expect("written");
 }
 
-/// Texels that lean every way, by up to some 50°.
+/// Texels that lean in all directions, by up to some 50°.
 fn bumpy(texel: u32) -> [f64; 3] {
     let part = |salt: u32| f64::from((texel * 7919 + salt * 104_729) % 1009) / 504.0 - 1.0;
     let (x, y) = (0.6 * part(1), 0.6 * part(2));

@@ -45,11 +45,3 @@ impl Light for PlacedDirectionalLight {
         targets.parallel_start(-self.to_light, self.irradiance, draws)
     }
 }
-
-// ANCHOR: irradiance_from_direction
-/// The irradiance from a light with parallel rays: E cos θ, at any distance.
-#[inline(always)]
-pub fn irradiance_from_direction(irradiance: [f64; 3], cosine: f64) -> [f64; 3] {
-    [irradiance[0] * cosine, irradiance[1] * cosine, irradiance[2] * cosine]
-}
-// ANCHOR_END: irradiance_from_direction

@@ -1,5 +1,4 @@
-use super::directional::irradiance_from_direction;
-use super::point::irradiance_from_point;
+use super::irradiance::{irradiance_from_direction, irradiance_from_point};
 use super::start::{LightStart, StartDraws};
 use super::targets::Targets;
 use crate::scene::SceneError;

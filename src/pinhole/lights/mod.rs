@@ -27,6 +27,7 @@ macro_rules! with_lights {
 // ANCHOR_END: light_list
 
 mod directional;
+mod irradiance;
 mod light;
 mod point;
 mod registry;
@@ -34,9 +35,10 @@ mod spot;
 mod start;
 mod targets;
 
-pub use directional::{PlacedDirectionalLight, irradiance_from_direction};
+pub use directional::PlacedDirectionalLight;
+pub use irradiance::{irradiance_from_direction, irradiance_from_point};
 pub use light::{Light, LightSample, PlacedLight, SceneLight};
-pub use point::{PlacedPointLight, irradiance_from_point};
+pub use point::PlacedPointLight;
 pub use registry::{AnyLight, LightNames, LightVisitor, ListedLight, visit_lights};
 pub use spot::{PlacedSpotLight, spot_falloff, versine, versine_of_half};
 pub use start::{LightStart, StartDraws};

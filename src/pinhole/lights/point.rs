@@ -53,14 +53,3 @@ impl Light for PlacedPointLight {
         LightStart { origin: self.position.as_vec3(), direction, power: self.intensity.map(|part| part * weight) }
     }
 }
-
-// ANCHOR: irradiance_from_point
-/// The irradiance from a point light of intensity I: I cos θ / d².
-///
-/// It decreases with the square of the distance and with the cosine of the angle of incidence.
-#[inline(always)]
-pub fn irradiance_from_point(intensity: [f64; 3], cosine: f64, distance_squared: f64) -> [f64; 3] {
-    let weight = cosine / distance_squared;
-    [intensity[0] * weight, intensity[1] * weight, intensity[2] * weight]
-}
-// ANCHOR_END: irradiance_from_point
