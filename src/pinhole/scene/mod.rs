@@ -119,8 +119,7 @@ pub use normal_map::NormalMap;
 #[doc(hidden)]
 pub use open_file::{FileError, FileKind, OpenFile, Unopened, open_file, read_file};
 #[doc(hidden)]
-pub use orientation::axis_angle;
-pub use orientation::euler_xyz;
+pub use orientation::{axis_angle, euler_xyz};
 pub use placement::{LookAt, Placement};
 pub use plane::Plane;
 pub use point_light::PointLight;
