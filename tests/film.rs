@@ -43,6 +43,9 @@ fn samples_that_are_no_light_are_counted_and_kept_out() {
     }
     let film = Film { width: 4, height: 3, tile_side: 4, tiles: vec![film], ..Film::default() };
     assert_eq!(film.rejected().0, (bad.len() * rows) as u64);
+    let splats = FilmSplats { rejected: 7, ..FilmSplats::new(4, 3) };
+    let with_splats = Film { splats: Some(splats), ..film.clone() };
+    assert_eq!(with_splats.rejected().0, film.rejected().0 + 7, "those of light paths, too");
     assert_eq!(film.rejected().1[0].pixel, [32, 64], "by the pixel of the image, not of the tile");
     eprintln!("rejected: {} samples of {} kinds in {rows} pixels", bad.len() * rows, bad.len());
 }

@@ -8,6 +8,8 @@ mod declared;
 mod followed;
 #[path = "plan/forced.rs"]
 mod forced;
+#[path = "plan/paintings.rs"]
+mod paintings;
 #[path = "plan/textures.rs"]
 mod textures;
 #[path = "plan/views.rs"]

@@ -211,3 +211,42 @@ fn a_short_reference_does_not_flatten_the_slope() {
     assert!(flat > -0.9, "not subtracting gave {flat}");
     eprintln!("report: slope {:.3}, and {flat:.3} where V_ref stays in", slope.value);
 }
+
+/// Twice the deviation is four times the MSE, read at a time between two levels, too.
+#[test]
+fn a_curve_of_twice_the_deviation_has_four_times_the_mse_at_any_time() {
+    let of = |deviation: f64, seed: u64| {
+        let renderer = Renderer { noise: Noise::Gaussian, deviation, bias: 0.0, seconds: 1e-3 };
+        renderer.curve(&[4, 16, 64], 16, (&renderer.reference(4096, seed), 4096), seed)
+    };
+    let (noisy, quiet) = (of(0.6, 901), of(0.3, 902));
+    for seconds in [6e-3, 16e-3, 50e-3] {
+        let ratio = noisy.log_mse_ratio_at(&quiet, seconds).expect("both reach it");
+        let off = (ratio.value - 4.0_f64.ln()) / ratio.variance.sqrt();
+        eprintln!("ratio at {seconds} s: {:.3} of 4, {off:.1} SE", ratio.value.exp());
+        assert!(off.abs() < 4.0 && ratio.variance < 0.01, "{ratio:?}");
+    }
+}
+
+/// The MSE of each run is the mean square from the reference, less the variance of that where it has batches to show it.
+#[test]
+fn the_mse_of_a_run_is_its_mean_square_less_the_reference_s_variance() {
+    let renderer = Renderer { noise: Noise::Gaussian, deviation: 0.3, bias: 0.1, seconds: 1e-3 };
+    let square = |a: &Numbers, b: &Numbers| {
+        let of_pixel =
+            |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|part| (a[part] - b[part]).powi(2)).sum::<f64>() / 3.0;
+        a.pixels.iter().zip(&b.pixels).map(of_pixel).sum::<f64>() / a.pixels.len() as f64
+    };
+    let images: Vec<Numbers> = (0..5).map(|run| renderer.render(4, 70 + run)).collect();
+    for count in [1, 2, 6] {
+        let batches: Vec<Numbers> = (0..count).map(|batch| renderer.render(2, 90 + batch)).collect();
+        let reference = Reference::of(&batches).expect("batches");
+        let spread: f64 = batches.iter().map(|batch| square(batch, &reference.mean)).sum();
+        let variance = if count > 1 { spread / (count - 1) as f64 / count as f64 } else { 0.0 };
+        let found = Ensemble::of(&images, &reference).mse_of_runs();
+        for (image, found) in images.iter().zip(found) {
+            let expected = square(image, &reference.mean) - variance;
+            assert!((found / expected - 1.0).abs() < 1e-9, "{count} batches: {found} for {expected}");
+        }
+    }
+}

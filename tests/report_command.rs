@@ -153,6 +153,35 @@ fn a_report_is_one_page_without_a_network_and_its_numbers_as_json_and_csv() {
         json["provenance"]["command"],
         "cargo run --release -- report 02_ray --against sampler=independent --size 16x9 --quick"
     );
+    for level in json["variants"].as_array().into_iter().flatten().flat_map(|own| own["levels"].as_array()).flatten() {
+        let tail = level["tail_fraction"].as_f64().expect("a number");
+        assert!(page.contains(&format!(">{:.1} %<", 100.0 * tail)), "the page lacks the fraction {tail}");
+    }
+    check_plot(page.split("<svg").nth(1).expect("a plot"));
     // Two variants of four levels of eight seeds, and the names of the columns.
     assert_eq!(read("csv").lines().count(), 1 + 2 * 4 * 8);
+}
+
+/// What a tag of a drawing says of these attributes.
+fn numbers<const N: usize>(tag: &str, names: [&str; N]) -> [f64; N] {
+    names.map(|name| {
+        let (_, after) = tag.split_once(&format!(" {name}=\"")).unwrap_or_else(|| panic!("no {name} in {tag}"));
+        after.split('"').next().and_then(|number| number.parse().ok()).expect("a number")
+    })
+}
+
+/// Both axes are marked, and the words "slope −1" stand beside the dashed line.
+fn check_plot(svg: &str) {
+    let words: Vec<&str> = svg.split("<text").skip(1).collect();
+    let slope = words.iter().find(|word| word.contains("slope −1")).expect("the words");
+    let dashed = svg.split("<line").find(|line| line.contains("stroke-dasharray=\"5 4\"")).expect("a dashed line");
+    let [x1, y1, x2, y2] = numbers(dashed, ["x1", "y1", "x2", "y2"]);
+    let [x, y] = numbers(slope, ["x", "y"]);
+    let beside = [x - (x1 + 0.65 * (x2 - x1)), y - (y1 + 0.65 * (y2 - y1))];
+    assert!(beside[0].abs() < 12.0 && beside[1].abs() < 12.0, "the words are {beside:?} off the line");
+    for anchor in ["middle", "end"] {
+        let anchor = format!("text-anchor=\"{anchor}\"");
+        let marks = words.iter().filter(|word| word.contains(&anchor) && !word.contains("slope")).count();
+        assert!(marks >= 3, "{marks} marks of {anchor}");
+    }
 }

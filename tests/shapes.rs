@@ -8,7 +8,7 @@ use pinhole::extract::pose;
 use pinhole::plan::Census;
 use pinhole::scene::*;
 use pinhole::shapes::emitter::Emitting;
-use pinhole::shapes::{RayHit, SceneShape, with_shapes};
+use pinhole::shapes::{PlacedCone, PlacedCylinder, RayHit, SceneShape, with_shapes};
 use pinhole_lab::measure::extremes::{Group, try_group};
 use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -75,6 +75,14 @@ fn check_bounds<S: Oracle>(name: &str) {
         assert!(surface.normal.dot(hit.direction) <= 1e-6, "{name}: the normal faces the ray");
         assert!((surface.point - hit.point()).length() < 1e-6 * hit.t, "{name}: {hit:?}");
         points += 1;
+        if !S::IS_PART {
+            let outward = if surface.outside { surface.normal } else { -surface.normal };
+            let sides = [-1e-6, 1e-6].map(|off| specimen.shape.contains(surface.point + off * hit.t * outward));
+            // What is infinite is around nothing.
+            let is_finite = specimen.shape.bounds().is_some();
+            let expected = [S::has_inside(&specimen.component) && is_finite, false];
+            assert_eq!(sides, expected, "{name}: is it inside just within and just beyond {}", surface.point);
+        }
         let Some(bounds) = specimen.shape.bounds() else { return };
         let point = surface.point;
         assert!(point.cmpge(bounds.least).all() && point.cmple(bounds.most).all(), "{name}: {point} in {bounds:?}");
@@ -233,6 +241,7 @@ fn check_light<S: Oracle>(name: &str) {
         };
         let visible = |to: DVec3| specimen.shape.t(from, to) > 1.0 - 1e-6;
         let mut sums = [[0.0; 4]; CELLS * CELLS * CELLS];
+        let mut facing = 0;
         for _ in 0..TRIED {
             let sampled = light.point(from, [draws.unit(), draws.unit()]);
             let again = light.pdf(from, from + sampled.to);
@@ -243,6 +252,8 @@ fn check_light<S: Oracle>(name: &str) {
             }
             let spot = light.spot([draws.unit(), draws.unit()]);
             let to = spot.position - from;
+            assert!(spot.position.abs().max_element() <= spot.size, "{name}: {} beyond {}", spot.position, spot.size);
+            facing += u32::from(spot.normal.dot(to) < 0.0);
             if visible(to) {
                 let per_area = spot.normal.dot(to).abs() / (to.length_squared() * to.length());
                 let weight = spot.area * per_area * light.pdf(from, spot.position);
@@ -255,6 +266,14 @@ fn check_light<S: Oracle>(name: &str) {
                 worst = worst.max((count - weight).abs() / (count_squared + weight_squared).sqrt());
             }
         }
+        // From there it is so small that points are sampled by area.
+        let far = centre + (from - centre) * 1e6;
+        for _ in 0..100 {
+            let sampled = light.point(far, [draws.unit(), draws.unit()]);
+            let again = light.pdf(far, far + sampled.to);
+            assert!((again / sampled.pdf - 1.0).abs() < 1e-4, "{name}, far: pdf {} and {again}", sampled.pdf);
+        }
+        assert_eq!(light.faces(from), facing > 0, "{name}: {facing} spots face {from}");
         lights += 1;
     }
     eprintln!("lights that are {name}: {lights} of {TRIED} points each, worst {worst:.1} σ");
@@ -264,4 +283,19 @@ fn check_light<S: Oracle>(name: &str) {
 #[test]
 fn points_of_lights_fall_as_their_pdfs_say() {
     each!(check_light);
+}
+
+/// How flat a cylinder and a cone may be scaled: the longest half axis, √2 long, over the shortest and over 3.
+#[test]
+fn a_shape_is_refused_only_where_it_is_too_thin() {
+    fn is_placed<S: Oracle>(least: f64) -> bool {
+        let placement = Placement { scale: DVec3::new(1.0, least, 1.0), ..Placement::default() };
+        Specimen::<S>::of(S::Component::default(), placement).is_some()
+    }
+    let limit = 2.0_f64.sqrt() / 3.0 / 1e6;
+    for (name, is_placed) in
+        [("cylinder", is_placed::<PlacedCylinder> as fn(f64) -> bool), ("cone", is_placed::<PlacedCone>)]
+    {
+        assert!(is_placed(1.05 * limit) && !is_placed(0.95 * limit), "{name}");
+    }
 }

@@ -1,5 +1,8 @@
 //! What a pixel covers of a texture, checked by its neighbours and by many samples; files found where a scene says.
 
+#[path = "textures/aspect.rs"]
+mod aspect;
+
 use crate::scenes;
 
 use bevy_ecs::prelude::*;

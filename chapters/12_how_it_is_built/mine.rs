@@ -14,7 +14,7 @@ pub fn mine(ask: Ask<Input, Vec<String>>, setting: &Setting<'_>) -> StandIn {
     let words: Vec<StageWords> = stages.iter().map(|stage| words(stage, setting)).collect();
     let kept = ask.once((words.clone(), FilmTile::NAME.into())).unwrap_or_default();
     if let Some(unknown) = kept.iter().find(|name| words.iter().all(|stage| stage.name != **name)) {
-        ask.complain(format!("kept named \"{unknown}\", which is none of the stages that it was given"));
+        ask.complain(format!("named \"{unknown}\", which is none of the stages that it was given"));
     }
     StandIn::keeping(kept)
 }

@@ -8,6 +8,7 @@ use super::interrupt::{Waiting, interrupted};
 use super::long_render::render_long;
 use super::options::RenderOptions;
 use super::progress::Progress;
+use super::status;
 use super::streams::Streams;
 use super::subject::Subject;
 use super::summary::Summary;
@@ -19,7 +20,7 @@ use pinhole::look::{Preflight, RenderStats, preflight};
 use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Integrator, Sampling};
-use pinhole_lab::exercise::{Mine, Outcome, PATIENCE};
+use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
 use std::ffi::OsStr;
 use std::path::Path;
 use std::time::Instant;
@@ -52,6 +53,9 @@ pub fn render_mine(
     let (name, exercise) = exercise_of(chapters, &asked.to_string_lossy())?;
     let number = name.split('_').next().unwrap_or(name);
     let chapter = find::chapter(chapters, name)?;
+    if streams.waits {
+        end_at_panics(end);
+    }
     let mine = Mine::of(&exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
     let report = exercise.check(PATIENCE);
     match &report.outcome {
@@ -73,6 +77,11 @@ pub fn render_mine(
     }
     let subject = mine.chapter.clone();
     render_with(&Subject::Chapter(&subject), &options, Some(mine), format, streams)
+}
+
+/// Ends the program as any failed command does; a panic on a thread of a render leaves nobody else to do so.
+fn end(sentence: &str) -> ! {
+    std::process::exit(status(Err(Error::usage(sentence))).into())
 }
 
 /// Renders a scene and says in a few lines what came of it; with `--verbose` all that ran and was left out, too.

@@ -8,7 +8,8 @@ use ::pinhole::scene::{Filter, Resolution, Sampling};
 use ::pinhole::{Chapter, Overrides, SamplingOverrides};
 use chapters::all;
 use pinhole_cli::exercises;
-use pinhole_lab::exercise::{Exercise, Mine};
+use pinhole_lab::exercise::{Exercise, Mine, end_at_panics};
+use std::process::Command;
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 27;
@@ -125,6 +126,30 @@ fn what_no_picture_can_hold_is_told_with_pixel_input_and_answer() {
     assert!(nan.contains(" at pixel (") && nan.contains("tan_half_vertical"), "{nan}");
     let huge = told(perspective(|_, _| [1e200; 3]));
     assert!(huge.contains("gave (1e200, 1e200, 1e200)"), "{huge}");
+}
+
+/// The program renders so that a panic ends it, since a release build could not go on; here a copy of this test does.
+#[test]
+fn a_panic_on_a_thread_of_a_render_ends_the_program_with_its_sentence() {
+    const COPY: &str = "PINHOLE_TEST_ENDS_AT_A_PANIC";
+    if std::env::var_os(COPY).is_some() {
+        end_at_panics(|sentence| {
+            eprintln!("pinhole: {sentence}");
+            std::process::exit(7)
+        });
+        let chapters = all();
+        let chapter = chapters.iter().find(|chapter| chapter.name == "05_pinhole").expect("the chapter");
+        _ = mine(chapter, &perspective(|_, _| panic!("not\nyet written")));
+        std::process::exit(8);
+    }
+    let this = std::env::current_exe().expect("this program");
+    let test = "exercises::mine::a_panic_on_a_thread_of_a_render_ends_the_program_with_its_sentence";
+    let ended = Command::new(this).args(["--exact", test, "--nocapture"]).env(COPY, "").output().expect("it runs");
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(7), "{said}");
+    let sentence = said.lines().find(|line| line.starts_with("pinhole: ")).expect("a sentence");
+    assert!(sentence.starts_with("pinhole: perspective_direction panicked at pixel ("), "{sentence}");
+    assert!(sentence.contains("asked screen (") && sentence.ends_with(": not yet written"), "{sentence}");
 }
 
 #[test]

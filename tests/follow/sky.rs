@@ -129,3 +129,18 @@ fn without_paths_on_offer_the_scene_names_its_integrator() {
     let told = ["integrator", "\"sky\""].map(|word| refused.contains(word));
     assert!(told[0], "{refused}");
 }
+
+/// A camera that sees both halves of the sky.
+#[test]
+fn a_gradient_is_seen_where_one_end_alone_is_black() {
+    let (black, grey) = (Rgb::BLACK, Rgb::grey(0.5));
+    for (bottom, top, seen) in [(black, grey, true), (grey, black, true), (grey, grey, true), (black, black, false)] {
+        let mut world = World::new();
+        world.spawn((PerspectiveCamera::default(), Resolution { width: 4, height: 4 }));
+        world.spawn(Gradient { bottom, top });
+        let film = render(&world, &offer(), &Execution::default(), &()).expect("renders").film;
+        for y in 0..4 {
+            assert_eq!(film.mean(1, y)[0] > 0.0, seen, "{bottom:?} to {top:?}, line {y}");
+        }
+    }
+}

@@ -1,5 +1,4 @@
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use super::panics::listen;
 use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread::Builder;
@@ -33,10 +32,14 @@ where
     let asked = Arc::clone(inputs);
     // Its name is what Rust prints before a panic's own words.
     let started = Builder::new().name(format!("your {function}")).spawn(move || {
+        let panicked = send.clone();
+        listen(move |words| {
+            // Nobody is left to hear it once patience has run out.
+            _ = panicked.send(Err(words));
+            None
+        });
         for input in asked.iter() {
-            let answer = catch_unwind(AssertUnwindSafe(|| yours(input)));
-            let panicked = answer.is_err();
-            if send.send(answer.map_err(words)).is_err() || panicked {
+            if send.send(Ok(yours(input))).is_err() {
                 return;
             }
         }
@@ -57,11 +60,4 @@ where
         }
     }
     answers
-}
-
-/// What a panic said, on one line.
-pub fn words(panic: Box<dyn Any + Send>) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
-    text.map_or_else(|| "no words".into(), |text| text.split_whitespace().collect::<Vec<_>>().join(" "))
 }

@@ -1,8 +1,7 @@
-use super::answers::words;
+use super::panics::heard;
 use super::question::Question;
 use super::shown::Shown;
 use pinhole::rays::{Paths, PixelSamples, Tile};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, OnceLock};
 
 /// What a render has to say against a reader's function; empty while all is well.
@@ -25,7 +24,7 @@ impl<I, A> Clone for Ask<I, A> {
     }
 }
 
-impl<I, A: Shown> Ask<I, A> {
+impl<I: Clone + 'static, A: Shown + 'static> Ask<I, A> {
     /// Nothing asked yet.
     pub fn new(
         function: &'static str,
@@ -42,37 +41,40 @@ impl<I, A: Shown> Ask<I, A> {
 
     /// The function's answer for a row; none once it has panicked, or answered what is not a finite number.
     pub fn at(&self, place: RowPlace<'_>, row: usize, input: I) -> Option<A> {
-        self.answer(input, || pixel_of(place, row).map_or_else(String::new, |[x, y]| format!("at pixel ({x}, {y}), ")))
+        self.answer(input, pixel_of(place, row))
     }
 
     /// The same where no row of a pixel asks.
     pub fn once(&self, input: I) -> Option<A> {
-        self.answer(input, String::new)
+        self.answer(input, None)
     }
 
-    fn answer(&self, input: I, pixel: impl FnOnce() -> String) -> Option<A> {
+    fn answer(&self, input: I, pixel: Option<[u32; 2]>) -> Option<A> {
         if self.complaint.get().is_some() {
             return None;
         }
-        let place = || format!("{}asked {}", pixel(), (self.question)().tell_on_one_line(&input));
-        match catch_unwind(AssertUnwindSafe(|| (self.written)(&input))) {
-            // A picture's numbers are f32 in the end.
-            Ok(answer) if answer.numbers().iter().all(|number| (*number as f32).is_finite()) => Some(answer),
-            Ok(answer) => {
-                let what = answer.shown();
-                self.complain(format!("{} gave {what} {}: no picture can hold that", self.function, place()));
-                None
-            }
-            Err(panic) => {
-                self.complain(format!("{} panicked {}: {}", self.function, place(), words(panic)));
-                None
-            }
+        let (asked, of_panic) = (self.clone(), input.clone());
+        let answer = heard(
+            || (self.written)(&input),
+            move |words| asked.complain(format!("panicked {}: {words}", asked.place(&of_panic, pixel))),
+        )?;
+        // A picture's numbers are f32 in the end.
+        if answer.numbers().iter().all(|number| (*number as f32).is_finite()) {
+            return Some(answer);
         }
+        self.complain(format!("gave {} {}: no picture can hold that", answer.shown(), self.place(&input, pixel)));
+        None
     }
 
-    /// Says what is wrong with the function, unless something else was said before.
-    pub fn complain(&self, sentence: String) {
-        self.complaint.get_or_init(|| sentence);
+    /// Which pixel asks what.
+    fn place(&self, input: &I, pixel: Option<[u32; 2]>) -> String {
+        let pixel = pixel.map_or_else(String::new, |[x, y]| format!("at pixel ({x}, {y}), "));
+        format!("{pixel}asked {}", (self.question)().tell_on_one_line(input))
+    }
+
+    /// Says what is wrong with the function, unless something else was said before; gives what was said first.
+    pub fn complain(&self, what: String) -> String {
+        self.complaint.get_or_init(|| format!("{} {what}", self.function)).clone()
     }
 }
 

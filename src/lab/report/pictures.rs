@@ -22,7 +22,10 @@ pub fn pictures(report: &Report, variants: &[Variant<'_>], runs: &Runs, measured
     let in_time = |own: usize| (0..=last).rev().find(|&level| time(own, level) <= 1.02 * common).unwrap_or(0);
     // All error pictures of a strip have one white, or they could not be compared.
     let strip = |title: String, says: &str, chosen: Vec<(usize, usize)>| {
-        let errors: Vec<Numbers> = chosen.iter().map(|&(own, level)| error(runs, measured, own, level)).collect();
+        let errors: Vec<Numbers> = chosen
+            .iter()
+            .map(|&(own, level)| error(&runs.levels[own][level][0].image, &measured[own].reference.mean))
+            .collect();
         let white = white(errors.first());
         let mut pictures = Vec::new();
         for (&(own, level), error) in chosen.iter().zip(&errors) {
@@ -55,9 +58,8 @@ pub fn pictures(report: &Report, variants: &[Variant<'_>], runs: &Runs, measured
     strips
 }
 
-/// |x − r| of the first run.
-fn error(runs: &Runs, measured: &[Measured], own: usize, level: usize) -> Numbers {
-    let (image, reference) = (&runs.levels[own][level][0].image, &measured[own].reference.mean);
+/// |x − r|.
+fn error(image: &Numbers, reference: &Numbers) -> Numbers {
     let pixels = image.pixels.iter().zip(&reference.pixels);
     let pixels = pixels.map(|(x, r)| [0, 1, 2].map(|part| (x[part] - r[part]).abs())).collect();
     Numbers { size: image.size, pixels, white: None }
@@ -74,4 +76,22 @@ fn white(error: Option<&Numbers>) -> f64 {
 fn picture(image: &Numbers, scale: f64, curve: Curve) -> Picture {
     let pixels = image.pixels.iter().map(|pixel| pixel.map(|part| (scale * part) as f32)).collect();
     Picture { width: image.size[0], pixels, curve }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_picture_is_black_where_all_is_right_and_white_where_it_is_most_wrong() {
+        let grey = |values: &[f64]| Numbers {
+            size: [values.len() as u32, 1],
+            pixels: values.iter().map(|value| [*value; 3]).collect(),
+            white: None,
+        };
+        let error = error(&grey(&[1.0, 0.5, 3.0]), &grey(&[1.0, 1.0, 1.0]));
+        assert_eq!(error.pixels, [[0.0; 3], [0.5; 3], [2.0; 3]]);
+        let white = white(Some(&error));
+        assert_eq!(picture(&error, 1.0 / white, Curve::Straight).pixels, [[0.0; 3], [0.25; 3], [1.0; 3]]);
+    }
 }

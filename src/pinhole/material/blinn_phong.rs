@@ -78,3 +78,22 @@ impl Lobe for BlinnPhongLobe {
         if to_eye.dot(half) > 0.0 { mirror_direction(-to_eye, half) } else { -DVec3::Z }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_do_not_change_the_angle_to_the_half_vector() {
+        let normal = DVec3::new(0.0, 0.6, 0.8);
+        for angle in [0.0_f64, 0.3, 1.2] {
+            // Light and eye lean as much to either side of a direction at this angle to the normal.
+            let half = normal * libm::cos(angle) + DVec3::X * libm::sin(angle);
+            let across = half.any_orthonormal_vector() * 0.7;
+            for [a, b, c] in [[1.0; 3], [2.0, 1.0, 1.0], [1.0, 3.0, 1.0], [1.0, 1.0, 0.2]] {
+                let found = half_vector_cosine(a * normal, b * (half + across), c * (half - across));
+                assert!((found - libm::cos(angle)).abs() < 1e-12, "{angle}: {found}");
+            }
+        }
+    }
+}

@@ -127,3 +127,22 @@ impl Bsdf for MetalTable {
         white.chain(roughness.map(|of| Example { component: grey(of), lossless_to: None })).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_metal_takes_the_bytes_of_its_colour_and_its_alpha() {
+        let mut table = MetalTable { colour: vec![[0.5; 3]; 10], alpha: vec![0.1; 10], several: None };
+        let own = size_of_val(&table.colour[..]) + size_of_val(&table.alpha[..]);
+        assert_eq!(table.bytes(), own);
+        let mut several = MultipleScattering::default();
+        several.push([0.5; 3], Some(0.1));
+        let one = several.bytes();
+        several.push([0.5; 3], Some(0.1));
+        assert!(one >= 2 * size_of::<f64>() && several.bytes() >= 2 * one, "{one}, then {}", several.bytes());
+        table.several = Some(several.clone());
+        assert_eq!(table.bytes(), own + several.bytes());
+    }
+}

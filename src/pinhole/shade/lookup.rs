@@ -136,6 +136,24 @@ mod tests {
         assert!(exact > tried / 2);
     }
 
+    /// Black and white columns of texels: a long footprint along them stays on one, a long one across them sees both.
+    #[test]
+    fn a_long_footprint_is_averaged_along_its_length() {
+        let (width, height) = (64, 32);
+        let rgb = (0..width * height).map(|at| [(at % 2) as f32; 3]).collect();
+        let pyramid = Pyramid::on(Texels { width, height, rgb });
+        let texel = DVec3::new(1.0 / width as f64, 1.0 / height as f64, 0.0);
+        for column in [20, 21] {
+            let point = DVec3::new((f64::from(column) + 0.5) * texel.x, 0.5, 0.0);
+            let mean = |right: f64, down: f64| {
+                let steps = [DVec3::X * right * texel.x, DVec3::Y * down * texel.y];
+                image_mean(&pyramid, &TexturePoint { point, steps }, Wrap::Repeat)[0]
+            };
+            assert!((mean(1.0, 14.0) - f64::from(column % 2)).abs() < 1e-9, "{column}: {}", mean(1.0, 14.0));
+            assert!((mean(14.0, 1.0) - 0.5).abs() < 1e-9, "{column}: {}", mean(14.0, 1.0));
+        }
+    }
+
     #[test]
     fn a_constant_image_is_that_constant_however_it_is_looked_up() {
         let constant = [0.1_f32, 0.7, 1.0 / 3.0];

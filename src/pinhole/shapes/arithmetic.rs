@@ -266,4 +266,22 @@ mod tests {
         eprintln!("running error bounds: {TRIED} chains, at most {largest:.2} of the bound");
         assert!(largest > 0.05);
     }
+
+    /// A sign is given where the error leaves no other, and a distance where it is known to half of u.
+    #[test]
+    fn what_an_error_leaves_open_is_not_said() {
+        let of = |value: f64, error: f64| Bounded { value, error };
+        for size in [1e-6, 1.0, 1e6] {
+            for (error, sign) in [(0.0, Some(1)), (0.9, Some(1)), (1.1, None)] {
+                assert_eq!(of(size, error * size).sign(), sign);
+                assert_eq!(of(-size, error * size).sign(), sign.map(|sign| -sign));
+            }
+            assert_eq!(of(0.0, size).sign(), None);
+            for value in [size, -size] {
+                assert_eq!(of(value, 0.9 * size / 33_554_432.0).certain(), Some(value));
+                assert_eq!(of(value, 1.1 * size / 33_554_432.0).certain(), None);
+            }
+        }
+        assert_eq!(of(0.0, 0.0).sign(), Some(0));
+    }
 }

@@ -95,7 +95,7 @@ impl Frustum {
     ///
     /// Where side and cap are both within rounding error of the hit, the part is taken that the ray can have arrived
     /// on.
-    /// From inside, such a hit is moved towards the middle by the bounds of both, as in a cuboid.
+    /// From inside, such a hit is moved away from the other part by the bounds of both, as in a cuboid.
     #[inline(always)]
     pub fn surface(&self, hit: &RayHit) -> SurfacePoint {
         let (g, error) = self.space.hit(hit, 1.0);
@@ -109,24 +109,26 @@ impl Frustum {
         let on_cap = self.capped && self.radius(cap.y) > 0.0 && off[1] + doubt(cap) < off[0] + doubt(side);
         if on_cap {
             let at = DVec3::new(g.x, cap.y, g.z);
-            return self.inward(self.space.surface(hit, at, cap, off[1] + 2.0 * error, outside), side, off[0]);
+            let surface = self.space.surface(hit, at, cap, off[1] + 2.0 * error, outside);
+            return self.inward(surface, (side, off[0]), (-outward, radius));
         }
         let at = DVec3::new(g.x, g.y.clamp(-BELOW_ONE, BELOW_ONE), g.z);
-        self.inward(self.space.surface(hit, at, side, off[0] + 2.0 * error, outside), cap, off[1])
+        let surface = self.space.surface(hit, at, side, off[0] + 2.0 * error, outside);
+        let down_the_side = -cap.y * (DVec3::Y + outward * self.profile[1]);
+        self.inward(surface, (cap, off[1]), (down_the_side, g.y.abs()))
     }
 
-    /// Moves a hit from inside towards the middle if it is closer than two bounds to another part, whose normal in unit
-    /// space this is.
+    /// Moves a hit from inside along its part if it is closer than two bounds to another part, whose normal in unit
+    /// space and distance these are; there also lie the direction away from that part, and how far it is to the middle.
     #[inline(always)]
-    fn inward(&self, surface: SurfacePoint, other: DVec3, off: f64) -> SurfacePoint {
-        let steps = (self.space.unit_from_world.transpose() * other).length();
-        let lacking = 2.0 * f64::from(surface.bound) * steps - off;
-        if surface.outside || !self.capped || !(lacking > 0.0 && lacking < 0.25) {
+    fn inward(&self, surface: SurfacePoint, other: (DVec3, f64), (away, most): (DVec3, f64)) -> SurfacePoint {
+        let steps = (self.space.unit_from_world.transpose() * other.0).length();
+        let lacking = 2.0 * f64::from(surface.bound) * steps - other.1;
+        if surface.outside || !self.capped || !(lacking > 0.0) {
             return surface;
         }
-        // A point at least a quarter away from every part in unit space.
-        let middle = self.space.centre + self.space.world_from_unit * (DVec3::Y * self.profile[1]);
-        SurfacePoint { point: surface.point + (middle - surface.point) * (4.0 * lacking), ..surface }
+        let moved = self.space.world_from_unit * (away * lacking.min(most));
+        SurfacePoint { point: surface.point + moved, ..surface }
     }
 
     /// u and v at a point in unit space: on the side u is the longitude as on a sphere and v runs down its height; a

@@ -74,6 +74,23 @@ mod tests {
     }
 
     #[test]
+    fn a_plane_has_the_axes_of_the_face_that_is_nearest() {
+        let mut faces = [0; 3];
+        for index in 0..3000 {
+            let normal = crate::measure::ray_aim::Draws::new(2802, index).unit_vector();
+            let axis = normal.abs().max_position();
+            let face = face_axes(axis, normal[axis] < 0.0)[0];
+            let [u, v] = plane_axes(3.0 * normal);
+            let along = (face - face.dot(normal) * normal).normalize();
+            assert!((u - along).length() < 1e-12, "{normal}: {u} for {along}");
+            assert!((v - u.cross(normal)).length() < 1e-12, "{normal}: {v}");
+            faces[axis] += 1;
+        }
+        eprintln!("axes of planes: {faces:?} normals nearest to x, y and z");
+        assert!(faces.iter().all(|&count| count > 500));
+    }
+
+    #[test]
     fn a_sphere_has_its_middle_at_plus_z_and_its_seam_at_minus_z() {
         for (own, uv) in [
             (DVec3::NEG_Z, [0.0, 0.5]),

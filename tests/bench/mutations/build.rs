@@ -67,12 +67,25 @@ impl Workspace {
             .current_dir(root)
             .output()
             .expect("git lists the files");
-        for name in String::from_utf8_lossy(&listed.stdout).split('\0').filter(|name| !name.is_empty()) {
-            if let Ok(contents) = fs::read(root.join(name)) {
-                own.write(name, &contents);
-            }
+        let listed = String::from_utf8_lossy(&listed.stdout);
+        let names: BTreeSet<&str> = listed.split('\0').filter(|name| root.join(name).is_file()).collect();
+        own.remove_all_but(&names, "");
+        for name in names {
+            own.write(name, &fs::read(root.join(name)).expect("a file of the workspace"));
         }
         own
+    }
+
+    /// Removes what an earlier copy held and the workspace no longer has.
+    fn remove_all_but(&self, names: &BTreeSet<&str>, below: &str) {
+        for entry in fs::read_dir(self.folder.join(below)).into_iter().flatten().flatten() {
+            let name = format!("{below}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                self.remove_all_but(names, &format!("{name}/"));
+            } else if !names.contains(name.as_str()) {
+                fs::remove_file(entry.path()).expect("a file of the copy");
+            }
+        }
     }
 
     fn write(&self, name: &str, contents: &[u8]) {

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 
 /// Where mutations are looked for: lights, materials, integration, intersection, sampling, film and report.
-pub const FOLDERS: &str = "src/pinhole/shade,src/pinhole/follow,src/pinhole/intersect,src/pinhole/sample,src/pinhole/rays,\
-                       src/pinhole/film,src/lab/report";
+pub const FOLDERS: &str = "src/pinhole/lights,src/pinhole/material,src/pinhole/shapes,src/pinhole/cameras,\
+                       src/pinhole/filters,src/pinhole/shade,src/pinhole/follow,src/pinhole/intersect,\
+                       src/pinhole/sample,src/pinhole/rays,src/pinhole/film,src/lab/report";
 
 /// One change to one line of one function.
 #[derive(Clone, Debug)]

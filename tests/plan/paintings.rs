@@ -1,0 +1,112 @@
+//! The colour in which a view shows numbers that are chosen here, column by column.
+
+use super::*;
+use pinhole::extract::NO_ROW;
+use pinhole::follow::{CausticPaths, LightPower, Media, Scattered, Splats};
+use pinhole::intersect::{
+    EmissiveRows, Hits, MaterialRows, NO_SHAPE, ShadingNormals, SurfaceSides, SurfaceUvs, Surfaces,
+};
+use pinhole::plan::Column;
+use pinhole::rays::{
+    CameraRays, LensPoints, NdcPoints, PathLight, Paths, PixelSamples, RasterPoints, RayTimes, SampleSigns,
+    ScreenPoints, WorldRays,
+};
+use pinhole::shade::{
+    Footprints, JoinPoints, LightPdfs, LightRays, Radiance, ShadowHits, SurfaceColours, TexturePoints, TransmissiveRows,
+};
+
+const SIZE: [u32; 2] = [400, 200];
+const BLACK: [f32; 3] = [0.0; 3];
+const WHITE: [f32; 3] = [1.0; 3];
+/// The unit vector (0.6, 0, −0.8), each component mapped from [−1, 1] to [0, 1].
+const LEANING: [f32; 3] = [0.8, 0.5, 0.1];
+const COLOUR: [f32; 3] = [0.25, 0.5, 2.0];
+
+/// Paints every row of a column, and gives its name.
+fn shown<C: Column>(column: C, expected: &[[f32; 3]]) -> &'static str {
+    assert_eq!(column.rows(), expected.len(), "{}", C::NAME);
+    for (row, expected) in expected.iter().enumerate() {
+        let found = column.paint(row, SIZE);
+        let close = (0..3).all(|part| (found[part] - expected[part]).abs() < 1e-6);
+        assert!(close, "{}: row {row} is {found:?}, not {expected:?}", C::NAME);
+    }
+    C::NAME
+}
+
+#[test]
+fn each_column_is_painted_as_its_page_says() {
+    let grey = |part| [part; 3];
+    let [x, y, z] = [0.6, 0.0, -0.8].map(|part| vec![part]);
+    let [nx, ny, nz] = [0.6, 0.0, -0.8].map(|part| vec![part, 0.0]);
+    let [r, g, b] = COLOUR.map(|part| vec![f64::from(part)]);
+    let [dx, dy, dz] = [0.6_f32, 0.0, -0.8].map(|part| vec![part]);
+    let names = [
+        shown(RasterPoints { x: vec![100.0], y: vec![150.0] }, &[[0.25, 0.75, 0.0]]),
+        shown(NdcPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
+        // Twice as wide as high, x is from −2 to 2.
+        shown(ScreenPoints { x: vec![-1.0, 0.0], y: vec![0.5, 0.0] }, &[[0.25, 0.75, 0.0], [0.5, 0.5, 0.0]]),
+        shown(LensPoints { x: vec![0.3, 0.0], y: vec![-0.4, 0.0] }, &[[0.8, 0.1, 0.5], [0.5; 3]]),
+        shown(CameraRays { dx: x, dy: y, dz: z, ox: vec![0.0], oy: vec![0.0], oz: vec![0.0] }, &[LEANING]),
+        shown(
+            WorldRays { dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ox: vec![0.0], oy: vec![0.0], oz: vec![0.0] },
+            &[LEANING],
+        ),
+        shown(RayTimes { time: vec![0.0, 1.0, 3.0] }, &[BLACK, grey(0.5), grey(0.75)]),
+        shown(PixelSamples { pixel: vec![5; 3], sample: vec![0, 1, 3] }, &[BLACK, grey(0.5), grey(0.75)]),
+        shown(SampleSigns { sign: vec![1.0, -1.0] }, &[WHITE, [1.0, 0.0, 0.0]]),
+        shown(Paths { r: r.clone(), g: g.clone(), b: b.clone(), first: vec![0], pdf: vec![1.0] }, &[COLOUR]),
+        shown(PathLight { r: r.clone(), g: g.clone(), b: b.clone() }, &[COLOUR]),
+        shown(
+            Surfaces { nx: nx.clone(), ny: ny.clone(), nz: nz.clone(), px: vec![7.0; 2], ..Default::default() },
+            &[LEANING, BLACK],
+        ),
+        shown(ShadingNormals { nx, ny, nz }, &[LEANING, BLACK]),
+        shown(SurfaceUvs { u: vec![1.25], v: vec![-0.25] }, &[[0.25, 0.75, 0.0]]),
+        shown(SurfaceSides { outside: vec![1, 0] }, &[WHITE, BLACK]),
+        shown(MaterialRows { row: vec![3] }, &[WHITE]),
+        shown(EmissiveRows { row: vec![3], emissive: vec![1] }, &[WHITE]),
+        shown(TransmissiveRows { row: vec![3] }, &[WHITE]),
+        shown(CausticPaths { spread: vec![1, 0] }, &[WHITE, BLACK]),
+        shown(LightPower { r: r.clone(), g: g.clone(), b: b.clone() }, &[COLOUR]),
+        shown(Splats { r: r.clone(), g: g.clone(), b: b.clone(), x: vec![9.0], y: vec![9.0] }, &[COLOUR]),
+        shown(
+            Scattered { path: vec![0], dx: dx.clone(), dy: dy.clone(), dz: dz.clone(), ..Default::default() },
+            &[LEANING],
+        ),
+        shown(Media { first: vec![4, NO_ROW], ..Default::default() }, &[WHITE, BLACK]),
+        // √9 of √9 + 1; a footprint without an end is all of it.
+        shown(
+            Footprints {
+                rx: vec![1.0, f64::INFINITY],
+                ry: vec![0.0; 2],
+                rz: vec![0.0; 2],
+                dx: vec![0.0; 2],
+                dy: vec![9.0; 2],
+                dz: vec![0.0; 2],
+            },
+            &[[0.5, 0.75, 0.0], [1.0, 0.75, 0.0]],
+        ),
+        shown(JoinPoints { x: vec![0.25], y: vec![0.75] }, &[[0.25, 0.75, 0.0]]),
+        shown(ShadowHits { t: vec![1.0; 2], shape: vec![NO_SHAPE, 0], ..Default::default() }, &[WHITE, BLACK]),
+        shown(SurfaceColours { r, g, b }, &[COLOUR]),
+        shown(
+            TexturePoints { x: vec![1.25], y: vec![-0.25], z: vec![0.5], ..Default::default() },
+            &[[0.25, 0.75, 0.5]],
+        ),
+        shown(LightRays { path: vec![0], dx, dy, dz, ..Default::default() }, &[LEANING]),
+        shown(LightPdfs { path: vec![0; 2], pdf: vec![0.0, 3.0] }, &[BLACK, grey(0.75)]),
+        shown(Radiance { r: vec![0.25], g: vec![0.5], b: vec![2.0] }, &[COLOUR]),
+    ];
+    let hits = Hits { t: vec![0.0, 60.0, 0.0, 1.0], shape: vec![0, 0, 1, NO_SHAPE] };
+    let colours = [0, 1, 2, 3].map(|row| hits.paint(row, SIZE));
+    // 1 / √(1 + 0.05 t) is a half at t = 60.
+    assert!((0..3).all(|part| (colours[1][part] - 0.5 * colours[0][part]).abs() < 1e-6), "{colours:?}");
+    assert!(colours[0] != colours[2] && colours[3] == BLACK, "{colours:?}");
+    let offered = view_names(&offer());
+    let missing: Vec<&str> = offered
+        .into_iter()
+        .filter(|name| *name != Hits::NAME && !names.contains(name) && !name.ends_with(" rows"))
+        .collect();
+    assert!(missing.is_empty(), "no colours are known of {missing:?}");
+    eprintln!("paintings: {} columns", names.len() + 1);
+}
