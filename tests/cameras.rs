@@ -1,6 +1,9 @@
 //! Fisheye and equirectangular cameras: directions lead back to their places, solid angles are whole, what lies outside a
 //! circle is black; and one scene through every camera.
 
+#[path = "cameras/registered.rs"]
+mod registered;
+
 use crate::scenes;
 
 use bevy_ecs::prelude::*;

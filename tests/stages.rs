@@ -1,6 +1,11 @@
 //! The list of all stages: each once, in the order of the sets, whichever was offered first.
 
-use pinhole::plan::Stage;
+use bevy_ecs::prelude::*;
+use pinhole::Chapter;
+use pinhole::look::trace;
+use pinhole::plan::{Census, Stage};
+use pinhole::rays::WorldRays;
+use pinhole::scene::{PerspectiveCamera, TracePixel};
 use pinhole::stages::{all, sort};
 use std::any::TypeId;
 use std::collections::BTreeSet;
@@ -21,4 +26,14 @@ fn the_order_of_the_offer_does_not_matter() {
     let mut reversed: Vec<Stage> = all().into_iter().rev().collect();
     sort(&mut reversed);
     assert_eq!(reversed, all());
+}
+
+#[test]
+fn a_trace_of_an_empty_scene_shows_the_camera_ray() {
+    let mut world = World::new();
+    world.spawn(PerspectiveCamera::default());
+    let offer = Chapter::new("empty", "nothing", |_| ()).offer(all()).stages();
+    let trace = trace(&Census::of(&world), &offer, TracePixel { x: 1, y: 2 }).expect("traced");
+    let rays: Vec<_> = trace.stages.iter().filter(|own| own.column.is::<WorldRays>()).collect();
+    assert!(!rays.is_empty() && rays.iter().all(|own| own.rows.len() == 1), "{:?}", trace.stages);
 }

@@ -9,6 +9,8 @@
 //! is a closed form, an identity or an independent method.
 //! What fails or is too slow without any mutation is left out and listed.
 //!
+//! `--again REPORT` tries once more what an earlier report of the bench on standard error says has survived.
+//!
 //! Flags: `--count 150`, `--seed 1`, `--folders src/pinhole/shade,src/lab/report`, `--jobs 2`, `--seconds 300` (the most
 //! for one mutation), `--minutes 600` (the most for all), `--slowest 60` (seconds of the longest test that runs),
 //! `--targets renderer,laboratory,program`, `--cargo "nice cargo"` (how cargo is called).
@@ -40,8 +42,15 @@ fn main() {
     let started = Instant::now();
     let cargo = after("--cargo").unwrap_or_else(|| "cargo".into());
     let workspace = Workspace::copied(Path::new(env!("CARGO_MANIFEST_DIR")), &cargo);
-    let candidates = choose::candidates(&workspace.folder, &list("--folders", choose::FOLDERS), number("--seed", 1));
+    let mut candidates =
+        choose::candidates(&workspace.folder, &list("--folders", choose::FOLDERS), number("--seed", 1));
     println!("{} mutations could be made; seed {}", candidates.len(), number("--seed", 1));
+    if let Some(report) = after("--again") {
+        let report = std::fs::read_to_string(report).expect("an earlier report");
+        let survived: Vec<&str> =
+            report.lines().filter_map(|line| line.split_once(": SURVIVED")).map(|line| line.0).collect();
+        candidates.retain(|own| survived.contains(&format!("{} {}", own.place(), own.change).as_str()));
+    }
     let (mutations, refused) = workspace.instrumented(candidates, number("--count", 150) as usize);
     println!("{} compile, {refused} that were tried do not, after {:.0?}", mutations.len(), started.elapsed());
     let tests = workspace.tests(&list("--targets", "renderer,laboratory,program"));

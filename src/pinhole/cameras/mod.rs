@@ -13,17 +13,19 @@
 /// A line holds the component's name, the type that implements [`Camera`](crate::cameras::Camera), and the noun for
 /// messages and stages.
 /// The order is that of the stages; it does not affect any picture.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! with_cameras {
     ($then:ident) => {
         $then! {
-            PerspectiveCamera(crate::cameras::PerspectiveProjection) "perspective",
-            OrthographicCamera(crate::cameras::OrthographicWindow) "orthographic",
-            FisheyeCamera(crate::cameras::ImageCircle) "fisheye",
-            EquirectangularCamera(crate::cameras::EquirectangularImage) "equirectangular",
+            PerspectiveCamera($crate::cameras::PerspectiveProjection) "perspective",
+            OrthographicCamera($crate::cameras::OrthographicWindow) "orthographic",
+            FisheyeCamera($crate::cameras::ImageCircle) "fisheye",
+            EquirectangularCamera($crate::cameras::EquirectangularImage) "equirectangular",
         }
     };
 }
-pub(crate) use with_cameras;
+pub use with_cameras;
 
 mod camera;
 mod equirectangular;

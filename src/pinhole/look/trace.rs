@@ -212,20 +212,3 @@ impl Trace {
         words.join("  ")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::PerspectiveCamera;
-    use crate::{Chapter, stages};
-
-    #[test]
-    fn an_empty_scene_shows_the_camera_ray() {
-        let mut world = World::new();
-        world.spawn(PerspectiveCamera::default());
-        let offer = Chapter::new("empty", "nothing", |_| ()).offer(stages::all()).stages();
-        let trace = trace(&Census::of(&world), &offer, TracePixel { x: 1, y: 2 }).expect("traced");
-        let rays: Vec<_> = trace.stages.iter().filter(|own| own.column.is::<WorldRays>()).collect();
-        assert!(!rays.is_empty() && rays.iter().all(|own| own.rows.len() == 1), "{:?}", trace.stages);
-    }
-}

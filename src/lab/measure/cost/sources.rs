@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 const SOURCE: FileKind = FileKind { name: "a source", most: 16 << 20 };
 
 /// The folders whose code decides what a stage costs.
-const FOLDERS: [&str; 13] = [
+const FOLDERS: [&str; 14] = [
     "plan",
     "cameras",
     "shapes",
     "material",
+    "lights",
     "filters",
     "extract",
     "sample",
