@@ -307,4 +307,12 @@ mod tests {
         }
         eprintln!("several mirrors: {tried} of the hardest numbers, all finite");
     }
+
+    #[test]
+    fn its_memory_is_that_of_both_tables() {
+        let mut several = MultipleScattering::default();
+        several.push([0.5; 3], Some(0.1));
+        assert_eq!(several.bytes(), size_of_val(&several.lost[..]) + size_of_val(&several.compensation[..]));
+        assert!(!several.lost.is_empty() && !several.compensation.is_empty());
+    }
 }
