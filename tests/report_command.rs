@@ -153,7 +153,10 @@ fn a_report_is_one_page_without_a_network_and_its_numbers_as_json_and_csv() {
         json["provenance"]["command"],
         "cargo run --release -- report 02_ray --against sampler=independent --size 16x9 --quick"
     );
-    for level in json["variants"].as_array().into_iter().flatten().flat_map(|own| own["levels"].as_array()).flatten() {
+    let levels: Vec<&serde_json::Value> =
+        json["variants"].as_array().into_iter().flatten().flat_map(|own| own["levels"].as_array()).flatten().collect();
+    assert_eq!(levels.len(), 2 * 4);
+    for level in levels {
         let tail = level["tail_fraction"].as_f64().expect("a number");
         assert!(page.contains(&format!(">{:.1} %<", 100.0 * tail)), "the page lacks the fraction {tail}");
     }
