@@ -9,7 +9,7 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    io::Write::write_all(&mut io::stdout(), format!("cargo::rerun-if-changed={}\n", here.display()).as_bytes())?;
+    folders::run_again_for(&here, &[])?;
     fs::write(out.join("chapters.rs"), listed(&here, &folders::with_file(&here, "main.rs")?))
 }
 

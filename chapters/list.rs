@@ -9,8 +9,8 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     let chapters = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join("chapters");
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    io::Write::write_all(&mut io::stdout(), format!("cargo::rerun-if-changed={}\n", chapters.display()).as_bytes())?;
     let asking = folders::with_file(&chapters, "question.rs")?;
+    folders::run_again_for(&chapters, &["question.rs", "mine.rs", "figures.rs"])?;
     fs::write(out.join("exercises.rs"), exercises(&chapters, &asking))?;
     fs::write(out.join("solutions.rs"), solutions(&chapters, &asking))?;
     fs::write(out.join("figures.rs"), figures(&chapters, &folders::with_file(&chapters, "figures.rs")?))
@@ -36,7 +36,7 @@ fn exercises(chapters: &Path, stems: &[String]) -> String {
 fn solutions(chapters: &Path, stems: &[String]) -> String {
     let mut text = String::new();
     for stem in stems {
-        let question = format!("pub use pinhole_cli::exercises::chapter_{stem}::question;");
+        let question = format!("pub use super::super::listed::chapter_{stem}::question;");
         let (solution, mistakes) = (file(chapters, stem, "solution"), file(chapters, stem, "mistakes"));
         let _ = writeln!(text, "pub mod chapter_{stem} {{\n    {question}\n    {solution}\n    {mistakes}\n}}\n");
     }

@@ -1,4 +1,8 @@
 //! Light that is followed, held against what is known of it.
+//!
+//! Pictures are compared by means of few samples, enough for the resolution that is asked for here;
+//! `PINHOLE_TEST_SAMPLES=16 cargo test --release --test renderer follow -- --nocapture` takes 16 times as many and says
+//! what it tells apart.
 
 #[path = "follow/broken.rs"]
 mod broken;
@@ -63,6 +67,11 @@ fn closed_forms_hold() {
     eprintln!("closed forms: {forms} with {tried} samples, {exact} of them without noise and held to rounding");
 }
 
+/// How many times the samples of a test are taken.
+fn times_samples() -> u32 {
+    std::env::var("PINHOLE_TEST_SAMPLES").map_or(1, |times| times.parse().expect("a whole number"))
+}
+
 /// Renders of a scene by an integrator, with seeds of their own.
 fn renders_by(
     make: &dyn Fn() -> World,
@@ -70,6 +79,7 @@ fn renders_by(
     samples: u32,
     seeds: std::ops::Range<u64>,
 ) -> Vec<Numbers> {
+    let samples = times_samples() * samples;
     let image = |seed| {
         let mut world = make();
         let camera = named(&mut world, "camera");
@@ -131,8 +141,8 @@ fn strategies_agree(name: &str, make: &dyn Fn() -> World, strategies: &[LightStr
 #[test]
 fn light_strategies_agree_on_the_public_scenes() {
     for (name, samples) in [
-        ("cornell", 16),
-        ("cornell-glass", 16),
+        ("cornell", 8),
+        ("cornell-glass", 8),
         ("veach-mis", 24),
         ("spheres", 4),
         ("spheres-lens", 4),
@@ -151,7 +161,7 @@ fn light_strategies_agree_on_the_public_scenes() {
 
 #[test]
 fn light_strategies_agree_on_the_chapters_scenes() {
-    for (name, samples) in [("25_path_tracing", 16), ("26_choosing_samples", 24)] {
+    for (name, samples) in [("25_path_tracing", 8), ("26_choosing_samples", 24)] {
         strategies_agree(name, &|| chapter_at(name, 48, 32), ALL, samples, 8);
     }
     // The others by paths too, whatever integrator they name; caustics come from the lights where the scene has them so.
@@ -177,7 +187,7 @@ fn light_strategies_agree_on_the_chapters_scenes() {
             world
         };
         // Its light is small and bright, so that its few pixels are the noisiest.
-        let samples = if name == "21_soft_shadows" { 32 } else { 16 };
+        let samples = if name == "21_soft_shadows" { 16 } else { 8 };
         strategies_agree(name, &make, strategies, samples, 4);
     }
 }

@@ -22,6 +22,8 @@ mod list;
 mod round_trip;
 #[path = "scene_files/watch.rs"]
 mod watch;
+#[path = "scene_files/words.rs"]
+mod words;
 
 use pinhole::scene::{FileProblem, SceneFile};
 use std::path::Path;

@@ -1,7 +1,6 @@
 use super::error::{Error, Result};
 use super::find;
 use super::format::{Format, number_or_word, print_json};
-use crate::exercises;
 use pinhole::Chapter;
 use pinhole_lab::exercise::{Exercise, Outcome, Progress, Turn, list_exercises, take_turn, turn};
 use serde::Serialize;
@@ -12,21 +11,30 @@ use std::path::Path;
 /// Where it is remembered which exercises were tried and which are done.
 const PROGRESS: &str = "out/check.json";
 
+/// The name of a chapter, and what it asks its reader to write.
+pub type Named = (&'static str, Exercise);
+
 /// Checks the reader's function of one chapter, or lists those of all.
 ///
 /// Errors: a wrong answer, in one sentence after the report; no such chapter, or none with an exercise.
-pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mut dyn Write) -> Result {
+pub fn check(
+    chapters: &[Chapter],
+    exercises: &[Named],
+    asked: Option<&str>,
+    format: Format,
+    out: &mut dyn Write,
+) -> Result {
     let file = Path::new(PROGRESS);
     match (asked, format) {
-        (None, Format::Text) => Ok(list_exercises(&exercises::all(), file, out)?),
-        (None, Format::Json) => print_json(&told(file), out),
+        (None, Format::Text) => Ok(list_exercises(exercises, file, out)?),
+        (None, Format::Json) => print_json(&told(exercises, file), out),
         (Some(asked), Format::Text) => {
-            let (name, exercise) = exercise_of(chapters, asked)?;
-            Ok(take_turn(name, &exercise, file, out)?)
+            let (name, exercise) = exercise_of(chapters, exercises, asked)?;
+            Ok(take_turn(name, exercise, file, out)?)
         }
         (Some(asked), Format::Json) => {
-            let (name, exercise) = exercise_of(chapters, asked)?;
-            let turn = turn(name, &exercise, file);
+            let (name, exercise) = exercise_of(chapters, exercises, asked)?;
+            let turn = turn(name, exercise, file);
             print_json(&CheckRecord::of(name, &turn), out)?;
             turn.report.sentence().map_or(Ok(()), |sentence| Err(Error::usage(sentence)))
         }
@@ -36,14 +44,13 @@ pub fn check(chapters: &[Chapter], asked: Option<&str>, format: Format, out: &mu
 /// A chapter's name and the function that it asks for.
 ///
 /// Errors: no such chapter, or none with an exercise.
-pub fn exercise_of(chapters: &[Chapter], asked: &str) -> Result<(&'static str, Exercise)> {
+pub fn exercise_of<'e>(chapters: &[Chapter], exercises: &'e [Named], asked: &str) -> Result<&'e Named> {
     let name = find::chapter(chapters, asked)?.name;
     let none = || format!("{name} has no exercise to check; `check` without a chapter lists those that have one");
-    let exercise = exercises::all().into_iter().find(|(chapter, _)| *chapter == name);
-    Ok((name, exercise.ok_or_else(|| Error::usage(none()))?.1))
+    exercises.iter().find(|(chapter, _)| *chapter == name).ok_or_else(|| Error::usage(none()))
 }
 
-fn told(file: &Path) -> Value {
+fn told(exercises: &[Named], file: &Path) -> Value {
     let (progress, remark) = Progress::read(file);
     let told = |(chapter, exercise): &(&str, Exercise)| {
         let file = format!("chapters/{chapter}/exercise.rs");
@@ -51,7 +58,7 @@ fn told(file: &Path) -> Value {
             "chapter": chapter, "function": exercise.function, "file": file, "tries": progress.of(chapter),
         })
     };
-    let exercises: Vec<Value> = exercises::all().iter().map(told).collect();
+    let exercises: Vec<Value> = exercises.iter().map(told).collect();
     json!({ "exercises": exercises, "notes": remark.into_iter().collect::<Vec<String>>() })
 }
 

@@ -52,13 +52,19 @@ use arguments::{Arguments, Command};
 use parse::{parsed, program, with_render};
 use pinhole::Chapter;
 use pinhole::scene::printable_message;
+use pinhole_lab::exercise::Exercise;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use streams::Streams;
 use subject::Subject;
 
+/// What chapters ask their readers to write, each with the name of its chapter.
+pub type Exercises = fn() -> Vec<(&'static str, Exercise)>;
+
 /// Runs one command line, without the program's name, and writes what a reader sees to `out`; notes and warnings go to
 /// standard error.
+///
+/// No chapter asks for a function here; the program itself hands them over ([`run_program`]).
 ///
 /// Errors: one sentence, or what clap says of words that it cannot parse; nothing of a failed command is left on disk.
 pub fn run(chapters: &[Chapter], arguments: &[impl AsRef<OsStr>], out: &mut dyn Write) -> Result {
@@ -76,17 +82,17 @@ pub fn run_with_notes(
 ) -> Result {
     let words: Vec<OsString> = arguments.iter().map(OsString::from).collect();
     let mut streams = Streams { out, notes, waits: false, terminal: false };
-    match perform(chapters, &words, &mut streams) {
+    match perform(chapters, Vec::new, &words, &mut streams) {
         Err(Error::Clap(help)) if !help.use_stderr() => Ok(write!(streams.out, "{help}")?),
         result => result,
     }
 }
 
 /// Runs the command line that the program was started with, and gives the status that it ends with.
-pub fn run_program(chapters: &[Chapter]) -> u8 {
+pub fn run_program(chapters: &[Chapter], exercises: Exercises) -> u8 {
     called::remember();
     let words: Vec<OsString> = std::env::args_os().skip(1).collect();
-    status(with_standard_streams(|streams| perform(chapters, &words, streams)))
+    status(with_standard_streams(|streams| perform(chapters, exercises, &words, streams)))
 }
 
 fn with_standard_streams(perform: impl FnOnce(&mut Streams<'_>) -> Result) -> Result {
@@ -95,7 +101,7 @@ fn with_standard_streams(perform: impl FnOnce(&mut Streams<'_>) -> Result) -> Re
     perform(&mut Streams { out: &mut out, notes: &mut notes, waits: true, terminal })
 }
 
-fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) -> Result {
+fn perform(chapters: &[Chapter], exercises: Exercises, words: &[OsString], streams: &mut Streams<'_>) -> Result {
     let words = with_render(chapters, words);
     let Arguments { command, format } = parsed(program(), chapters, &words, streams.waits)?;
     let out = &mut *streams.out;
@@ -106,7 +112,7 @@ fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) 
         Some(Command::List) => list::list(chapters, format, out),
         Some(Command::Render(asked)) if asked.watch => watch::render_at_every_save(chapters, &asked, format, streams),
         Some(Command::Render(asked)) if asked.mine => {
-            render::render_mine(chapters, &asked.chapter, asked.options(), format, streams)
+            render::render_mine(chapters, &exercises(), &asked, format, streams)
         }
         Some(Command::Render(asked)) => {
             let subject = Subject::find(chapters, &asked.chapter)?;
@@ -127,7 +133,7 @@ fn perform(chapters: &[Chapter], words: &[OsString], streams: &mut Streams<'_>) 
         Some(Command::ClosedForms(asked)) => closed_forms::print_closed_forms(&asked, format, out),
         Some(Command::Extremes(asked)) => extremes::print_extremes(chapters, &asked, format, out),
         Some(Command::Sweep(asked)) => sweep::print_sweep(&Subject::find(chapters, &asked.chapter)?, format, out),
-        Some(Command::Check(asked)) => check::check(chapters, asked.chapter.as_deref(), format, out),
+        Some(Command::Check(asked)) => check::check(chapters, &exercises(), asked.chapter.as_deref(), format, out),
         Some(Command::Cost(asked)) => cost::print_cost(chapters, &asked, format, out),
         Some(Command::Report(asked)) => report::report(chapters, &asked, format, out),
         Some(Command::Review(asked)) => review::review(chapters, &asked, format, out),

@@ -1,4 +1,5 @@
-use super::check::exercise_of;
+use super::arguments::RenderChapter;
+use super::check::{Named, exercise_of};
 use super::error::{Error, Result};
 use super::files::{Files, Targets};
 use super::find;
@@ -21,7 +22,6 @@ use pinhole::plan::Census;
 use pinhole::render::{Execution, RenderInProgress};
 use pinhole::scene::{Integrator, Sampling};
 use pinhole_lab::exercise::{Mine, Outcome, PATIENCE, end_at_panics};
-use std::ffi::OsStr;
 use std::path::Path;
 use std::time::Instant;
 
@@ -37,11 +37,12 @@ pub fn render_cover(chapters: &[Chapter], format: Format, streams: &mut Streams<
 /// or gives what no picture can hold, in one sentence, and then no file is written.
 pub fn render_mine(
     chapters: &[Chapter],
-    asked: &OsStr,
-    mut options: RenderOptions,
+    exercises: &[Named],
+    asked: &RenderChapter,
     format: Format,
     streams: &mut Streams<'_>,
 ) -> Result {
+    let (asked, mut options) = (&asked.chapter, asked.options());
     if options.resume {
         let what = "a function may have changed since, so `--mine` begins anew; leave out --resume";
         return Err(Error::CommandLine(format!("there is nothing to continue: {what}")));
@@ -50,13 +51,13 @@ pub fn render_mine(
         let what = "`--mine` renders a chapter with the function that it asks you to write; a scene file asks for none";
         return Err(Error::CommandLine(what.into()));
     }
-    let (name, exercise) = exercise_of(chapters, &asked.to_string_lossy())?;
+    let (name, exercise) = exercise_of(chapters, exercises, &asked.to_string_lossy())?;
     let number = name.split('_').next().unwrap_or(name);
     let chapter = find::chapter(chapters, name)?;
     if streams.waits {
         end_at_panics(end);
     }
-    let mine = Mine::of(&exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
+    let mine = Mine::of(exercise, chapter, &chapter.world(&options.asked(!options.quiet)))?;
     let report = exercise.check(PATIENCE);
     match &report.outcome {
         Outcome::Late(..) => {

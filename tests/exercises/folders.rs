@@ -1,6 +1,6 @@
 //! A chapter is one folder: whoever adds one edits two lists outside it.
 
-use super::root;
+use super::{listed, root};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,26 @@ fn a_new_chapter_edits_two_lists_outside_its_folder() {
     assert_eq!(lists.len(), LISTS.len() * LATE.len(), "{lists:?}");
     let unused: Vec<_> = NAMED.iter().filter(|(file, _)| !named.contains(file)).collect();
     assert!(unused.is_empty(), "no exceptions any more: {unused:?}");
+}
+
+#[test]
+fn what_a_folder_holds_is_on_the_lists_that_were_compiled() {
+    let figures = fs::read_to_string(concat!(env!("OUT_DIR"), "/figures.rs")).expect("the list of figures");
+    let folders =
+        fs::read_dir(root().join("chapters")).expect("the chapters").map(|entry| entry.expect("an entry").path());
+    let (mut asking, mut drawing) = (0, 0);
+    for folder in folders.filter(|folder| folder.is_dir()) {
+        let stem = folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let listed = listed::all().iter().any(|(chapter, _)| *chapter == stem);
+        let again = "touch chapters/Cargo.toml, and build again";
+        assert_eq!(listed, folder.join("question.rs").exists(), "{stem}/question.rs: {again}");
+        let draws = folder.join("figures.rs").exists();
+        assert_eq!(figures.contains(&format!("chapter_{stem}::figures")), draws, "{stem}/figures.rs: {again}");
+        asking += usize::from(listed);
+        drawing += usize::from(draws);
+    }
+    assert!(asking > 0 && drawing > 0);
+    eprintln!("chapters: {asking} ask for a function, {drawing} draw figures, all listed");
 }
 
 /// A page of the book: what prose speaks of is no list.

@@ -1,13 +1,12 @@
 //! `render NN --mine`: a solution makes pinhole's picture, a mistake another one, and what fails says so in a sentence.
 
 use super::solutions::{ALL, chapter_05_pinhole};
-use super::{pinhole as perspective, right, run, untouched};
+use super::{listed, pinhole as perspective, right, run, untouched};
 use ::pinhole::film::Film;
 use ::pinhole::render::{Execution, render};
 use ::pinhole::scene::{Filter, Resolution, Sampling};
 use ::pinhole::{Chapter, Overrides, SamplingOverrides};
 use chapters::all;
-use pinhole_cli::exercises;
 use pinhole_lab::exercise::{Exercise, Mine, end_at_panics};
 use std::process::Command;
 
@@ -156,7 +155,7 @@ fn a_panic_on_a_thread_of_a_render_ends_the_program_with_its_sentence() {
 fn every_stub_renders_or_is_refused_in_a_sentence() {
     let chapters = all();
     let mut refusals = 0;
-    for (name, exercise) in exercises::all().into_iter().filter(|(name, _)| untouched(name)) {
+    for (name, exercise) in listed::all().into_iter().filter(|(name, _)| untouched(name)) {
         let chapter = chapters.iter().find(|chapter| chapter.name == name).expect("the chapter");
         match mine(chapter, &exercise) {
             Ok(film) => assert_eq!(pixels(&film).len(), (WIDTH * HEIGHT) as usize),

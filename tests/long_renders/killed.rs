@@ -12,7 +12,7 @@ const COMMAND: [&str; 12] = [
     "--size",
     "64x36",
     "--samples",
-    "500",
+    "2500",
     "--threads",
     "1",
     "--write-every",

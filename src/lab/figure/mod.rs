@@ -58,7 +58,7 @@ pub use grid::{Grid, drawn_distance};
 pub use label::{Label, Obstacles, Placed, crosses, overlap, place};
 pub use patch::Patch;
 pub use pen::{Fill, Pen};
-pub use picture::Picture;
+pub use picture::{Picture, with_few_samples};
 pub use pinhole::chosen_rays;
 pub use pixel_ray::{Onward, PixelRay};
 pub use scenery::{Scenery, Strand};

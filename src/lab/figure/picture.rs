@@ -4,9 +4,22 @@ use pinhole::extract::camera_entity;
 use pinhole::film::{Curve, Film, byte_from_linear, png_bytes, png_bytes_by};
 use pinhole::plan::Stage;
 use pinhole::render::{Execution, Rendered, render};
-use pinhole::scene::Resolution;
+use pinhole::scene::{Resolution, Sampling};
 use pinhole::{Chapter, Overrides};
 use pinhole::{Result, stages};
+use std::cell::Cell;
+
+thread_local! {
+    static MOST_SAMPLES: Cell<u32> = const { Cell::new(u32::MAX) };
+}
+
+/// Draws with at most so many samples a pixel of a picture, for who looks at a figure's lines and labels only.
+pub fn with_few_samples<T>(most: u32, draw: impl FnOnce() -> T) -> T {
+    let before = MOST_SAMPLES.replace(most);
+    let drawn = draw();
+    MOST_SAMPLES.set(before);
+    drawn
+}
 
 /// A picture of a chapter's scene, within a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,5 +127,8 @@ fn rendered(whole: &Chapter, size: [u32; 2], change: impl FnOnce(&mut EntityWorl
     let mut scene = whole.world(&asked);
     let camera = camera_entity(&scene)?;
     change(&mut scene.entity_mut(camera));
+    if let Some(mut sampling) = scene.get_mut::<Sampling>(camera) {
+        sampling.samples = sampling.samples.min(MOST_SAMPLES.get());
+    }
     render(&scene, &whole.stages(), &Execution::default(), &())
 }

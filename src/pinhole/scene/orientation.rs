@@ -87,10 +87,6 @@ mod tests {
     use crate::measure::ray_aim::Draws;
     use glam::DMat3;
 
-    fn written(text: &str) -> Result<Placement, String> {
-        ron::from_str(text).map_err(|error| error.to_string())
-    }
-
     /// The textbook's matrices, one after another, against the quaternions.
     #[test]
     fn angles_turn_in_the_order_that_is_said() {
@@ -117,21 +113,5 @@ mod tests {
         eprintln!("orientations: 2000 by Euler angles and 2000 by axis and angle, within {worst:.1e}");
         let quarter = euler_xyz(Degrees(0.0), Degrees(180.0), Degrees(0.0));
         assert_eq!(quarter, DQuat::from_xyzw(0.0, 1.0, 0.0, -0.0), "half a turn is exact");
-    }
-
-    #[test]
-    fn a_file_turns_by_one_of_three_words() {
-        let by = |text: &str| written(text).expect(text).orientation;
-        let angles = by("(euler_xyz: (0, 90, 0))");
-        assert_eq!(angles, by("(axis_angle: (axis: (0, 2, 0), angle: 90))"));
-        assert!((angles * DVec3::NEG_Z - DVec3::NEG_X).length() < 1e-15, "left is where −z goes");
-        assert_eq!(by("(orientation: (0, 0, 0, 2))"), DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0));
-        assert_eq!(by("(position: (1, 2, 3))"), DQuat::IDENTITY);
-        for twice in
-            ["(euler_xyz: (0, 9, 0), axis_angle: (angle: 9))", "(orientation: (1, 0, 0, 0), euler_xyz: (1, 0, 0))"]
-        {
-            assert!(written(twice).is_err_and(|told| told.contains("turned once")), "{twice}");
-        }
-        assert!(by("(axis_angle: (axis: (0, 0, 0), angle: 9))").is_nan(), "which extraction refuses");
     }
 }

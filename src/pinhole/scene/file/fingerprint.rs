@@ -69,31 +69,4 @@ mod tests {
     fn the_hash_is_the_known_one() {
         assert_eq!(fnv(FNV_BASIS, b"foobar"), 0x8594_4171_f739_67e8);
     }
-
-    #[test]
-    fn an_image_that_holds_something_else_makes_another_scene() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut scene = World::new();
-        scene.insert_resource(SceneFolder(folder.path().into()));
-        scene.spawn(ImageTexture { file: "card.png".into(), ..ImageTexture::default() });
-        let with = |bytes: &[u8]| {
-            std::fs::write(folder.path().join("card.png"), bytes).expect("a file");
-            fingerprint(&scene)
-        };
-        assert_eq!(with(b"one"), with(b"one"));
-        assert_ne!(with(b"one"), with(b"two"));
-    }
-
-    /// The file of a disabled entity was never checked: it may be a device that never ends, or a pipe that nobody
-    /// writes to.
-    #[test]
-    fn the_image_of_a_disabled_entity_is_not_opened() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut scene = World::new();
-        scene.insert_resource(SceneFolder(folder.path().into()));
-        scene.spawn((Disabled, ImageTexture { file: "card.png".into(), ..ImageTexture::default() }));
-        let before = fingerprint(&scene);
-        std::fs::write(folder.path().join("card.png"), b"one").expect("a file");
-        assert_eq!(fingerprint(&scene), before);
-    }
 }

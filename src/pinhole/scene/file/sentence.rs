@@ -33,21 +33,3 @@ fn word_of(name: &str) -> Option<&'static str> {
         _ => Word::all().find(|word| (word.component)() == name).map(|word| word.word),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_component_is_named_by_its_word() {
-        for word in Word::all() {
-            let name = (word.component)();
-            let told = in_words_of_files(&format!("camera \"{name}\": x is a {name}, but {name} or Other{name}"));
-            let wanted = format!("camera \"{name}\": x is a {0}, but {0} or Other{name}", word.word);
-            assert_eq!(told, wanted);
-        }
-        assert_eq!(in_words_of_files("a UsesMaterial or an Emissive"), "a material or an emissive");
-        assert_eq!(in_words_of_files("„é“: PointLight(s)"), "„é“: point_light(s)");
-        eprintln!("components: {} named as a file names them", Word::all().count());
-    }
-}
