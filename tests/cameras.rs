@@ -9,7 +9,7 @@ use crate::scenes;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 use pinhole::cameras::in_image_circle;
-use pinhole::extract::{ImageCircle, ImageFrame, half_extent};
+use pinhole::extract::{ImageCircle, ImageFrame, PerspectiveProjection, SMALLEST_PIXEL, half_extent};
 use pinhole::film::{Film, write_exr};
 use pinhole::plan::{Census, Column, Table};
 use pinhole::rays::{
@@ -92,6 +92,20 @@ fn directions_lead_to_their_places_and_back() {
          image for raster points"
     );
     assert!(worst < 1.5 && worst_raster < 1e-15);
+}
+
+/// Along the diagonal the angle from the axis is the arc tangent of the distance from the centre, which grows least in a
+/// corner.
+#[test]
+fn the_narrowest_pixel_of_a_perspective_is_in_a_corner() {
+    let image = ImageFrame { width: 30_000, height: 20_000 };
+    for tan_half_vertical in [0.01, 0.5, 12.0] {
+        let pitch = 2.0 * tan_half_vertical / 20_000.0;
+        let corner = 1.5_f64.hypot(1.0) * tan_half_vertical;
+        let angle = (corner + 0.5 * pitch).atan() - (corner - 0.5 * pitch).atan();
+        let found = PerspectiveProjection { tan_half_vertical }.narrowest_pixel(image);
+        assert!((found / angle - 1.0).abs() < 1e-6, "{tan_half_vertical}: {found} for {angle}");
+    }
 }
 
 /// The solid angle of a triangle of unit vectors (van Oosterom and Strackee 1983).
@@ -276,6 +290,11 @@ fn angles_are_refused_by_name() {
     for (fov, size) in [(360.0, [16, 9]), (0.25, [1024, 1024]), (1e-3, [1, 1])] {
         assert_eq!(refused(fov, size), None);
     }
+    // Of two pixels each is half of the angle.
+    let narrowest = 2.0 * SMALLEST_PIXEL * 180.0 / PI;
+    assert_eq!(Degrees(narrowest).radians() / 2.0, SMALLEST_PIXEL);
+    assert_eq!(refused(narrowest, [2, 2]), None);
+    assert!(refused(narrowest.next_down(), [2, 2]).is_some());
     let mut world = World::new();
     world.spawn((Name::new("eye"), FisheyeCamera::default(), EquirectangularCamera));
     let told = pinhole::extract::validate(&Census::of(&world)).expect_err("refused").to_string();

@@ -8,7 +8,7 @@ use pinhole::lights::{
 };
 use pinhole::plan::Census;
 use pinhole::render::{Execution, render};
-use pinhole::scene::{Matte, Motion, Name, PerspectiveCamera, Placement, Shutter, Sphere};
+use pinhole::scene::*;
 use pinhole_lab::measure::ray_aim::Draws;
 use std::f64::consts::{PI, TAU};
 
@@ -239,4 +239,19 @@ fn every_light_is_on_offer_lights_a_ball_and_may_not_move() {
     visit_lights(&mut scenes);
     eprintln!("lights in scenes: {}", scenes.0);
     assert!(scenes.0 >= 3);
+}
+
+/// E = I cos θ / d², of which a matte surface sends on ρ E / π, each colour by itself.
+#[test]
+fn a_coloured_point_light_fades_with_the_square_of_the_distance() {
+    let (intensity, colour) = (Rgb::new(1.0, 2.0, 5.0), Rgb::new(0.9, 0.6, 0.2));
+    let mut world = World::new();
+    let look = LookAt { eye: DVec3::Y, target: DVec3::ZERO, up: DVec3::Z };
+    world.spawn((OrthographicCamera { view_height: 1e-6 }, look, Resolution { width: 1, height: 1 }));
+    world.spawn((Plane::default(), Matte { colour }));
+    world.spawn((PointLight { intensity, ..PointLight::default() }, Placement::at(3.0, 4.0, 0.0)));
+    let film = render(&world, &pinhole::stages::all(), &Execution::default(), &()).expect("renders").film;
+    let reflected = colour.to_vec() * intensity.to_vec() * (4.0 / 5.0) / 25.0 / PI;
+    let off = DVec3::from(film.mean(0, 0).map(f64::from)) / reflected - 1.0;
+    assert!(off.abs().max_element() < 1e-6, "{:?} for {reflected}", film.mean(0, 0));
 }

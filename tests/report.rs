@@ -2,6 +2,8 @@
 
 #[path = "report/coverage.rs"]
 mod coverage;
+#[path = "report/summed.rs"]
+mod summed;
 #[path = "report/synthetic.rs"]
 mod synthetic;
 

@@ -135,6 +135,21 @@ fn no_bit_is_lost_in_an_image_of_65536_pixels() {
     eprintln!("width {WIDTH}: {tried} samples of 15 samplings, each at its own pixel, {worst:.1e} pixels lost at most");
 }
 
+/// Stratified numbers alone have finer strata than in pairs.
+#[test]
+fn a_single_number_is_the_first_of_two_unless_it_is_stratified() {
+    for (purpose, depth) in Purpose::ALL.into_iter().flat_map(|purpose| [(purpose, 0), (purpose, 3)]) {
+        let (index, key) = (SampleIndex { number: 5, samples: 16, depth }, PixelKey::new(1, [7, 11]));
+        for sampler in [Sampler::Independent, Sampler::Sobol] {
+            let (one, [first, _]) = with_sampler!(sampler, D => {
+                let draw = D::of(index, purpose);
+                (draw.one(key), draw.two(key))
+            });
+            assert_eq!(one, first, "{sampler:?}, {purpose:?} at depth {depth}");
+        }
+    }
+}
+
 /// Independent samples vary by σ² / n; none is biased.
 #[test]
 fn means_vary_as_theory_says_and_are_unbiased() {

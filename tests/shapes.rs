@@ -8,7 +8,10 @@ use pinhole::extract::pose;
 use pinhole::plan::Census;
 use pinhole::scene::*;
 use pinhole::shapes::emitter::Emitting;
-use pinhole::shapes::{PlacedCone, PlacedCylinder, RayHit, SceneShape, with_shapes};
+use pinhole::shapes::{
+    PlacedCone, PlacedCylinder, Planar, RayHit, SceneShape, double_double_disk_t, double_double_rectangle_t,
+    with_shapes,
+};
 use pinhole_lab::measure::extremes::{Group, try_group};
 use pinhole_lab::measure::oracle::Oracle;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -315,5 +318,17 @@ fn a_shape_is_refused_only_where_it_is_too_thin() {
         [("cylinder", is_placed::<PlacedCylinder> as fn(f64) -> bool), ("cone", is_placed::<PlacedCone>)]
     {
         assert!(is_placed(1.05 * limit) && !is_placed(0.95 * limit), "{name}");
+    }
+}
+
+/// On a slope where the products in n · f are not 0, but cancel.
+#[test]
+fn a_ray_that_starts_on_a_planar_shape_does_not_hit_it() {
+    let half_edges = [DVec3::new(1.0, -1.0, 0.0), DVec3::Z];
+    let planar = Planar::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0), half_edges).expect("an area");
+    let on_it = DVec3::new(0.25, -0.25, 0.0);
+    for t in [double_double_disk_t, double_double_rectangle_t] {
+        assert_eq!(t(on_it, planar.normal, &planar), f64::INFINITY);
+        assert!((t(on_it - planar.normal, planar.normal, &planar) - 1.0).abs() < 1e-6);
     }
 }

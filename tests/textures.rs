@@ -2,6 +2,8 @@
 
 #[path = "textures/aspect.rs"]
 mod aspect;
+#[path = "textures/edges.rs"]
+mod edges;
 
 use crate::scenes;
 

@@ -155,3 +155,11 @@ fn ends_of_the_unit_square_are_no_trouble() {
     }
     eprintln!("ends: {tried} points, none without a pdf");
 }
+
+#[test]
+fn from_its_own_face_nothing_of_a_cuboid_is_visible() {
+    let light = cuboid(DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z]);
+    let on_top = DVec3::new(0.2, 1.0, -0.3);
+    assert_eq!(point_on(&light, on_top, [0.3, 0.6]), LightPoint::NONE);
+    assert_eq!(pdf_towards(&light, on_top, DVec3::new(1.0, 0.1, 0.2)), 0.0);
+}

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
-use pinhole::intersect::SurfaceSides;
+use pinhole::intersect::{Hits, NO_SHAPE, Surface, SurfaceSides, Surfaces};
 use pinhole::plan::Stage;
 use pinhole::render::inspect;
 use pinhole::scene::*;
@@ -83,4 +83,18 @@ fn every_kind_of_shape_knows_its_sides_also_mirrored() {
         }
     }
     eprintln!("sides: {tried} shapes hit from one side or the other");
+}
+
+#[test]
+fn where_a_ray_misses_the_surface_is_zero() {
+    let mut world = scene(DVec3::Z * 4.0, DVec3::ZERO, Sphere { radius: 1.0 }, Placement::default());
+    let camera = crate::scenes::named(&mut world, "camera");
+    world.entity_mut(camera).insert(PerspectiveCamera::default());
+    world.spawn((Sphere { radius: 0.1 }, Matte::default()));
+    let inspection = inspect(&world, &offer(), 32).expect("inspects");
+    let tile = inspection.world.entity(inspection.tiles[0]);
+    let (hits, surfaces) = (tile.get::<Hits>().expect("hits"), tile.get::<Surfaces>().expect("surfaces"));
+    let zero = |row: &usize| surfaces.get(*row) == Surface::default();
+    let (missed, hit): (Vec<usize>, Vec<usize>) = (0..25).partition(|&row| hits.shape[row] == NO_SHAPE);
+    assert!(missed.len() > 4 && missed.iter().all(zero) && !hit.iter().any(zero), "{missed:?} missed, {hit:?} hit");
 }

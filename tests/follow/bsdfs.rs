@@ -1,9 +1,16 @@
 //! Every registered BSDF, by the examples that it gives of itself: energy, reciprocity, and sampling.
 
+#[path = "principled.rs"]
+mod principled;
+
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use pinhole::material::{BsdfClass, ErasedBsdf, MaterialTable, REGISTERED, Registration, Site, Transport};
+use pinhole::material::{
+    Bsdf, BsdfClass, ErasedBsdf, MaterialTable, MetalTable, PrincipledTable, REGISTERED, Registration, RoughGlassTable,
+    Site, Transport,
+};
 use pinhole::plan::Census;
+use pinhole::scene::{Metal, Principled, RoughGlass};
 use pinhole_lab::measure::chi_squared::{Bins, p_value};
 use pinhole_lab::measure::hemisphere::Quadrature;
 use pinhole_lab::measure::ray_aim::Draws;
@@ -261,4 +268,24 @@ fn sampled_directions_have_their_pdf() {
     let limit = 1.0 - libm::pow(0.99, 1.0 / tried as f64);
     eprintln!("sampling: {tried} χ² tests, least p {:.5} ({}), limit {limit:.1e}", least.0, least.1);
     assert!(least.0 > limit, "{least:?}");
+}
+
+#[test]
+fn roughness_ends_at_0_and_at_1() {
+    let accepted = |roughness: f64| {
+        let metal = MetalTable::colour(&Metal { roughness, ..Metal::default() }, "it");
+        let glass = RoughGlassTable::colour(&RoughGlass { roughness, ..RoughGlass::default() }, "it");
+        let principled = PrincipledTable::colour(&Principled { roughness, ..Principled::default() }, "it");
+        [metal, glass, principled].map(|colour| colour.is_ok())
+    };
+    for (roughness, expected) in [(0.0, true), (1.0, true), (1.0 + f64::EPSILON, false), (-1e-300, false)] {
+        assert_eq!(accepted(roughness), [expected; 3], "roughness {roughness:e}");
+    }
+}
+
+#[test]
+fn what_transmits_light_has_no_colour_of_its_own() {
+    let sites: Vec<Site> =
+        REGISTERED.iter().filter(|own| own.transmits).flat_map(examples_of).flat_map(|own| own.sites).collect();
+    assert!(sites.len() > 2 && sites.iter().all(|site| site.colour == [0.0; 3]), "{sites:?}");
 }

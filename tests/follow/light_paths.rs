@@ -6,6 +6,7 @@ use super::*;
 use glam::{DQuat, DVec3};
 use pinhole::film::Film;
 use pinhole::scene::*;
+use pinhole::shade::join_cosine;
 
 type Spawn = fn(&mut World);
 
@@ -179,4 +180,12 @@ fn emission_that_the_camera_sees_is_whole_with_light_tracing() {
         }
     }
     eprintln!("emission: {tried} pixels show their lamp's radiance");
+}
+
+#[test]
+fn a_surface_that_faces_away_from_camera_or_light_is_not_connected() {
+    for [to_camera, falling] in [[-0.5, 0.5], [0.0, 0.5], [0.5, -0.5], [0.5, 0.0]] {
+        assert_eq!(join_cosine(to_camera, falling, 0.25), 0.0, "{to_camera} to the camera, {falling} from the light");
+    }
+    assert_eq!(join_cosine(0.5, 0.5, 0.25), 0.25);
 }

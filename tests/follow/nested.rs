@@ -2,7 +2,9 @@
 
 use super::*;
 use glam::DVec3;
-use pinhole::plan::Census;
+use pinhole::follow::DeeperMedia;
+use pinhole::plan::{Census, Column};
+use pinhole::render::inspect;
 use pinhole::scene::*;
 
 /// Balls of glass about one centre, or eggs, or cuboids, in an even sky of radiance 1.
@@ -99,4 +101,22 @@ fn a_mesh_of_glass_is_closed_or_refused() {
         assert!(["triangle \"face ", "material", "\"glass\"", "interior"].iter().all(|w| told.contains(w)), "{told}");
     }
     eprintln!("glass meshes: one closed and as bright as the sky, 8 with a hole refused");
+}
+
+/// Of the rays that leave the sixth surface some are inside six shells, others outside all.
+#[test]
+fn rays_inside_more_than_four_shells_are_painted_white() {
+    let mut world = shells(8, 0.0, &|world, size| world.spawn(Sphere { radius: size }).id());
+    let camera = named(&mut world, "camera");
+    let integrator = Integrator::Path { max_depth: 6, lights: LightStrategy::Mis, roulette: 0 };
+    world.entity_mut(camera).insert(integrator);
+    let inspection = inspect(&world, &offer(), 24).expect("inspects");
+    let deeper = inspection.world.get::<DeeperMedia>(inspection.tiles[0]).expect("more than four shells");
+    let mut painted = [0; 2];
+    for row in 0..deeper.rows() {
+        let inside = usize::from(!deeper.get(row).is_empty());
+        assert_eq!(deeper.paint(row, [24, 16]), [inside as f32; 3], "{:?}", deeper.get(row));
+        painted[inside] += 1;
+    }
+    assert!(painted.iter().all(|&rays| rays > 10), "{painted:?} rays");
 }

@@ -233,3 +233,27 @@ fn a_view_paints_as_before_and_layers_are_kept_beside_it() {
     FilmBits::of(&viewed).assert_is(&FilmBits::of(&plain), "the view");
     assert!(viewed.layers == whole.layers, "layers beside a view");
 }
+
+/// Beside a view nothing is lit, so that each layer has to read for itself what it is made of.
+#[test]
+fn a_layer_alone_is_the_same_as_beside_all_others() {
+    let film = |kinds: &[LayerKind]| {
+        let layers = Layers { kinds: kinds.to_vec() };
+        let scene = sampled(SIZE, seven(Sampler::Sobol), (View { column: "hit".into() }, layers));
+        render(&scene, &offer(), &Execution::default(), &()).expect("renders").film
+    };
+    let all = film(&LayerKind::ALL);
+    for kind in LayerKind::ALL.into_iter().filter(|kind| kind.is_mean()) {
+        let mut sum = 0.0;
+        for (alone, beside) in film(&[kind]).layers.iter().zip(&all.layers) {
+            for row in 0..alone.hits.len() {
+                for channel in 0..kind.channels().len() {
+                    let value = alone.mean(kind, channel, row);
+                    assert_eq!(value, beside.mean(kind, channel, row), "{kind:?}");
+                    sum += value.abs();
+                }
+            }
+        }
+        assert!(sum > 0.0, "{kind:?} is 0 everywhere");
+    }
+}

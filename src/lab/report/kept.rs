@@ -47,14 +47,14 @@ pub fn keep(report: &Report) -> Result {
     curves.variants.iter_mut().for_each(|variant| variant.stages.clear());
     let mut value = serde_json::to_value(curves).map_err(std::io::Error::from)?;
     round(&mut value);
-    let text = value.to_string();
+    let text = format!("{value}\n");
     if text.len() > LARGEST {
         let (bytes, name) = (text.len(), &report.name);
         let what = format!("the report of {name} has {bytes} bytes, more than the {LARGEST} that are kept");
         return Err(Error::Usage(format!("{what}; compare with fewer variants")));
     }
     let file = crate::repository().join(place(&report.name));
-    write_whole(&file, |file| writeln!(file, "{text}"))
+    write_whole(&file, |file| file.write_all(text.as_bytes()))
 }
 
 /// Five digits are more than any interval leaves.

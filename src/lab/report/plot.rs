@@ -182,3 +182,15 @@ fn guide(svg: &mut Svg, at: &dyn Fn(f64, f64) -> DVec2, (x, mse): (f64, f64), xs
         "slope −1",
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_ten_stand_alone_and_multiples_have_their_factor() {
+        let numbers = [(1.0, -6), (2.0, -6), (5.0, 12), (2.0, -2), (5.0, 0), (1.0, 3)];
+        let shown = numbers.map(|(step, decade)| scientific(step, decade));
+        assert_eq!(shown, ["10⁻⁶", "2·10⁻⁶", "5·10¹²", "0.02", "5", "1000"]);
+    }
+}

@@ -34,12 +34,6 @@ pub fn cosine_pdf(cosine: f64) -> f64 {
 }
 // ANCHOR_END: cosine_direction
 
-/// Whether two directions are on the same side of a surface.
-#[inline(always)]
-pub fn same_side(normal: DVec3, a: DVec3, b: DVec3) -> bool {
-    normal.dot(a) * normal.dot(b) > 0.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

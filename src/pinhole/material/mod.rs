@@ -59,7 +59,7 @@ pub(crate) use for_each_bsdf;
 pub use blinn_phong::{BlinnPhongLobe, BlinnPhongTable, blinn_phong_peak, half_vector_cosine};
 pub use bsdf::{Bsdf, BsdfClass, BsdfSample, Example, Interior, Named, Site, SpecularSample, StageNames, Transport};
 pub use erased::ErasedBsdf;
-pub use frame::{cosine_direction, cosine_pdf, frame_of, same_side};
+pub use frame::{cosine_direction, cosine_pdf, frame_of};
 pub use fresnel::{fresnel, fresnel_parts, mirror_direction, refract};
 pub use ggx::{MicrofacetSample, ggx_brdf, ggx_d, ggx_g1, ggx_lambda, ggx_sample, visible_normal, visible_pdf};
 pub use glass::{SmoothGlass, glass_event, glass_samples};

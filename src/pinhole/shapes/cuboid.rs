@@ -219,13 +219,6 @@ pub fn cuboid_face(origin: DVec3, direction: DVec3, slabs: &Slabs) -> usize {
     (0..3).find(|&axis| is_first(axis)).unwrap_or_else(|| double_double_cuboid_t(origin, direction, slabs).1)
 }
 
-/// The axis of the face that a point lies on or is nearest to, relative to the cuboid's half extents.
-pub fn face_of_point(slabs: &Slabs, from_centre: DVec3) -> usize {
-    let coordinate = |axis: usize| (slabs.normal[axis].dot(from_centre) / slabs.half[axis]).abs();
-    let first = usize::from(coordinate(1) > coordinate(0));
-    if coordinate(2) > coordinate(first) { 2 } else { first }
-}
-
 // ANCHOR: cuboid_surface
 /// The surface where a ray hits the face of a cuboid across an axis.
 ///

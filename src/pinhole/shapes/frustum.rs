@@ -118,8 +118,10 @@ impl Frustum {
         self.inward(surface, (cap, off[1]), (down_the_side, g.y.abs()))
     }
 
-    /// Moves a hit from inside along its part if it is closer than two bounds to another part, whose normal in unit
-    /// space and distance these are; there also lie the direction away from that part, and how far it is to the middle.
+    /// Moves a hit from inside along the part that it is on, if it is closer than two bounds to another part.
+    ///
+    /// `other` is that part's normal in unit space, and the distance to it; `away` points along the hit's own part and
+    /// away from the other, and `most` is the distance to the middle in that direction.
     #[inline(always)]
     fn inward(&self, surface: SurfacePoint, other: (DVec3, f64), (away, most): (DVec3, f64)) -> SurfacePoint {
         let steps = (self.space.unit_from_world.transpose() * other.0).length();

@@ -75,7 +75,7 @@ mod uv_slope;
 pub use arithmetic::{Arithmetic, Bounded, Precise, dot_of};
 pub use bounds::Bounds;
 pub use cone::PlacedCone;
-pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv, face_of_point};
+pub use cuboid::{Slabs, cuboid_face, cuboid_intersection, cuboid_surface, cuboid_t, cuboid_uv};
 pub use cylinder::PlacedCylinder;
 pub use disk::{PlacedDisk, disk_intersection, disk_t};
 pub use double_double::double_double_sphere_t;

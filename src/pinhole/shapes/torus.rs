@@ -101,7 +101,7 @@ impl Shape for PlacedTorus {
 
     fn uv_slope(&self, (): &(), uv_from_world: DMat3) -> UvSlope {
         let [outer, _] = self.space.half_axes(uv_from_world);
-        UvSlope::Own(ShapeKind::Torus, [outer * self.major, outer * self.minor])
+        UvSlope::Own(ShapeKind::Torus, [outer * self.major, 0.0])
     }
 
     #[inline(always)]
