@@ -2,7 +2,7 @@
 
 use super::LightRays;
 use super::light::{ShadowRay, cosine_of, shadow_t_max};
-use super::receivers::{LightRay, LightRows, RayLists, append_rays};
+use super::receivers::{LightRay, LightRows, MakesRays, RayLists, append_rays};
 use super::view::{LightSamplingView, LightSamplingViewItem};
 use crate::extract::{LightsOf, material_evidence, unless_occlusion};
 use crate::intersect::Surface;
@@ -18,22 +18,23 @@ use multiversion::multiversion;
 use std::any::TypeId;
 
 // ANCHOR: shadow_ray_to
-/// The shadow ray to a light, and the irradiance that it brings if it is not blocked; `normal` is the shading normal,
-/// which is the geometric one where there is no other.
-#[inline(always)]
-fn shadow_ray_to<L: Light>(light: &L, surface: &Surface, normal: DVec3) -> LightRay {
-    let origin = offset_origin(surface.position, surface.normal, surface.bound);
-    let sample = light.sample(origin.as_dvec3());
-    let cosine = cosine_of(surface, normal, sample.direction);
-    let irradiance = L::irradiance(&sample, cosine);
-    let is_lit = sample.strength != [0.0; 3];
-    let ray = ShadowRay {
-        origin,
-        direction: sample.direction,
-        distance: sample.distance,
-        cosine: if is_lit { cosine } else { 0.0 },
-    };
-    LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance }
+impl<L: Light> MakesRays for L {
+    /// The shadow ray to a light, and the irradiance that it brings if it is not blocked.
+    #[inline(always)]
+    fn ray_from(&self, surface: &Surface, normal: DVec3) -> LightRay {
+        let origin = offset_origin(surface.position, surface.normal, surface.bound);
+        let sample = self.sample(origin.as_dvec3());
+        let cosine = cosine_of(surface, normal, sample.direction);
+        let irradiance = L::irradiance(&sample, cosine);
+        let is_lit = sample.strength != [0.0; 3];
+        let ray = ShadowRay {
+            origin,
+            direction: sample.direction,
+            distance: sample.distance,
+            cosine: if is_lit { cosine } else { 0.0 },
+        };
+        LightRay { ray, t_max: shadow_t_max(sample.distance), irradiance }
+    }
 }
 // ANCHOR_END: shadow_ray_to
 
@@ -50,7 +51,7 @@ pub fn sample_lights<L: ListedLight>(lights: Res<Shared<LightsOf<L>>>, mut tiles
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sample_rows<L: Light>(receivers: &LightRows<'_>, light: &L, casts_shadows: bool, rays: RayLists<'_>) {
     let light = light.clone();
-    append_rays(receivers, rays, casts_shadows, |surface, normal| shadow_ray_to(&light, surface, normal));
+    append_rays(receivers, rays, casts_shadows, &light);
 }
 
 /// The stage that runs [`sample_lights`].
