@@ -2,8 +2,8 @@
 
 #[path = "textures/aspect.rs"]
 mod aspect;
-#[path = "textures/edges.rs"]
-mod edges;
+#[path = "textures/poles.rs"]
+mod poles;
 
 use crate::scenes;
 

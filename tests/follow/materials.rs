@@ -121,6 +121,6 @@ fn light_strategies_agree_at_every_material() {
             let mean = film.mean(plate * SIDE + SIDE / 2, SIDE / 2);
             assert!(mean[0] > 1e-4, "plate {plate} of {name} is black");
         }
-        strategies_agree(name, &|| scene(lights, narrow), strategies, 12, SIDE);
+        strategies_agree(name, &|| scene(lights, narrow), strategies, 32, SIDE);
     }
 }

@@ -4,15 +4,11 @@ use bevy_ecs::prelude::*;
 use glam::{DQuat, DVec3};
 use pinhole::scene::{Disabled, ImageTexture, Placement, SceneFolder, fingerprint, in_words_of_files, words};
 
-/// Components whose words are not their names in small letters.
-const OTHERWISE: [(&str, &str); 0] = [];
-
 #[test]
 fn every_component_is_named_by_its_word() {
     let capital = |part: &str| part[..1].to_uppercase() + &part[1..];
     for word in words() {
-        let other = OTHERWISE.iter().find(|(own, _)| *own == word).map(|(_, name)| name.to_string());
-        let name = other.unwrap_or_else(|| word.split('_').map(capital).collect());
+        let name: String = word.split('_').map(capital).collect();
         let told = in_words_of_files(&format!("camera \"{name}\": x is a {name}, but {name} or Other{name}"));
         assert_eq!(told, format!("camera \"{name}\": x is a {word}, but {word} or Other{name}"));
     }

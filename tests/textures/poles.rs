@@ -1,12 +1,6 @@
-//! Where texture coordinates end: at edges, and at poles.
+//! Where texture coordinates end: at poles.
 
 use super::*;
-use pinhole::shapes::planar_uv;
-
-#[test]
-fn no_point_of_a_planar_shape_lies_beyond_its_texture() {
-    assert_eq!(planar_uv([1.0 + 1e-15, -1.0 - 1e-15]), [1.0, 0.0]);
-}
 
 /// At the pole of a sphere u has no derivative, so that a pixel there shows the mean, whatever runs across the stripes.
 #[test]
